@@ -67,8 +67,7 @@ if TYPE_CHECKING:
     from graphkin.board.notebook import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
     from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart, Vary
-    from graphkin.scene.contact_tables import Contact, Disc, Gear
-    from graphkin.scene.law_tables import AllowedPressure, BaseCircle, Cam, LawPiece
+    from graphkin.scene.contact_tables import AllowedPressure, BaseCircle, Cam, Contact, Disc, Gear, LawPiece
     from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
     from graphkin.scene.sheet_tables import Background, SheetWishes, Tools
     from graphkin.scene.source import read

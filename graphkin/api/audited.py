@@ -29,7 +29,7 @@ from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     from graphkin.table import Table
-from graphkin.api.audit_rows import rows_of
+from graphkin.api.class_results import rows_of
 
 __all__ = ["Audited", "audit"]
 

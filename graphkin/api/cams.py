@@ -13,7 +13,7 @@ import numpy as np
 
 from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, own_folder, write_files
 from graphkin.api.results import OfScene, Result
-from graphkin.checking.cam_points import CamPoints, compare_cam
+from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
@@ -25,7 +25,7 @@ from graphkin.words import Phrase, languages, say
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver.cam_study import AtDegree, CamStudy
-    from graphkin.solver.disc_cams import DiscCam
+    from graphkin.solver.contacts import DiscCam
     from graphkin.table import Array, Table
 
 __all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
@@ -351,7 +351,7 @@ def cam(
     (56.3214, True)
     """
     from graphkin.solver import structure_of
-    from graphkin.solver.disc_cams import disc_cams
+    from graphkin.solver.contacts import disc_cams
 
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:

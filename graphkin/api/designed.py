@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, own_folder, whole_number, write_files
 from graphkin.api.results import Result
-from graphkin.checking.synthesis import FoundLength, compare_lengths
+from graphkin.checking.closed_form import FoundLength, compare_lengths
 from graphkin.construction import EXACT, Cad, Instrument, pencil
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import own_unit, passed_words
 from graphkin.api.checked import Checked
 from graphkin.api.reading_rows import in_scene_units
-from graphkin.checking.reading_words import deviation, exact, measured, paper
+from graphkin.checking.report import deviation, exact, measured, paper
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.errors import Unsolvable

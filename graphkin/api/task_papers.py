@@ -11,8 +11,7 @@ from pathlib import Path
 from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
-from graphkin.checking.cam_points import predict_cam
-from graphkin.checking.synthesis import predict_lengths
+from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.cam import cam_given, cam_pictures
 from graphkin.drawing.headings import number, written

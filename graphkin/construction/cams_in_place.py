@@ -18,7 +18,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Structure, analyse, part_of
 from graphkin.structure.assembly import ways
-from graphkin.structure.cams_replaced import cams_replaced
+from graphkin.structure.replacement import cams_replaced
 
 __all__ = ["cams_in_place", "follower_limits"]
 

@@ -15,8 +15,8 @@ from graphkin.construction.dyads import drive, meet
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.rolled_places import rolled_near
 from graphkin.construction.sheet import Pose
+from graphkin.construction.touching import rolled_near
 from graphkin.errors import Problem, Unsolvable
 from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, AnyDriver

@@ -1,24 +1,35 @@
-"""Points of links as nodes, their relative motions as edges: what vector equations are chains of.
+"""Points of links as nodes, their relative motions as edges: vector equations are chains of them; and which can be
+drawn next.
 
 A node is a point of a link (`PointRef`; coincident points are nodes of their own).  An edge leads from one node to
 another and stands for the velocity of the second relative to the first: square to the bar between them where both are
-points of one link, along the guide where they coincide on both sides of a sliding pair.
+points of one link, along the guide where they coincide on both sides of a sliding pair.  A chain from one known node to
+another gives a vector equation; it can be drawn when two sizes are unknown.
+
+Groups with sliding contacts are drawn at the contacts themselves too, as a second way beside what replaces them.  Where
+two outlines touch, the velocities of the material points of both bodies differ along the tangent only: v_K2 is v_K1 and
+the slip.  In acceleration the term of Coriolis comes to it, and along the normal one that the curvatures of both
+outlines give: the contact wanders along them at rates s1' and s2', where s1' - s2' is the slip and s1'/rho1 - s2'/rho2
+the relative rate of turning, and its acceleration is the same seen from either body.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
+from itertools import pairwise
 
 from graphkin.construction.sizes import Direction
 from graphkin.frozen import dataclass
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Pair, Slide, Turn, Weld
+from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn, Weld, links_of
 
-__all__ = ["Edge", "Joined", "Net", "RollingPoint", "TwoWays", "node"]
+__all__ = [
+    "Edge", "Joined", "Net", "RollingPoint", "TwoWays", "contacts_of", "equation_of", "joined_at_contacts", "node",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -249,3 +260,80 @@ def _near(
         if not on[a] & on[b]:  # far from any point: what slides there is looked at somewhere
             on[a], on[b] = on[a] | on[b], on[a] | on[b]
     return on
+
+
+def equation_of(
+    links: Mapping[str, PlacedLink],
+    frame: str,
+    joined: Joined,
+    places: Mapping[str, complex],
+    guide_names: Mapping[str, tuple[str, ...]],
+    drawn: Mapping[PointRef, complex],
+    same_turn: Mapping[str, str],
+    tiny: float,
+) -> TwoWays | None:
+    """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
+
+    Parameters
+    ----------
+    places : where each letter lies on paper (mm)
+    guide_names : how the direction of each sliding pair is written, by its key
+    drawn : nodes that stand in the polygon already (preferred as starting points)
+    same_turn : for each link of the group the one link whose angular velocity it shares
+    tiny : points nearer to each other than this (mm) give no direction
+    """
+    net = Net(links, frame, joined, places, guide_names, same_turn, tiny)
+    known = [n for n in net.nodes if net.known(n)]
+    best: tuple[tuple[float, ...], TwoWays] | None = None
+    for start in known:
+        for path in net.paths(start):
+            chain = _as_chain(path, frame, links)
+            if chain is None:
+                continue
+            ends = (path[0].start, path[-1].end)
+            strangers = {n for e in path for n in (e.start, e.end)} - net.natural
+            cost = (
+                len(path) + 0.6 * len(strangers) + 0.1 * sum(n not in drawn for n in ends),
+                float(net.fixed(path[0].start)),
+                float(net.order[path[0].start]),
+            )
+            if best is None or cost < best[0]:
+                best = (cost, chain)
+    return best[1] if best else None
+
+
+def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> TwoWays | None:
+    """Split a path with two unknowns at the node before the second."""
+    places = [i for i, e in enumerate(path) if e.unknown]
+    if len(places) != 2 or path[places[0]].unknown == path[places[1]].unknown:
+        return None
+    cut = places[1]
+    right = tuple(path[:cut])
+    left = tuple(e.reversed() for e in reversed(path[cut:]))
+    return TwoWays(right[-1].end, left, right)
+
+
+def contacts_of(structure: Structure, group: Dyad | Cluster) -> tuple[PlacedContact, ...]:
+    """The sliding contacts that a bar or a block of a group stands for."""
+    members = links_of(group)
+    return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)
+
+
+def joined_at_contacts(group: Joined, contacts: Sequence[PlacedContact]) -> Joined:
+    """The links of a group and its pairs, contacts among them instead of what replaces them."""
+    gone = {c.block for c in contacts}
+    pairs: list[Pair] = [p for p in group.pairs if not gone & {p.a, p.b}]
+    pairs += _past(group.pairs, gone)
+    inside = [name for name in group.inside if name not in gone]
+    return replace(group, inside=inside, pairs=pairs, contacts=tuple(contacts))
+
+
+def _past(pairs: Sequence[Pair], gone: Collection[str]) -> Iterator[Turn]:
+    """Turning pairs of links that only what is gone joins at a point."""
+    around: dict[str, list[str]] = {}
+    for pair in pairs:
+        if isinstance(pair, Turn) and (pair.a in gone or pair.b in gone):
+            around.setdefault(pair.point, []).extend(n for n in (pair.a, pair.b) if n not in gone)
+    for point, names in around.items():
+        for one, two in pairwise(dict.fromkeys(names)):
+            yield Turn(point, one, two)

@@ -11,18 +11,17 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
-from graphkin.construction.at_contacts import contacts_of
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.carried_out import carried_out, finished
 from graphkin.construction.dyads import meet
-from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.held_still import Inversion, inversions_of, opened_at_triangles, own_assembly
+from graphkin.construction.net import contacts_of
 from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.sheet import DIAGRAMS, DiagramName, Pose, Scales, Sheet
+from graphkin.construction.sheet import DIAGRAMS, DiagramName, Extent, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Vector
 from graphkin.construction.task import ORDERS, Task
@@ -44,7 +43,7 @@ from graphkin.structure import (
     needed,
     pins_on_circles,
 )
-from graphkin.structure.cams_replaced import with_cams
+from graphkin.structure.replacement import with_cams
 
 if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
@@ -261,7 +260,7 @@ def _by_trial(
     has gone (rad, m)."""
     from graphkin.construction.follow import Choices, best_reduced, standing
     from graphkin.construction.group_position import GroupTrial
-    from graphkin.construction.rolled_places import coordinate_on_paper
+    from graphkin.construction.touching import coordinate_on_paper
     from graphkin.construction.trial import found_by_trial
 
     choices = Choices(structure, elements)
@@ -310,7 +309,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     exact = finished(task, made)
     asked = task.asked
     if exact.has_forces:
-        from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
+        from graphkin.construction.forces.known import acting_loads, strokes_of_loads
 
         asked = (*asked, *strokes_of_loads(task.structure))
     if any(symbol.scope == "turn" for symbol in asked):

@@ -10,10 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from typing import Literal
 
-from graphkin.construction.at_contacts import contacts_of, joined_at_contacts
 from graphkin.construction.board import Board
-from graphkin.construction.equations import equation_of
-from graphkin.construction.net import Edge, Joined, TwoWays, node
+from graphkin.construction.net import Edge, Joined, TwoWays, contacts_of, equation_of, joined_at_contacts, node
 from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.polygon_acts import (
     Carried,

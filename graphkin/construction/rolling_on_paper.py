@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.position import choose, start_board
 from graphkin.construction.rigid import PlacedLinks, Poses
-from graphkin.construction.rolled_places import coordinate_on_paper
+from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure

@@ -6,7 +6,8 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
@@ -25,19 +26,9 @@ if TYPE_CHECKING:
     from graphkin.construction.train_sheet import TrainPlan
 
 __all__ = [
-    "DIAGRAMS",
-    "DiagramName",
-    "DrawnGroup",
-    "Equation",
-    "LimitPosition",
-    "Limits",
-    "Pose",
-    "Rate",
-    "Scales",
-    "Sheet",
-    "Step",
-    "Term",
-]
+    "DIAGRAMS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits", "Pose", "Rate",
+    "Scales", "Sheet", "Step", "Term", "fitting_scale",
+]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
@@ -293,3 +284,35 @@ class Sheet:
         return {
             s.symbol: s for step in self.steps if step.diagram == diagram for s in step.strokes if isinstance(s, Vector)
         }
+
+
+SERIES = (1.0, 2.0, 2.5, 5.0)
+
+
+@dataclass(frozen=True)
+class Extent:
+    """Width and height of what a figure shows (m, m/s, m/s2)."""
+
+    width: float
+    height: float
+
+    @staticmethod
+    def around(points: Iterable[complex], per_mm: float) -> Extent:
+        """Of points on paper (mm) at a scale; nothing where there are none."""
+        spots = list(points)
+        if not spots:
+            return Extent(0.0, 0.0)
+        x, y = [z.real for z in spots], [z.imag for z in spots]
+        return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
+
+
+def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
+    """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
+    least = max(extent.width / room[0], extent.height / room[1]) * units
+    if not math.isfinite(least) or least <= 0.0:
+        return 1.0
+    decade = 10.0 ** math.floor(math.log10(least))
+    for step in (*SERIES, 10.0):
+        if step * decade >= least * (1 - 1e-12):
+            return float(f"{step * decade:.12g}")
+    return 10.0 * decade

@@ -16,7 +16,7 @@ import numpy as np
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centre_lines import CentreLine, Spot
-from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.construction.train_sheet import PlanLine, PlanScales, PlanTrial, TrainPlan
 from graphkin.frozen import dataclass
 from graphkin.plane import unit

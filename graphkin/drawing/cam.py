@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
-from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Drawing

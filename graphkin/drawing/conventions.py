@@ -1,8 +1,9 @@
-r"""How each school writes: poles, end points, component marks, directions, instant centres, scale statements.
+"""How each school writes: poles, end points, component marks, directions, instant centres, scale statements, forces.
 
-Everything is returned in the notation of `graphkin.drawing.text` (without dollar signs unless said).
-Chinese: Sun Huan, Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of
-Machines; russian: Artobolevsky, Theory of Mechanisms and Machines.
+Everything is returned in the notation of `graphkin.drawing.text` (without dollar signs unless said). Chinese: Sun Huan,
+Mechanical Principles; us: Norton, Design of Machinery; british: Hannah and Stephens, Mechanics of Machines; russian:
+Artobolevsky, Theory of Mechanisms and Machines.  So they write forces and moments: chinese F_R56, F_I6; us and british
+F_56, F_i6, W_6; russian R_56, Φ_6, G_6.
 """
 
 from __future__ import annotations
@@ -14,12 +15,13 @@ from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
-from graphkin.drawing.force_letters import force_letters
 from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["Letters", "as_vector", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement"]
+__all__ = [
+    "Letters", "as_vector", "force_letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement",
+]  # fmt: skip
 
 Rows = Literal["rows", "over", "table", "underlines"]
 
@@ -243,3 +245,51 @@ def _number(value: float) -> str:
         head, power = text.split("e")
         return f"{head}·$10^{{{str(int(power)).replace('-', '−')}}}$"
     return text
+
+
+_INERTIA = {"chinese": ("F", "I"), "us": ("F", "i"), "british": ("F", "i"), "russian": ("Φ", "")}
+
+
+def part_mark(convention: Convention, part: str) -> str:
+    """The superscript of a part of a force, normal or tangential."""
+    return {"t": "τ"}.get(part, part) if convention == "russian" else part
+
+
+def force_letters(convention: Convention, symbol: Symbol, part: str = "") -> str:
+    r"""A force, moment, shift or arm as a symbol without dollar signs: ``F_{R56}``, ``F^{t}_{R45}``, ``M_{2}``.
+
+    >>> force_letters("chinese", Symbol.parse("F_4/5"), "t"), force_letters("russian", Symbol.parse("F_4/5+"))
+    ('F^{t}_{R45}', 'R^{+}_{45}')
+    """
+    letter, index = _named(convention, symbol)
+    above = part_mark(convention, part) + ("+" if symbol.plus else "")
+    return letter + (f"^{{{above}}}" if above else "") + (f"_{{{index}}}" if index else "")
+
+
+def _named(convention: Convention, symbol: Symbol) -> tuple[str, str]:
+    comma = "," if max(len(symbol.link), len(symbol.other)) > 1 else ""
+    links = symbol.link + (comma + symbol.other if symbol.other else "")
+    at = f",{symbol.of.point}" if symbol.of else ""
+    letter, mark = _INERTIA[convention]
+    match symbol.kind:
+        case "F" if symbol.other:
+            if convention == "russian":
+                return "R", links + at
+            return "F", ("R" if convention == "chinese" else "") + links + at
+        case "F":
+            return "F", symbol.link
+        case "Fi":
+            return letter, mark + symbol.link
+        case "Mi":
+            return "M", (mark or "Φ") + symbol.link
+        case "G":
+            return ("W" if convention in ("us", "british") else "G"), symbol.link
+        case "P":
+            own = "M" if symbol.turning else "P"
+            return own, "" if symbol.name == own else symbol.name
+        case "M" if symbol.other:
+            return "M", links + at
+        case "arm":
+            return "h", "".join(_named(convention, Symbol.parse(symbol.name)))
+        case _:
+            return symbol.kind, symbol.link

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing.background import background_piece, scan_piece
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
@@ -27,7 +26,7 @@ from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Primitive, Run, Text
-from graphkin.drawing.sheet import sheet_page
+from graphkin.drawing.sheet import background_piece, scan_piece, sheet_page
 from graphkin.drawing.text import fitted, rich, wrapped
 from graphkin.words import languages
 

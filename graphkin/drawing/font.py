@@ -1,4 +1,5 @@
-"""The one family in which figures are set, read from its files: glyphs, advances, and parts of it to be embedded.
+"""The one family in which figures are set, read from its files: glyphs, advances, and parts of it to be embedded; and
+Chinese characters that it lacks, from a face of this machine.
 
 ``fonts`` holds it as three TrueType files (made by figures/make_fonts.py).  What a figure needs of a face is put
 together here from its finished glyphs, since the subsetter of fontTools takes twenty times as long and a drawing wants
@@ -7,14 +8,14 @@ a dozen of such parts (The OpenType specification: glyf, loca, cmap 12, head).
 
 from __future__ import annotations
 
+import os
 import struct
 from collections.abc import Mapping
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
-from graphkin.drawing.brotli_literals import PrefixCode, code_for
-from graphkin.drawing.woff2 import Streams, streams, woff2
+from graphkin.drawing.woff2 import PrefixCode, Streams, code_for, streams, woff2
 from graphkin.frozen import dataclass
 
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
@@ -110,8 +111,6 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
     if own is None and style != "regular":
         own = _face("regular").glyph(ord(character))
     if own is None and ord(character) > 0x2E7F:
-        from graphkin.drawing.machine_font import machine_glyph
-
         found = machine_glyph(character, EM)
         return Glyph(*found) if found is not None else None
     return own
@@ -153,3 +152,65 @@ def _cmap(codes: list[int]) -> bytes:
             groups.append([code, code, number])
     body = b"".join(struct.pack(">3I", *group) for group in groups)
     return struct.pack(">HHHHIHHIII", 0, 1, 3, 10, 12, 12, 0, 16 + len(body), 0, len(groups)) + body
+
+
+# In the order of liking; of a collection the face of simplified Chinese.
+_FILES = (
+    "NotoSerifCJK-Regular.ttc", "NotoSerifCJKsc-Regular.otf", "NotoSerifSC-Regular.otf", "SourceHanSerifSC-Regular.otf",
+    "SourceHanSerif-Regular.ttc", "simsun.ttc", "Songti.ttc", "NotoSansCJK-Regular.ttc", "NotoSansCJKsc-Regular.otf",
+    "NotoSansSC-Regular.otf", "SourceHanSansSC-Regular.otf", "msyh.ttc", "PingFang.ttc", "uming.ttc", "wqy-zenhei.ttc",
+    "wqy-microhei.ttc", "DroidSansFallbackFull.ttf", "DroidSansFallback.ttf",
+)  # fmt: skip
+_FOLDERS = (
+    "/usr/share/fonts", "/usr/local/share/fonts", "~/.local/share/fonts", "~/.fonts", "/System/Library/Fonts",
+    "/Library/Fonts", "~/Library/Fonts", "C:/Windows/Fonts", "/system/fonts",
+)  # fmt: skip
+EPS = 1.0  # thousandths of the size by which an outline may be moved as it becomes quadratic
+
+
+@lru_cache(maxsize=4096)
+def machine_glyph(character: str, em: int) -> tuple[int, bytes] | None:
+    """Advance and simple TrueType outline of a glyph at so many units an em; None where no known face is installed or
+    none has it."""
+    font = _font()
+    name = font.getBestCmap().get(ord(character)) if font is not None else None
+    if font is None or name is None:
+        return None
+    from fontTools.misc.transform import Scale
+    from fontTools.pens.cu2quPen import Cu2QuPen
+    from fontTools.pens.recordingPen import DecomposingRecordingPen
+    from fontTools.pens.transformPen import TransformPen
+    from fontTools.pens.ttGlyphPen import TTGlyphPen
+
+    drawn = font.getGlyphSet()
+    path = DecomposingRecordingPen(drawn)
+    drawn[name].draw(path)
+    times = em / font["head"].unitsPerEm
+    pen = TTGlyphPen(None)
+    path.replay(TransformPen(Cu2QuPen(pen, EPS, reverse_direction="glyf" not in font), Scale(times)))
+    outline = pen.glyph(round=round)
+    return round(drawn[name].width * times), outline.compile(None) if outline.numberOfContours else b""
+
+
+@cache
+def _font() -> Any:
+    from fontTools.ttLib import TTCollection, TTFont, TTLibError
+
+    for path in _installed():
+        try:
+            if path.suffix.lower() != ".ttc":
+                return TTFont(path, lazy=True)
+            fonts = TTCollection(path, lazy=True).fonts
+        except (OSError, TTLibError):
+            continue
+        return next((f for f in fonts if " SC" in str(f["name"].getDebugName(1))), fonts[0])
+    return None
+
+
+def _installed() -> list[Path]:
+    """The known faces that are there, the best first."""
+    found: dict[str, Path] = {}
+    for folder in _FOLDERS:
+        for place, _, names in os.walk(os.path.expanduser(folder)):
+            found.update((name.lower(), Path(place, name)) for name in names)
+    return [found[name.lower()] for name in _FILES if name.lower() in found]

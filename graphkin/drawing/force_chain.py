@@ -8,8 +8,7 @@ import math
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceTerm, ForceVector, MomentEquation
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.conventions import Letters, force_letters
 from graphkin.drawing.headings import written
 from graphkin.words import Phrase, say
 from graphkin.words.written import amount, on_paper, to_lay_off

@@ -18,8 +18,8 @@ from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
 from graphkin.drawing.labels import Label
 from graphkin.drawing.piece import Piece, moved_piece, with_labels
+from graphkin.drawing.polygon_on_page import side_by_side
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
-from graphkin.drawing.side_by_side import side_by_side
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, vector_group
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol

@@ -10,9 +10,8 @@ from typing import Literal
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.bilingual import all_in_both, in_both
-from graphkin.drawing.conventions import Letters, pole
+from graphkin.drawing.conventions import Letters, force_letters, pole
 from graphkin.drawing.force_chain import closed_by, laid_lines, laid_off
-from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import (
     ForceSentence,
     couple_sentences,
@@ -22,8 +21,8 @@ from graphkin.drawing.force_words import (
     moment_sentences,
     read_off,
 )
+from graphkin.drawing.given_loads import spring_lines
 from graphkin.drawing.lever import lever_on_page
-from graphkin.drawing.springs import spring_lines
 from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, listed, say, word

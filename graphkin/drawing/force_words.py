@@ -19,10 +19,9 @@ from graphkin.construction.forces.force_sheet import (
     MomentTerm,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters, as_vector
+from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.equations import SumTerm
 from graphkin.drawing.force_chain import arm_lines
-from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, listed, say

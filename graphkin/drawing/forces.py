@@ -21,12 +21,11 @@ from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.force_words import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
 from graphkin.drawing.free_body import free_body, sketch_height
-from graphkin.drawing.given_loads import given_loads
+from graphkin.drawing.given_loads import given_loads, spring_lines
 from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.overleaf import heading
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
-from graphkin.drawing.springs import spring_lines
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped

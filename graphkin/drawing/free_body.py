@@ -13,8 +13,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touching
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, as_vector
-from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import links_alone

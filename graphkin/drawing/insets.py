@@ -11,17 +11,14 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
-from graphkin.drawing.free_room import free_boxes
 from graphkin.drawing.headings import term
 from graphkin.drawing.labels import Label
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
+from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.piece import Piece, joined, with_labels
-from graphkin.drawing.polygon import polygon_piece
-from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, details
+from graphkin.drawing.polygon import polygon_piece, step_numbers
+from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, details, side_by_side
 from graphkin.drawing.polygon_points import END_RADIUS
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.side_by_side import side_by_side
-from graphkin.drawing.step_numbers import step_numbers
 from graphkin.drawing.strokes import colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.text import fitted, symbol

@@ -6,16 +6,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from graphkin.construction.extent import Extent, fitting_scale
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.sheet import Extent, Sheet, fitting_scale
 from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, as_vector, letters_of, pole, scale_statement
+from graphkin.drawing.conventions import Letters, as_vector, force_letters, letters_of, pole, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.force_letters import force_letters
 from graphkin.drawing.force_words import lever_sum
 from graphkin.drawing.headings import drivers, facts, figure_title, term, written
 from graphkin.drawing.labels import Label

@@ -14,6 +14,7 @@ from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensioning import drawn_lengths
+from graphkin.drawing.given_loads import springs
 from graphkin.drawing.group_aids import aids_in_mechanism
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import (
@@ -28,7 +29,6 @@ from graphkin.drawing.mechanism_on_paper import (
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
-from graphkin.drawing.springs import springs
 from graphkin.drawing.text import plain, symbol
 from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.plane import cross, dot

@@ -6,11 +6,10 @@ from graphkin.construction.sheet import EXACT_NAME, Scales, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.free_room import free_boxes
 from graphkin.drawing.headings import term
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import page
-from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.obstacles import free_boxes, obstacles_of
 from graphkin.drawing.piece import Piece, cut_to, middle_of, moved_piece, with_labels
 from graphkin.drawing.primitives import Group, Polygon, Primitive, Text
 from graphkin.drawing.text import fitted

@@ -1,4 +1,5 @@
-"""What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover.
+"""What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover; and room
+along the edges of a panel that nothing drawn or written takes.
 
 Below, what tells whether lines and boxes meet, for many at once: arrays of complex numbers, boxes by their middle and
 half size, segments with their two ends in the last dimension.
@@ -7,6 +8,7 @@ half size, segments with their two ends in the last dimension.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -30,8 +32,8 @@ from graphkin.drawing.primitives import (
 from graphkin.frozen import dataclass
 
 __all__ = [
-    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "meets", "near",
-    "obstacles_of", "separated", "sides", "sides_around",
+    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "free_boxes", "meets",
+    "near", "obstacles_of", "separated", "sides", "sides_around",
 ]  # fmt: skip
 
 Points: TypeAlias = NDArray[np.complex128]
@@ -192,3 +194,36 @@ def touches(a: Points, b: Points, c: Points, d: Points) -> Flags:
     apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
     across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
     return (apart <= ON_LINE) & (across <= ON_LINE)
+
+
+STEP = 6.0  # mm from one place tried to the next along the edge of the panel
+CLEAR = 2.0  # mm between an inset and what is drawn
+
+
+def free_boxes(
+    count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, taken: Sequence[Box] = ()
+) -> list[Box]:
+    """Up to ``count`` boxes of a size (mm) along the edges of a panel that hold nothing, those in corners first."""
+    found: list[Box] = []
+    for box in _places(size, panel):
+        if len(found) == count:
+            break
+        wide = box.grown(CLEAR)
+        if any(wide.overlaps(other) for other in (*taken, *found, *obstacles.areas)):
+            continue
+        if any(wide.clip(*segment) for segment in (*obstacles.solid, *obstacles.dashed)):
+            continue
+        found.append(box)
+    return found
+
+
+def _places(size: tuple[float, float], panel: Box) -> list[Box]:
+    width, height = size
+    right, low = panel.right - width, panel.bottom - height
+    if right < panel.left or low < panel.top:
+        return []
+    xs = [panel.left + i * STEP for i in range(int((right - panel.left) / STEP) + 1)] + [right]
+    ys = [panel.top + i * STEP for i in range(int((low - panel.top) / STEP) + 1)] + [low]
+    corners = [(x, y) for y in (low, panel.top) for x in (right, panel.left)]
+    edges = [(x, y) for y in (low, panel.top) for x in xs] + [(x, y) for x in (right, panel.left) for y in ys]
+    return [Box(x, y, x + width, y + height) for x, y in (*corners, *edges)]

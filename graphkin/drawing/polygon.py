@@ -1,5 +1,5 @@
-"""The drawn polygon: its vectors and their names, its points, and what leads to them: direction lines, images of links,
-carried vectors, rings around details."""
+"""The drawn polygon: its vectors with their names and the numbers of their steps, its points, and what leads to them:
+direction lines, images of links, carried vectors, rings around details."""
 
 from __future__ import annotations
 
@@ -7,24 +7,27 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.strokes import Bar, Image, Ray, Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.group_aids import aids_in_polygon
 from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.labels import Label
+from graphkin.drawing.obstacles import Flags, Obstacles, Points, meets
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
 from graphkin.drawing.polygon_points import points
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
-from graphkin.drawing.step_numbers import step_number
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
-from graphkin.drawing.text import symbol
+from graphkin.drawing.text import SMALLEST, plain, symbol
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["polygon_piece"]
+__all__ = ["polygon_piece", "step_numbers"]
 
 SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
@@ -191,3 +194,70 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
     key = step_number(here.vectors[first.symbol][0], text.colour)
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key)
+
+
+LEAST = 5.0  # mm: a shorter vector has no room for a number
+OFF = 0.9  # mm from the vector to its number
+CLEAR = 0.35  # mm around a number
+SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84))  # along the vector, in the order of liking
+
+
+def step_numbers(arrows: Sequence[tuple[int, Segment]], panel: Box, around: Obstacles) -> tuple[Text, ...]:
+    """A number in brackets beside each arrow for which there is room.
+
+    Parameters
+    ----------
+    arrows : number of the step, tail and tip (page points, mm)
+    around : everything drawn and written
+    """
+    shown = [(step, ends) for step, ends in arrows if abs(ends[1] - ends[0]) >= LEAST]
+    if not shown:
+        return ()
+    texts = [step_number(step) for step, _ in shown]
+    boxes = [text_box(text) for text in texts]
+    half = np.array([complex(box.width, box.height) / 2 for box in boxes])
+    tails, tips = (np.array([ends[k] for _, ends in shown]) for k in (0, 1))
+    way = (tips - tails) / np.abs(tips - tails)
+    off = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
+    sides = np.array((1.0, -1.0))
+    along = tails[:, None] + (tips - tails)[:, None] * SHARES
+    places = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
+    reach = half[:, None] + CLEAR * (1 + 1j)
+    free = _inside(places, reach, panel) & ~_covered(places, reach, around)
+    found: list[Text] = []
+    taken: list[Box] = []
+    for i, text in enumerate(texts):
+        for j in np.flatnonzero(free[i]):
+            place = complex(places[i, j])
+            box = boxes[i].moved(place - boxes[i].centre)
+            if not any(box.overlaps(other) for other in taken):
+                taken.append(box.grown(CLEAR))
+                at = place - boxes[i].centre
+                found.append(replace(text, at=at))
+                break
+    return tuple(found)
+
+
+def step_number(step: int, colour: str = strokes.GREY) -> Text:
+    """The number of a step in brackets."""
+    return Text(0j, plain(f"({step})", SMALLEST), "start", colour, "", ("step-number",), step)
+
+
+def _inside(places: Points, reach: Points, panel: Box) -> Flags:
+    low, high = places - reach, places + reach
+    across = (low.real >= panel.left) & (high.real <= panel.right)
+    return across & (low.imag >= panel.top) & (high.imag <= panel.bottom)
+
+
+def _covered(places: Points, reach: Points, around: Obstacles) -> Flags:
+    """Whether anything drawn meets a box at a place."""
+    lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
+    at, size = places[..., None], np.broadcast_to(reach, places.shape)[..., None]
+    covered: Flags = np.asarray(meets(lines, at, size).any(axis=-1))
+    if around.areas:
+        middles = np.array([box.centre for box in around.areas])
+        sizes = np.array([complex(box.width, box.height) / 2 for box in around.areas])
+        off, room = at - middles, size + sizes
+        over = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
+        covered = covered | np.asarray(over.any(axis=-1))
+    return covered

@@ -1,10 +1,10 @@
-"""A polygon as it stands on a page: its vectors and steps, where its pole is, how large it is, and which of its parts
-are too small for a ruler."""
+"""A polygon as it stands on a page: its vectors and steps, where its pole is, how large it is, which of its parts are
+too small for a ruler, and how far vectors of one line, which would cover each other, are shifted off their places."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from graphkin.construction.sheet import DiagramName, Sheet, Step
@@ -12,11 +12,11 @@ from graphkin.construction.strokes import Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment
-from graphkin.drawing.side_by_side import side_by_side
 from graphkin.frozen import dataclass
+from graphkin.plane import cross, dot
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["SAME", "ZERO", "Detail", "PolygonOnPage", "details", "extent", "same_place"]
+__all__ = ["SAME", "ZERO", "Detail", "PolygonOnPage", "details", "extent", "same_place", "side_by_side"]
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
@@ -147,3 +147,43 @@ def _factor(most: float) -> float:
 
 def _apart(a: Vector, b: Vector) -> float:
     return min(abs(p - q) for p in (a.tail, a.tip) for q in (b.tail, b.tip))
+
+
+APART = 1.0  # mm between two of them
+ON_ONE_LINE = 0.3  # mm: nearer to a line than this, an arrow covers what lies there
+OVERLAP = 1.0  # mm that two must have in common
+LEAST = 2.0  # mm: a shorter vector is drawn again larger
+
+
+def side_by_side(vectors: Iterable[Vector]) -> Mapping[Symbol, complex]:
+    """For each vector that would cover another, or lie under it, its shift square to itself (mm, y up).
+
+    Of those on one line the longest resultant stays; what is equal or opposite lies beside it.
+    """
+    shown = [v for v in vectors if abs(v.span) >= LEAST]
+    shown.sort(key=lambda v: (v.role != "resultant", -round(abs(v.span), 6)))
+    lanes: list[tuple[Vector, int]] = []
+    shifts: dict[Symbol, complex] = {}
+    for vector in shown:
+        taken = {lane for other, lane in lanes if _cover(vector, other)}
+        lane = next(n for k in range(len(lanes) + 1) for n in ((k, -k) if k else (0,)) if n not in taken)
+        lanes.append((vector, lane))
+        if lane:
+            shifts[vector.symbol] = lane * APART * 1j * _way(vector)
+    return shifts
+
+
+def _way(vector: Vector) -> complex:
+    """The direction of the line of a vector, the same for one and its opposite."""
+    way = vector.span / abs(vector.span)
+    return -way if (round(way.real, 6), round(way.imag, 6)) < (0.0, 0.0) else way
+
+
+def _cover(one: Vector, two: Vector) -> bool:
+    longer, shorter = (one, two) if abs(one.span) >= abs(two.span) else (two, one)
+    way = longer.span / abs(longer.span)
+    ends = [z - longer.tail for z in (shorter.tail, shorter.tip)]
+    if any(abs(cross(way, z)) > ON_ONE_LINE for z in ends):
+        return False
+    low, high = sorted(dot(way, z) for z in ends)
+    return min(high, abs(longer.span)) - max(low, 0.0) > OVERLAP

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from graphkin.checking.reading_words import measured
 from graphkin.checking.readings import read_off
+from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
 from graphkin.construction.plan import scales_for
 from graphkin.construction.sheet import DiagramName, Sheet

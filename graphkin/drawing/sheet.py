@@ -1,5 +1,5 @@
-"""The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale.
-"""
+"""The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale; and
+under them the photograph or scan, with the lines that were read off it."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import replace
 from itertools import islice, product
 
 from graphkin.checking.report import Report
+from graphkin.checking.scans import judge_scans
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
-from graphkin.drawing.background import background_piece
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
@@ -34,7 +34,7 @@ from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text
 from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism
 from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
@@ -42,7 +42,7 @@ from graphkin.drawing.train import train_figure
 from graphkin.drawing.written_lines import written_lines
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["sheet_page"]
+__all__ = ["background_piece", "scan_piece", "sheet_page"]
 
 LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
@@ -259,3 +259,41 @@ def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
         if 1.25 * size * len(lines) <= BLOCK - 7.0:
             break
     return lines[:3]
+
+
+READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
+OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
+
+
+def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
+    """The scene's picture, cut to a panel (mm, y down) in which the world's origin lies at ``origin``."""
+    under = sheet.scene.background
+    if under is None:
+        return Piece()
+    mm = 1 / sheet.scales.length
+    corner, step = (z.conjugate() * mm for z in (under.corner, under.step))
+    scan = Scan(origin + corner, step, under.width, under.height, under.kind, under.data, panel.corners)
+    return Piece({"background": (scan,)})
+
+
+def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) -> Piece:
+    """The scans of a figure, cut to a panel (mm, y down) in which the pole, or the world's origin, lies at ``origin``:
+    the picture, if there is one, and the lines as they were read, the one that is off bold and with a name."""
+    under: list[Primitive] = []
+    lines: list[Primitive] = []
+    for judged in judge_scans(sheet, diagram):
+        scan = judged.scan
+        if scan.data:
+            corner, step = (z.conjugate() for z in (judged.corner, judged.step))
+            under.append(Scan(origin + corner, step, scan.width, scan.height, scan.kind, scan.data, panel.corners))
+        for line in judged.lines:
+            ends = panel.clip(origin + line.tail.conjugate(), origin + line.tip.conjugate())
+            if ends is None:
+                continue
+            wrong = line is judged.off
+            drawn: tuple[Primitive, ...] = (Line(*ends, OFF if wrong else READ),)
+            if wrong:
+                at = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j
+                drawn += (Text(at, plain(line.name, 3.0), "start", OFF.colour, classes=("label", "off")),)
+            lines.append(Group(drawn, id=f"read-{line.name.replace('/', '-').replace('@', '')}", classes=("read",)))
+    return Piece({"background": tuple(under), "answers": tuple(lines)} if under or lines else {})

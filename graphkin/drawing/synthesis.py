@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from graphkin.checking.synthesis import FoundLength
+from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.design_sheet import (
     DesignAngle,
     DesignCircle,
@@ -19,7 +19,7 @@ from graphkin.construction.design_sheet import (
     DesignStroke,
     LineKind,
 )
-from graphkin.construction.extent import Extent, fitting_scale
+from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.chart import ChartPage

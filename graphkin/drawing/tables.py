@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from graphkin.checking.reading_words import deviation, exact, measured, paper
 from graphkin.checking.readings import Reading, read_off
-from graphkin.checking.report import Compared, Report
+from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box

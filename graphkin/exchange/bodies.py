@@ -1,18 +1,19 @@
-"""A mechanism as other programs keep it: bodies with points at places, joined by pins and slides; and the scene that it
-makes."""
+"""A mechanism as other programs keep it: bodies with points at places, joined by pins and slides, and the scene that it
+makes; or a list of joints, each with the links that it joins, as in PMKS and pyslvs."""
 
 from __future__ import annotations
 
 import cmath
 import math
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Sequence
+from dataclasses import field, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
+from graphkin.frozen import dataclass
 
-__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number"]
+__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "FileJoint", "bodies_of", "number"]
 
 FRAME = "0"
 FARTHEST = 1e12
@@ -251,3 +252,48 @@ def _fresh(name: str, taken: Iterable[str]) -> str:
     if name not in used:
         return name
     return next(made for k in range(2, len(used) + 3) if (made := f"{name}x{k}") not in used)
+
+
+@dataclass(frozen=True)
+class FileJoint:
+    """A joint of so many links.
+
+    kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
+        runs on a line of the first link
+    angle : of the line in the world (rad)
+    """
+
+    name: str
+    kind: str
+    place: complex
+    links: tuple[str, ...]
+    angle: float = 0.0
+
+
+def bodies_of(title: str, joints: Sequence[FileJoint]) -> Bodies:
+    """Bodies with the points of their joints; ``ground`` is the frame."""
+    made = Bodies(title)
+    names: dict[str, str] = {}
+    for link in dict.fromkeys(link for joint in joints for link in joint.links):
+        names[link] = made.body(FRAME if link.lower() == "ground" else link, [])
+    made.bodies.setdefault(FRAME, [])
+    for number, joint in enumerate(joints):
+        point = made.point(joint.name or _letter(number), joint.place)
+        first, *others = joint.links
+        if joint.kind == "P" and others and names[others[0]] == FRAME:
+            first, others = others[0], [first]  # who slides on whom makes no difference where neither turns
+        if joint.kind == "R" or not others:
+            for link in joint.links:
+                made.bodies[names[link]].append(point)
+            continue
+        for link in others:
+            made.bodies[names[link]].append(point)
+        turns = joint.kind == "RP"
+        made.slides.append(BodySlide(names[others[0]], point, names[first], joint.place, joint.angle, turns))
+    return made
+
+
+def _letter(number: int) -> str:
+    """A, B, ... Z, A1, B1, ..."""
+    turn, letter = divmod(number, 26)
+    return chr(65 + letter) + (str(turn) if turn else "")

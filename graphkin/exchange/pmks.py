@@ -14,8 +14,7 @@ import re
 from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
-from graphkin.exchange.joints import FileJoint, bodies_of
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, FileJoint, bodies_of
 
 __all__ = ["is_address", "read_address", "read_table"]
 

@@ -12,8 +12,7 @@ import re
 from collections.abc import Iterable
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, number
-from graphkin.exchange.joints import FileJoint, bodies_of
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, FileJoint, bodies_of, number
 
 __all__ = ["INPUT_SPEED", "read_pyslvs", "write_pyslvs"]
 

@@ -7,8 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from graphkin import table
-from graphkin.checking.reading_words import paper
-from graphkin.checking.report import Compared
+from graphkin.checking.report import Compared, paper
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.headings import number, written
 from graphkin.frozen import dataclass

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from graphkin.checking.reading_words import exact, measured
+from graphkin.checking.report import exact, measured
 from graphkin.construction.polygon_acts import DirectionLine, OnPlan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import scale_statement

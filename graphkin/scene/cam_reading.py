@@ -9,8 +9,8 @@ from graphkin.errors import Problem
 from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.contact_tables import Cam, LawPiece
 from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece, form_of
-from graphkin.scene.law_tables import Cam, LawPiece
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 
 from graphkin.scene.asked_tables import StrokeStart
-from graphkin.scene.law_tables import LawPiece, TimePiece
+from graphkin.scene.contact_tables import LawPiece, TimePiece
 from graphkin.scene.sheet_tables import ReadScan
 from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
 from graphkin.words import LANGUAGES

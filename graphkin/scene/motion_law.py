@@ -12,8 +12,8 @@ from itertools import pairwise
 
 from graphkin.errors import Problem
 from graphkin.frozen import dataclass
+from graphkin.scene.contact_tables import DriverLaw
 from graphkin.scene.follower_law import Lift, LiftPiece, SmoothPart, form_of
-from graphkin.scene.law_tables import DriverLaw
 
 __all__ = ["CubicPart", "MotionLaw", "law_of"]
 

@@ -20,7 +20,7 @@ from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
-from graphkin.scene import asked_tables, contact_tables, law_tables, load_tables, sheet_tables, tables
+from graphkin.scene import asked_tables, contact_tables, load_tables, sheet_tables, tables
 from graphkin.scene.file_keys import KeyPath, value_at
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
@@ -180,16 +180,16 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
     (("driver", "<one>", "<slide>"), tables.DrivenSlide),
     (("driver", "<list>", "*", "<angle>"), tables.Driver),
     (("driver", "<list>", "*", "<slide>"), tables.DrivenSlide),
-    (("driver", "<one>", "<angle>", "law"), law_tables.DriverLaw),
-    (("driver", "<one>", "<slide>", "law"), law_tables.DriverLaw),
-    (("driver", "<list>", "*", "<angle>", "law"), law_tables.DriverLaw),
-    (("driver", "<list>", "*", "<slide>", "law"), law_tables.DriverLaw),
-    (("driver", "<one>", "<angle>", "law", "pieces", "*"), law_tables.TimePiece),
-    (("driver", "<one>", "<slide>", "law", "pieces", "*"), law_tables.TimePiece),
-    (("cams", "*"), law_tables.Cam),
-    (("cams", "*", "base"), law_tables.BaseCircle),
-    (("cams", "*", "allow"), law_tables.AllowedPressure),
-    (("cams", "*", "law", "*"), law_tables.LawPiece),
+    (("driver", "<one>", "<angle>", "law"), contact_tables.DriverLaw),
+    (("driver", "<one>", "<slide>", "law"), contact_tables.DriverLaw),
+    (("driver", "<list>", "*", "<angle>", "law"), contact_tables.DriverLaw),
+    (("driver", "<list>", "*", "<slide>", "law"), contact_tables.DriverLaw),
+    (("driver", "<one>", "<angle>", "law", "pieces", "*"), contact_tables.TimePiece),
+    (("driver", "<one>", "<slide>", "law", "pieces", "*"), contact_tables.TimePiece),
+    (("cams", "*"), contact_tables.Cam),
+    (("cams", "*", "base"), contact_tables.BaseCircle),
+    (("cams", "*", "allow"), contact_tables.AllowedPressure),
+    (("cams", "*", "law", "*"), contact_tables.LawPiece),
     (("gravity",), load_tables.Gravity),
     (("masses", "*"), load_tables.Mass),
     (("loads", "*"), load_tables.Load),

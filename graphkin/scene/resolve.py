@@ -14,11 +14,10 @@ from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.scene.background import background_of, scans_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
-from graphkin.scene.carriages import with_carriages
-from graphkin.scene.circular_slots import with_bars
 from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_apart, starts_of, travel_of
 from graphkin.scene.driving import DriverEntry, drives
+from graphkin.scene.equivalent_tables import with_bars, with_carriages
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver

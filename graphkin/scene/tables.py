@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from graphkin.frozen import dataclass
 from graphkin.scene.asked_tables import Positions, PrintedTable, Vary
-from graphkin.scene.contact_tables import Contact, Disc, Gear
+from graphkin.scene.contact_tables import Cam, Contact, Disc, DriverLaw, Gear
 from graphkin.scene.file_table import FileTable, about, closed
-from graphkin.scene.law_tables import Cam, DriverLaw
 from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
 from graphkin.scene.sheet_tables import ReadScan, SheetWishes
 

@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, value_of
 from graphkin.solver.findings import structure_of
-from graphkin.solver.in_place_of_cams import as_drawn
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.over_time import over_time
-from graphkin.solver.solve import solve, sweep_in_blocks
+from graphkin.solver.solve import as_drawn, solve, sweep_in_blocks
 
 if TYPE_CHECKING:
     from graphkin.solver.acting import without_line

@@ -1,15 +1,25 @@
-"""What happens where outlines touch: place, normal, slip, pressure angles; where the pitch circles of gears touch."""
+"""What happens where outlines touch: place, normal, slip, pressure angles; where the pitch circles of gears touch; and
+a disc that turns about a point beside its centre, measured as a cam: base circles, rise, offset, pressure angles."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from graphkin.frozen import dataclass
+from graphkin.plane import cross
 from graphkin.scene.contacts import PlacedContact, PlacedGear
+from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
+from graphkin.solver.whole_turn import extremes
+from graphkin.structure import Structure
 
-__all__ = ["ContactMotion", "contact_motion", "pitch_point"]
+__all__ = ["ContactMotion", "DiscCam", "contact_motion", "disc_cams", "pitch_point"]
 
 STANDS = 1e-12
 """A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
@@ -72,3 +82,133 @@ def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, f
     held = motion.link(gear.carrier).points
     far = abs(held[gear.axes[1]] - held[gear.axes[0]]) / abs(z1 + z2)
     return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
+
+
+SAMPLES, ROUNDS = 720, 60
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+
+
+@dataclass(frozen=True)
+class DiscCam:
+    """What is measured of a disc as a cam (m, rad).
+
+    contact : its name; ``link`` is the cam, ``follower`` what it moves
+    profile : least distance of the disc's outline from the axis; pitch : of the centre of a round follower, None else
+    rise : stroke of the follower, or its swing where it ``swings``
+    offset : distance of a sliding follower's line from the axis, positive where the axis lies to its left; None else
+    most : the greatest pressure angle of a turn, and the driver's angle there
+    here : pressure angle at the scene's own position; None where the follower stands
+    """
+
+    contact: str
+    link: str
+    follower: str
+    profile: float
+    pitch: float | None
+    rise: float
+    swings: bool
+    offset: float | None
+    most: tuple[float, float]
+    here: float | None
+
+
+def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
+    """The discs that the driver of a mechanism turns about the frame, with the followers that they move.
+
+    Raises
+    ------
+    Unsolvable : the driver makes no whole turn
+    """
+    scene = structure.scene
+    found = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
+    if not found:
+        return ()
+    reach = driver_range(structure)
+    return tuple(_measured(reach, *one) for one in found)
+
+
+def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
+    """Which side of a contact is the cam (0 or 1), and what tells the follower's motion: its sliding pair or link."""
+    driver = scene.drivers[0] if scene.drivers else None
+    if not isinstance(driver, AngleDriver) or driver.relative_to != scene.frame.name or contact.rolling:
+        return None
+    if driver.link not in contact.links:
+        return None
+    side = contact.links.index(driver.link)
+    follower = contact.links[1 - side]
+    pivots = [p for p in scene.by_name[driver.link].points if p in scene.frame.points]
+    if contact.discs[side] is None or not pivots:
+        return None
+    pair = next((s.key for s in scene.slidings if s.link == follower and s.on == scene.frame.name), None)
+    turns = any(p in scene.frame.points for p in scene.by_name[follower].points)
+    return (side, pair) if pair is not None else (side, follower) if turns else None
+
+
+def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) -> DiscCam:
+    scene = reach.scene
+    link, follower = contact.links[side], contact.links[1 - side]
+    disc, other = contact.discs[side], contact.discs[1 - side]
+    assert disc is not None
+    points = scene.by_name[link].points
+    axis = next(p for p in points if p in scene.frame.points)
+    off = abs(points[disc.centre] - points[axis])
+    swings = "/" not in of
+    ends = extremes(reach, Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
+    offset = None
+    if not swings:
+        pair = next(s for s in scene.slidings if s.key == of)
+        guide = scene.frame.guides[pair.guide]
+        at = reach.motion(np.zeros(1)).point(other.centre, follower).z[0] if other is not None else guide.through
+        offset = float(cross(guide.direction, scene.frame.points[axis] - complex(at)))
+    here = _pressures(reach, contact, follower, np.zeros(1))[0]
+    return DiscCam(
+        contact.name, link, follower, abs(abs(disc.radius) - off),
+        None if other is None else abs(abs(disc.radius + other.radius) - off),
+        ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
+    )  # fmt: skip
+
+
+def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:
+    """Pressure angles of the follower; NaN where it stands."""
+    return np.asarray(contact_motion(reach.motion(offset, unit=True), contact).pressure[follower])
+
+
+def _greatest(reach: DriverRange, contact: PlacedContact, follower: str) -> tuple[float, float]:
+    """The greatest pressure angle of a turn, and the driver's angle there."""
+    grid = np.linspace(0.0, math.tau, SAMPLES, endpoint=False) + 1e-3
+    values = np.nan_to_num(_pressures(reach, contact, follower, grid), nan=-1.0)
+    best = max(_refined(reach, contact, follower, float(grid[k])) for k in _tops(values))
+    return best[0], float(reach.value(np.array(best[1])))
+
+
+def _tops(values: Array) -> Iterator[int]:
+    """Where a course over a turn is highest, neighbours compared; nearly highest too."""
+    most = float(values.max())
+    around = np.maximum(np.roll(values, 1), np.roll(values, -1))
+    yield from np.flatnonzero((values >= around) & (values > most - 0.01)).tolist()[:8]
+
+
+def _refined(reach: DriverRange, contact: PlacedContact, follower: str, at: float) -> tuple[float, float]:
+    """The greatest value about a place, by golden section."""
+    step = math.tau / SAMPLES
+    low, high = at - step, at + step
+
+    def value(x: float) -> float:
+        found = float(_pressures(reach, contact, follower, np.array([x % math.tau]))[0])
+        return -1.0 if math.isnan(found) else found
+
+    a, b = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    fa, fb = value(a), value(b)
+    for _ in range(ROUNDS):
+        if fa > fb:
+            high, b, fb = b, a, fa
+            a = high - GOLDEN * (high - low)
+            fa = value(a)
+        else:
+            low, a, fa = a, b, fb
+            b = low + GOLDEN * (high - low)
+            fb = value(b)
+        if high - low < 1e-9:
+            break
+    middle = (low + high) / 2 % math.tau
+    return max(value(middle), fa, fb), middle

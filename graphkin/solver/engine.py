@@ -13,14 +13,13 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.extended_precision import ExtendedPrecision
 from graphkin.solver.followers import follower_inputs, greatest_jerk
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.program import GIVEN, Program, program_of
-from graphkin.solver.rounding import UNIT
+from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
 
 if TYPE_CHECKING:

@@ -19,9 +19,9 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.followers import meeting_followers
 from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.left_open import with_sensible_slots
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
-from graphkin.solver.slot_sense import with_sensible_slots
 from graphkin.structure import (
     Cluster,
     Dyad,
@@ -33,7 +33,7 @@ from graphkin.structure import (
     mobility_of,
     named_with_contact,
 )
-from graphkin.structure.cams_replaced import with_cams
+from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -334,7 +334,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         structure = from_dead_point(structure)
     structure = with_sensible_slots(structure)
     if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
-        from graphkin.solver.given_speed import at_given_speed
+        from graphkin.solver.left_open import at_given_speed
 
         return at_given_speed(structure)
     return structure

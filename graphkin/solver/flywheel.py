@@ -15,10 +15,9 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
-from graphkin.solver.acting import Action
+from graphkin.solver.acting import Action, load_edges
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.forces import forces_of
-from graphkin.solver.load_edges import load_edges
 from graphkin.solver.motion import Motion
 from graphkin.solver.pair_forces import balances
 from graphkin.solver.pose import Array

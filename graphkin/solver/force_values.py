@@ -1,24 +1,28 @@
-"""Exact values of forces and moments by their symbols, at one position."""
+"""Exact values of forces and moments by their symbols: at one position, or as columns for a prepared mechanism, solved
+with the motion, since there are no formulas of them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
+from graphkin.scene.force_names import force_names, opposite
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.acting import without_line
+from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.motion import Motion
-from graphkin.solver.pose import Pose
+from graphkin.solver.pose import Array, Pose
 from graphkin.solver.redundant import all_slides
 from graphkin.solver.solve import solve
 
-__all__ = ["force_values"]
+__all__ = ["force_heads", "force_rows", "force_values"]
 
 
 def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
@@ -124,3 +128,32 @@ def _growing(motion: Motion) -> Motion:
     drivers = tuple(d.at_rate(1.0 if d is scene.drivers[0] else 0.0) for d in scene.drivers)
     values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
     return solve(replace(scene, drivers=drivers), at=values)
+
+
+def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:
+    """The heads of the columns of a force (two, ``F_5/6.x`` and ``F_5/6.y``) or a moment; none for what is neither."""
+    known, plain = force_names(scene), name.removesuffix("+")
+    kind = known.get(plain) or known.get(opposite(plain))
+    return (f"{name}.x", f"{name}.y") if kind == "force" else (name,) if kind else ()
+
+
+def force_rows(
+    reach: DriverRange, names: Sequence[str], values: Array, bounded: bool = False
+) -> tuple[list[Array], list[Array], Array]:
+    """Forces and moments at values of the first driver (rad, m), shape (n,).
+
+    Returns
+    -------
+    rows : one for each head of each name, in the scene's units
+    bounds : for each name how far rounding may have moved its rows, where that is wanted (``bounded``)
+    ok : bool, shape (n,): where the motion comes, and its balance does work
+    """
+    forces, per = forces_of(reach.motion(reach.offsets(values))), reach.scene.units.newtons
+    rows, bounds = [], []
+    for name in names:
+        value = forces.value(name)
+        assert value is not None
+        vector = np.iscomplexobj(value)
+        rows += [part / per for part in ((value.real, value.imag) if vector else (value,))]
+        bounds += [forces.bound[0 if vector else 1] / per] if bounded else []
+    return rows, bounds, forces.ok

@@ -13,9 +13,9 @@ from dataclasses import replace
 
 from graphkin.plane import cross
 from graphkin.solver.dyads import DyadSolution, Joints
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax, root
 from graphkin.solver.pose import Pose
+from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import DyadKind
 
 __all__ = ["FrameError", "carried", "of_dyad", "seen", "within"]

@@ -15,13 +15,12 @@ import numpy as np
 
 from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.larger_groups import System
 from graphkin.solver.led_links import LedLink, with_led_links
 from graphkin.solver.pose import Array, Pose, rest
-from graphkin.solver.rounding import UNIT
+from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Pair, RollingRelation, Structure, Turn
 
 __all__ = ["bounds"]

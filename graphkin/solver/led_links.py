@@ -10,11 +10,11 @@ import numpy as np
 from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleFollower, SlideFollower
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.expressions import Name
 from graphkin.solver.followers import follower_inputs, greatest_jerk
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.pose import Array, Pose
+from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Driven, Rolled, Structure, Turn
 
 __all__ = ["LedLink", "with_led_links"]

@@ -14,8 +14,8 @@ from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose
+from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Slide, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase

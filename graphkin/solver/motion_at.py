@@ -14,12 +14,12 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.solver.assemblies import own_values
 from graphkin.solver.engine import positions
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import singular, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
+from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Structure
 from graphkin.words import Phrase
 

@@ -18,13 +18,12 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import at_time
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.driver_range import driver_range, way_to
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.findings import assembly_words, limit_why, structure_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.motion_at import motion_of
 from graphkin.solver.pose import Array, Pose
-from graphkin.solver.rounding import UNIT
+from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Structure
 
 __all__ = ["over_time"]

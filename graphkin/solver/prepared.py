@@ -20,7 +20,7 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Name, Real
 from graphkin.solver.findings import singular, structure_of
-from graphkin.solver.force_columns import force_heads, force_rows
+from graphkin.solver.force_values import force_heads, force_rows
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array
 from graphkin.solver.program import GIVEN, DimensionedProgram, program_of

@@ -11,8 +11,8 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
-from graphkin.solver.error_bound import ErrorBound
 from graphkin.solver.pose import Array, Pose, rest
+from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Slide, Structure
 
 __all__ = ["Fit", "all_slides", "fit", "place_redundant"]

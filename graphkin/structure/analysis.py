@@ -15,7 +15,7 @@ from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
 from graphkin.structure.part import links_of
-from graphkin.structure.starts import start_drivers, unrolled
+from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
 
 __all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]

@@ -15,8 +15,7 @@ from graphkin.solver import DriverRange, Motion
 from graphkin.solver.places import transmission
 from graphkin.solver.pose import Array
 from graphkin.structure import Dyad
-from graphkin.study.curve_parameter import Curve, CurveParameter
-from graphkin.study.curves import Pieces, resolve
+from graphkin.study.curves import Curve, CurveParameter, Pieces, resolve
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 
 __all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]

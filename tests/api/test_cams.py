@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.checking.cam_points import compare_cam
+from graphkin.checking.closed_form import compare_cam
 from graphkin.construction.cam_sheet import cam_sheet
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of

@@ -10,7 +10,7 @@ import mpmath
 import pytest
 
 import graphkin
-from graphkin.checking.synthesis import compare_lengths
+from graphkin.checking.closed_form import compare_lengths
 from graphkin.construction import EXACT, pencil
 from graphkin.construction.synthesis import construct
 from graphkin.plane import direction

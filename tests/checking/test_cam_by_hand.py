@@ -8,10 +8,10 @@ import re
 import pytest
 
 from graphkin import cam, handout
-from graphkin.checking.cam_points import predict_cam
+from graphkin.checking.closed_form import predict_cam
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import EXACT, pencil
-from graphkin.construction.cam_by_hand import division_by_hand
+from graphkin.construction.cam_sheet import division_by_hand
 
 SCENES = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")
 

@@ -215,7 +215,7 @@ def test_an_arm_on_the_wrong_side_is_found(monkeypatch):
 
 
 def test_a_load_forgotten_is_found(monkeypatch):
-    monkeypatch.setattr(sys.modules["graphkin.construction.forces.phases"], "acting_loads", lambda *_: {"P": False})
+    monkeypatch.setattr(sys.modules["graphkin.construction.forces.known"], "acting_loads", lambda *_: {"P": False})
     assert {"P_P", "F_5/6", "M_2"} <= wrong()
 
 

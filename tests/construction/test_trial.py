@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from graphkin import solver
-from graphkin.construction.centres.motion import Worked, work
+from graphkin.construction.centres.find import Worked, work
 from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism

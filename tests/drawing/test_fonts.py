@@ -14,10 +14,10 @@ from fontTools.ttLib import TTFont
 import graphkin
 from graphkin import draw
 from graphkin.drawing import Drawing, Text, svg_bytes
-from graphkin.drawing.brotli_literals import as_brotli, code_for
 from graphkin.drawing.font import FOLDER, glyph, holds, part
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.text import rich
+from graphkin.drawing.woff2 import as_brotli, code_for
 from graphkin.words import LANGUAGES
 
 LIBRARY = Path(graphkin.__file__).parent / "scene" / "library"

@@ -11,7 +11,7 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.force_letters import force_letters
+from graphkin.drawing.conventions import force_letters
 from graphkin.scene.symbol import Symbol
 from tests.solver.test_forces import loaded, scene_of
 

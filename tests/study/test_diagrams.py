@@ -15,9 +15,8 @@ from graphkin.drawing.primitives import walk
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.coupler import coupler_points
-from graphkin.study.diagrams import diagrams
+from graphkin.study.diagrams import diagrams, measured
 from graphkin.study.driver_axis import next_step
-from graphkin.study.measured import measured
 from graphkin.study.quantities import link_quantities, slide_quantities
 from graphkin.study.turn import TurnStudy, study_turn
 from tests import scenes

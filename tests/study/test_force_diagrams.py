@@ -14,8 +14,8 @@ import graphkin
 from graphkin.api.report_text import verdict
 from graphkin.scene import mechanism_of
 from graphkin.solver import driver_range
+from graphkin.solver.acting import load_edges
 from graphkin.solver.flywheel import flywheel_of, needed_moment
-from graphkin.solver.load_edges import load_edges
 from graphkin.study.driver_axis import driver_axis
 from graphkin.study.force_diagrams import course
 

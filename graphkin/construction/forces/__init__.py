@@ -3,8 +3,8 @@ Zhukovsky's lever."""
 
 from graphkin.construction.forces.draw import force_scale, forces_on
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, Lever
+from graphkin.construction.forces.known import acting_loads, strokes_of_loads
 from graphkin.construction.forces.measured import force_readings, readings_of
-from graphkin.construction.forces.phases import acting_loads, strokes_of_loads
 
 __all__ = [
     "ForceGroup", "ForceSheet", "ForceState", "Lever", "acting_loads", "force_readings", "force_scale", "forces_on",

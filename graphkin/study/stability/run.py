@@ -10,8 +10,13 @@ from typing import TYPE_CHECKING
 from graphkin.files import Json
 from graphkin.study.reference import context
 from graphkin.study.stability.dead_points import dead_point
-from graphkin.study.stability.drawings import drawing_scale, parallel_lines
-from graphkin.study.stability.formulas import angle_formulas, crossing_height, differences
+from graphkin.study.stability.degenerate import (
+    angle_formulas,
+    crossing_height,
+    differences,
+    drawing_scale,
+    parallel_lines,
+)
 from graphkin.study.stability.guides import flip, near_ground, slow_sliding
 from graphkin.study.stability.laws import ErrorLaw, Singularity
 from graphkin.table import Table

@@ -1,5 +1,7 @@
-"""Which way a swinging or turning guide points, where nobody says: what slides on it lies on its positive side, but
-where links that hang on it reach each other only the other way round, and in one way alone, that is meant.
+"""What a scene leaves open and its own position decides: the sense of guides, the rate of a driver by a point's speed.
+
+What slides on a swinging or turning guide lies on its positive side where nobody says which way it points, but where
+links that hang on it reach each other only the other way round, and in one way alone, that is meant.
 """
 
 from __future__ import annotations
@@ -10,16 +12,18 @@ from itertools import combinations
 
 import numpy as np
 
-from graphkin.errors import GraphkinError
-from graphkin.solver.assemblies import new_places, own_values
+from graphkin.errors import GraphkinError, Problem, Unsolvable
+from graphkin.scene.model import AngleDriver
+from graphkin.scene.symbol import PointRef
+from graphkin.solver.assemblies import choose_forms, new_places, own_values
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import State, positions
+from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, analyse, links_of, pick
 from graphkin.structure.assembly import TOUCH
 
-__all__ = ["with_sensible_slots"]
+__all__ = ["at_given_speed", "with_sensible_slots"]
 
 MOST = 4
 """Guides that may point either way are tried in all combinations up to so many."""
@@ -98,3 +102,36 @@ def _reached(structure: Structure, turned: Mapping[int, bool]) -> State | None:
         index = 1 - index if turned.get(i) else index
         forms[i], state = np.array([(1.0, -1.0)[index]]), both[index]
     return state
+
+
+STANDS = 1e-9  # of the size a radian: a point that moves by less stands still
+
+
+def at_given_speed(structure: Structure) -> Structure:
+    """The structure of the same scene with the rate of its driver, at which a point has its given speed.
+
+    With the driver at one radian a second the point has the velocity v; at the speed asked the driver turns speed / |v|
+    times as fast.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the point stands still here however fast the driver turns, or a group is at a dead point
+    SceneError : a group has several assemblies and no sketch tells which
+    """
+    scene = structure.scene
+    driver = scene.drivers[0]
+    assert isinstance(driver, AngleDriver)
+    assert driver.given_speed is not None
+    name, speed = driver.given_speed
+    own = own_values(scene)[None]
+    forms = {i: f[None] for i, f in choose_forms(structure).items()}
+    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), forms, sure=False)
+    ref = PointRef(name)
+    holder = next(link for link in scene.holders[ref.point] if link != scene.frame.name)
+    pose = state.poses[holder]
+    arm = pose.u * structure.links[holder].points[name]
+    once = abs(complex(np.ravel(pose.v + 1j * pose.omega * arm)[0]))
+    if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
+        said = "has no finite speed here" if once > STANDS * scene.size else "stands still here, however fast it turns"
+        raise Unsolvable("dead point", Problem(f'driver "{driver.key}": {name}', said, "give omega, or another place"))
+    return analyse(replace(scene, drivers=(replace(driver, omega=speed / once, given_speed=None),)))
