@@ -7,9 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
-
-from graphkin.frozen import dataclass
 
 __all__ = [
     "CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "as_list", "as_text", "did_you_mean",

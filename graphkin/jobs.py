@@ -19,6 +19,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from multiprocessing import resource_tracker
 from multiprocessing.connection import wait
 from multiprocessing.process import BaseProcess
@@ -28,7 +29,6 @@ from typing import IO, TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json, Tables, whole_file
-from graphkin.frozen import dataclass
 from graphkin.version import __version__
 
 if TYPE_CHECKING:

@@ -7,13 +7,12 @@ import io
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.cells import is_blank, read_cell
 from graphkin.scene.directions import Way, read_way
 from graphkin.scene.model import Mechanism

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,7 +22,6 @@ from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase, say, word

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from graphkin.construction.centres import (
@@ -12,7 +13,6 @@ from graphkin.construction.centres import (
     by_centres,
     error_by_centres,
 )
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 
 if TYPE_CHECKING:

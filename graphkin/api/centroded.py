@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +19,6 @@ from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import Centres
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:

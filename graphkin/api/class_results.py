@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from numbers import Real
 
 from graphkin.api.answers import Answers, Unread
@@ -13,7 +14,6 @@ from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.audit import Judged
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol, Value

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import os
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -13,7 +14,6 @@ from graphkin.api.results import Result
 from graphkin.errors import Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.written import Scene, safe_name

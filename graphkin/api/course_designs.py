@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.api.arguments import (
@@ -28,7 +28,6 @@ from graphkin.api.sweep import sweep
 from graphkin.drawing import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 from graphkin.jobs import Progress
 from graphkin.papers.blocks import Picture, Plate
 from graphkin.papers.course_design import ClassRow, CourseDesign, Student, class_document, on_paper, plate, report

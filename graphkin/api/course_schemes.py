@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin import solver
 from graphkin.api.answers import table_of
@@ -15,7 +15,6 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
 from graphkin.construction import execute
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.papers.course_design import PlaceValues, Student, value_read
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from numbers import Real
 
 import numpy as np
@@ -16,7 +17,6 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Tables
-from graphkin.frozen import dataclass
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.file_keys import path_of_key, value_at

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,7 +26,6 @@ from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table

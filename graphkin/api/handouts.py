@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, field, fields
+from dataclasses import asdict, dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -24,7 +24,6 @@ from graphkin.api.checked import solved_here
 from graphkin.api.results import FilesOfScene
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson

@@ -4,6 +4,7 @@ as lines for a terminal, as LaTeX, and as data."""
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -20,7 +21,6 @@ from graphkin.drawing.loop_words import (
 )
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion
 from graphkin.structure.loop_values import LoopBlock, loops_in_numbers

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from importlib.util import find_spec
 from numbers import Integral, Real
@@ -16,7 +17,6 @@ from graphkin.api.arguments import SceneLike, as_scene
 from graphkin.api.results import OfScene, Tabled
 from graphkin.api.samples import Quantities, Samples
 from graphkin.errors import CallError, Problem, as_list, as_text
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol

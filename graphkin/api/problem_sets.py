@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -28,7 +28,6 @@ from graphkin.api.arguments import (
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
-from graphkin.frozen import dataclass
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.answer_key import answers_template
 from graphkin.papers.data_rows import Columns, columns_of, replaced

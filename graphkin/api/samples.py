@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.api.results import Tabled
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.table import Column, Table
 
 __all__ = ["Quantities", "Samples"]

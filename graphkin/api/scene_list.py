@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,6 @@ from graphkin.api.arguments import write_files
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
 

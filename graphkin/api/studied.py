@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, TypeVar
@@ -13,7 +14,6 @@ from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_wor
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage

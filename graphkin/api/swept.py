@@ -6,6 +6,7 @@ import html
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +17,6 @@ from graphkin.api.arguments import CHART_FORMATS, known_words, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import as_text
 from graphkin.files import Json, path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol

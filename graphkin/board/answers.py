@@ -13,7 +13,7 @@ import tempfile
 import zipfile
 import zlib
 from collections.abc import Callable, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -24,7 +24,6 @@ from graphkin.board.moving import pulled
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.new_scene import NEW, new_scene
 from graphkin.scene.source import LARGEST_FILE, parsed

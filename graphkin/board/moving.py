@@ -9,10 +9,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, degrees, dot
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 from graphkin.solver import Motion

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,6 @@ from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.papers.html import figure_svg, words_html
 from graphkin.papers.speaker import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver

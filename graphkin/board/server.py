@@ -11,13 +11,13 @@ import secrets
 import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer
 from graphkin.errors import CallError, Problem
-from graphkin.frozen import dataclass
 
 if TYPE_CHECKING:
     import socket

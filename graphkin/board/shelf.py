@@ -7,12 +7,12 @@ has changed in the meantime is not overwritten unasked.
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
 from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.files import Json, whole_file
-from graphkin.frozen import dataclass
 from graphkin.scene.source import LARGEST_FILE, file_text, library, library_text
 
 __all__ = ["Shelf", "mark_of"]

@@ -10,13 +10,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.checking.loop_gaps import loop_gaps
 from graphkin.checking.slips import NOTHING, Evidence
 from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
-from graphkin.frozen import dataclass
 from graphkin.scene.printed import Line, Printed
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.words import Phrase

@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from graphkin.construction.cam_sheet import CamSheet, division_by_hand
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.synthesis import DesignTask
 from graphkin.solver.cam_profile import cam_at

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.construction import GoneOn, Plan, Sheet, Slip
 from graphkin.construction.plot import Order
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol, Value
 
 __all__ = ["Consequences"]

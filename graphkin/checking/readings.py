@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.strokes import Vector
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol, centre_links
 
 if TYPE_CHECKING:

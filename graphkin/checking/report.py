@@ -6,12 +6,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.words.written import MOST, amount, figures, on_paper, product

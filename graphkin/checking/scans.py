@@ -10,11 +10,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from itertools import combinations
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.background import PlacedScan
 from graphkin.words import Phrase
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.checking.consequential_errors import Consequences
@@ -21,7 +21,6 @@ from graphkin.checking.weighing import Slipped, Suspect, Suspects
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
-from graphkin.frozen import dataclass
 from graphkin.plane import unit
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -30,7 +30,6 @@ from graphkin.construction.board import Hand
 from graphkin.construction.plot import Order
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -13,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.checking.transcription import transcription_errors
-from graphkin.frozen import dataclass
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase

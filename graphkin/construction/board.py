@@ -10,7 +10,7 @@ import cmath
 import math
 import random
 from collections.abc import Callable, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
@@ -18,7 +18,6 @@ from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step
 from graphkin.construction.steps import Act, Cause
 from graphkin.construction.strokes import Aid, Mark, Stroke, Vector
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.sheet_tables import Tools
 

@@ -10,10 +10,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.cam_outline import CamStation, outline, station
-from graphkin.frozen import dataclass
 from graphkin.plane import cross_arcs, cross_line_arc, unit
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN

@@ -4,6 +4,7 @@ sheet; and again, with other errors."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.group_polygons import GroupPolygons
@@ -20,7 +21,6 @@ from graphkin.construction.strokes import Vector
 from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import CallError, Problem
-from graphkin.frozen import dataclass
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Cluster, needed

@@ -8,8 +8,8 @@ a line already, but not so far apart, gets a line of its own.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.model import PlacedLink
 from graphkin.structure import Mesh

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Literal
 
 from graphkin.construction.board import PARALLEL, Instrument
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_line_arc, cross_lines, unit
 from graphkin.scene.synthesis import DesignTask
 from graphkin.words import Phrase

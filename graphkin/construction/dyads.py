@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
@@ -24,7 +25,6 @@ from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, h
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, DyadKind, Rolled, Slide, Turn

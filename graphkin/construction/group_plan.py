@@ -11,13 +11,12 @@ every degree of freedom that is left; the fewest that do are looked for.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.net import Edge, Net, TwoWays
 from graphkin.construction.relative_points import FarPoint, best_relative_point
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 

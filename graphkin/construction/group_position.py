@@ -10,7 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
@@ -27,7 +27,6 @@ from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Driven, links_of
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction.board import EXACT, Board, Instrument
@@ -22,7 +22,6 @@ from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import DiagramName, Pose, Scales, Step
 from graphkin.construction.steps import Cause
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.symbol import PointRef

@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -22,7 +23,6 @@ from graphkin.construction.position import place
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import LimitPosition, Limits, Pose, Scales
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol

@@ -8,12 +8,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.residues import MOST_LOST
 from graphkin.construction.rigid import Poses
 from graphkin.construction.sheet import Sheet
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol

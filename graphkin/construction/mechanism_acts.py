@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.frozen import dataclass
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper
 

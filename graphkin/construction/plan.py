@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
@@ -27,7 +27,6 @@ from graphkin.construction.strokes import Vector
 from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
 from graphkin.words.written import amount, on_paper

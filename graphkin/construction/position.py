@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,7 +26,6 @@ from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, named_with_contact, pick

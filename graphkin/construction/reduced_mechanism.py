@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, links_of, regrouped, unrolled

@@ -10,11 +10,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 from graphkin.construction.net import Edge, Net
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 

@@ -7,10 +7,9 @@ at another scale (``scaled``).
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Self
 
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.construction.rigid import Poses
 from graphkin.construction.sheet import Pose
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure import RollingRelation, Slide

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import Pose
-from graphkin.frozen import dataclass
 from graphkin.plane import direction, unit
 from graphkin.scene.model import AngleDriver, PlacedLink
 from graphkin.structure import Body, Dyad, Slide, Turn

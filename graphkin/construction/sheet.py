@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
@@ -16,7 +16,6 @@ from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
 from graphkin.construction.steps import Act, Cause, phrase_of, scaled
 from graphkin.construction.strokes import Stroke, Vector
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Direction", "Given", "OffCurves", "RateTimes", "RollingCurves", "Size", "SquareOverRadius"]

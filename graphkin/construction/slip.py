@@ -7,10 +7,10 @@ A drawing with a slip shows what follows from it; nothing else of the constructi
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from graphkin.construction.sizes import Direction, Size
 from graphkin.construction.strokes import Role
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["NO_SLIP", "Component", "Slip"]

@@ -8,7 +8,7 @@ more than the sentence looks at the type and the fields.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from graphkin.construction.mechanism_acts import (
@@ -28,7 +28,6 @@ from graphkin.construction.mechanism_acts import (
     mechanism_phrase,
 )
 from graphkin.construction.polygon_acts import FoundVector, InPolygon, LaidOff, Superposed, polygon_phrase
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

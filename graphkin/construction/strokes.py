@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.construction.sizes import Direction
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["Aid", "Bar", "CompassArc", "Image", "Mark", "Ray", "Role", "Stroke", "TrialCurve", "Vector"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -11,7 +11,6 @@ from graphkin.construction.held_still import Inversion
 from graphkin.construction.net import TwoWays
 from graphkin.construction.plot import Order
 from graphkin.construction.sheet import Limits, Sheet
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Structure, links_of, needed
 from graphkin.words import Phrase

@@ -7,13 +7,12 @@ import cmath
 import math
 from cmath import phase
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.cam_outline import station
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism

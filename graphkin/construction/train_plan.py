@@ -10,7 +10,7 @@ Sources: K. Kutzbach, Mehrgliedrige Radgetriebe und ihre Gesetze, Maschinenbau 6
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centre_lines import CentreLine, Spot
 from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.construction.train_sheet import PlanLine, PlanScales, PlanTrial, TrainPlan
-from graphkin.frozen import dataclass
 from graphkin.plane import unit
 from graphkin.structure import Mesh
 

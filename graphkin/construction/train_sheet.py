@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.construction.centre_lines import CentreLine
-from graphkin.frozen import dataclass
 
 __all__ = ["PlanLine", "PlanScales", "PlanTrial", "TrainPlan"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board import Instrument
@@ -12,7 +12,6 @@ from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
 from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
 

@@ -9,7 +9,7 @@ import json
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from html import escape, unescape
 from io import BytesIO
 from itertools import pairwise
@@ -38,7 +38,6 @@ from graphkin.drawing.page import (
 from graphkin.drawing.primitives import Primitive, Stroke, Text
 from graphkin.drawing.text import rich
 from graphkin.errors import CallError, Problem
-from graphkin.frozen import dataclass
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # also for those who paint charts

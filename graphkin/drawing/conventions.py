@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
-from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 

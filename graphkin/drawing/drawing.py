@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
 
 from graphkin.drawing.primitives import Page
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of, whole_file
-from graphkin.frozen import dataclass
 
 __all__ = ["FORMATS", "TEXTS", "Drawing", "Kept", "save"]
 

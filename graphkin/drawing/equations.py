@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.polygon_acts import LaidOff
@@ -16,7 +17,6 @@ from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.sums import bound, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
-from graphkin.frozen import dataclass
 from graphkin.words.written import MOST, product
 
 __all__ = ["LEAST_LETTERS", "SumTerm", "Written", "equations_in_room", "rule_alone", "write_equation", "write_sum"]

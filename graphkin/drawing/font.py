@@ -11,12 +11,12 @@ from __future__ import annotations
 import os
 import struct
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
 from graphkin.drawing.woff2 import PrefixCode, Streams, code_for, streams, woff2
-from graphkin.frozen import dataclass
 
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
 

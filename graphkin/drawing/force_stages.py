@@ -4,7 +4,7 @@ group by group cut free, moments, polygon, forces inside, couples, at last the l
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
@@ -23,7 +23,6 @@ from graphkin.drawing.force_words import (
 )
 from graphkin.drawing.given_loads import spring_lines
 from graphkin.drawing.lever import lever_on_page
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, listed, say, word
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
@@ -29,7 +29,6 @@ from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
-from graphkin.frozen import dataclass
 from graphkin.words import Phrase, languages, listed, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]

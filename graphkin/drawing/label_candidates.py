@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -14,7 +15,6 @@ import numpy as np
 
 from graphkin.drawing.obstacles import Flags, Floats, Indices, Points
 from graphkin.drawing.primitives import Segment, page_direction
-from graphkin.frozen import dataclass
 
 __all__ = [
     "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "LabelRequest", "LabelRequests", "Mark", "candidates",

@@ -5,6 +5,7 @@ way.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,6 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.obstacles import Flags, Floats, Indices, Points, crosses, near, separated, sides, sides_around
 from graphkin.drawing.primitives import Segment
-from graphkin.frozen import dataclass
 from graphkin.plane import cross
 
 __all__ = ["LEADER_SPACE", "HeldPositions", "LabelPosition", "LabelPositions"]

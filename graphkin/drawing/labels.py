@@ -10,7 +10,7 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -23,7 +23,6 @@ from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_c
 from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
 from graphkin.drawing.obstacles import Flags, Obstacles
 from graphkin.drawing.primitives import Line, Text
-from graphkin.frozen import dataclass
 
 __all__ = ["Label", "Mark", "Placed", "Placement", "place"]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.cam_outline import outlines_on_paper, station
@@ -18,7 +19,6 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import hull
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import CircularSlot, Mechanism, SlideDriver

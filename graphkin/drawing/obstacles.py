@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -29,7 +30,6 @@ from graphkin.drawing.primitives import (
     page_direction,
     walk,
 )
-from graphkin.frozen import dataclass
 
 __all__ = [
     "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "free_boxes", "meets",

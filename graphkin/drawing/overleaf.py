@@ -5,6 +5,7 @@ others have left some, or on further pages.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
@@ -18,7 +19,6 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved
 from graphkin.drawing.primitives import Group, Primitive, Run, Text
 from graphkin.drawing.tables import TableRow, readings_table, set_lines
 from graphkin.drawing.text import fitted, plain
-from graphkin.frozen import dataclass
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["Remainder", "below", "captioned", "continued", "heading", "overleaf"]

@@ -8,7 +8,7 @@ step that drew the vector, and the name behind the key in a free place of the pa
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from itertools import accumulate
 
 from graphkin.drawing.box import Box
@@ -16,7 +16,6 @@ from graphkin.drawing.font_widths import runs_width, text_box
 from graphkin.drawing.labels import Label, Mark, Placed, Placement
 from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Text, walk
-from graphkin.frozen import dataclass
 
 __all__ = [
     "LAYERS", "Piece", "cut_to", "ink_box", "joined", "layer_groups", "middle_of", "moved", "moved_piece", "renamed",

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.sheet import DiagramName, Sheet, Step
@@ -12,7 +13,6 @@ from graphkin.construction.strokes import Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import Symbol
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cmath import phase
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.polygon_acts import Carried
@@ -20,7 +20,6 @@ from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage
 from graphkin.drawing.primitives import Circle, Group, Stroke, Text
 from graphkin.drawing.strokes import link_of_vector
 from graphkin.drawing.text import symbol
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["END_RADIUS", "NamedPoint", "named_points", "points"]

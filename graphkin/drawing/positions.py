@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
@@ -22,7 +23,6 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_p
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.symbols import BLOCK_LENGTH, BLOCK_WIDTH
 from graphkin.drawing.text import plain, rich, wrapped
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase, languages, say

@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
-
-from graphkin.frozen import dataclass
 
 __all__ = [
     "PALE",

@@ -7,13 +7,12 @@ scene wishes for scales that none of them holds, writing goes overleaf, and afte
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction import Room, drawn_sizes
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 

@@ -7,6 +7,7 @@ same; its figures are those that the drawing carries.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
@@ -14,7 +15,6 @@ from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import RateTimes, RollingCurves, Size
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.words.written import (

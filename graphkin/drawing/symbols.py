@@ -8,11 +8,11 @@ counter-clockwise as seen on the page; points are page points (y down).
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from itertools import pairwise
 
 from graphkin.drawing import strokes
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
-from graphkin.frozen import dataclass
 
 __all__ = [
     "BLOCK_LENGTH",

@@ -7,6 +7,7 @@ import cmath
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from graphkin.checking.closed_form import FoundLength
@@ -31,7 +32,6 @@ from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, 
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import rich, wrapped
-from graphkin.frozen import dataclass
 from graphkin.scene.synthesis import Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
@@ -16,7 +16,6 @@ from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
-from graphkin.frozen import dataclass
 from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word

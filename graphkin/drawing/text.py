@@ -11,13 +11,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from graphkin.drawing.font import EM, glyph
 from graphkin.drawing.font_widths import is_cjk, runs_width, style_of, width
 from graphkin.drawing.primitives import Run
-from graphkin.frozen import dataclass
 
 __all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "stacked", "symbol", "wrapped"]
 

@@ -4,6 +4,7 @@ in planes beside each other, the carrier behind them; the frame hatched."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from graphkin.construction.centre_lines import CentreLine
 from graphkin.drawing import strokes
@@ -12,7 +13,6 @@ from graphkin.drawing.piece import Piece
 from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.symbols import hatched_line
 from graphkin.drawing.text import plain
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Mesh
 

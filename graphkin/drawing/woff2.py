@@ -12,10 +12,9 @@ import struct
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from heapq import heapify, heappop, heappush
-
-from graphkin.frozen import dataclass
 
 __all__ = ["PrefixCode", "Streams", "as_brotli", "code_for", "streams", "woff2"]
 

@@ -7,11 +7,10 @@ import cmath
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 
 __all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "FileJoint", "bodies_of", "number"]
 

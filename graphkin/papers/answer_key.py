@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from graphkin import table
 from graphkin.checking.report import Compared, paper
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.headings import number, written
-from graphkin.frozen import dataclass
 from graphkin.papers.blocks import Block, Document, Heading, Paragraph, TableBlock, said, sentences
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_of

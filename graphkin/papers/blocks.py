@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from graphkin.drawing.drawing import Drawing
-from graphkin.frozen import dataclass
 from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 

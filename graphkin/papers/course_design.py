@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 
 from graphkin.checking.report import Compared
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import number
-from graphkin.frozen import dataclass
 from graphkin.papers.answer_key import key_rows, way
 from graphkin.papers.blocks import (
     Beside,

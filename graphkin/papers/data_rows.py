@@ -15,9 +15,9 @@ import math
 import operator
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 from graphkin.files import Tables
-from graphkin.frozen import dataclass
 
 __all__ = ["Columns", "columns_of", "names_in", "replaced", "value_of"]
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from graphkin.drawing.drawing import Drawing
-from graphkin.frozen import dataclass
 from graphkin.papers.blocks import (
     Block,
     Document,

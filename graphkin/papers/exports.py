@@ -11,11 +11,11 @@ import json
 import re
 import uuid
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from xml.sax.saxutils import escape
 
 from graphkin.checking.slips import Evidence
 from graphkin.errors import GraphkinError
-from graphkin.frozen import dataclass
 from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean
 from graphkin.papers.html import said_html, words_html

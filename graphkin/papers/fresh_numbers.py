@@ -13,12 +13,11 @@ import copy
 import math
 import random
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
 from graphkin.files import OwnTables, Tables
-from graphkin.frozen import dataclass
 from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled, ruled_keys
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.checking.report import Compared, Report
@@ -11,7 +12,6 @@ from graphkin.construction.forces import ForceSheet, forces_on
 from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
 from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.text import Atom, parsed
-from graphkin.frozen import dataclass
 from graphkin.papers.speaker import Speaker
 from graphkin.scene.symbol import Symbol
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property, reduce
 
 from graphkin.construction.polygon_acts import (
@@ -29,7 +30,6 @@ from graphkin.drawing.conventions import Letters, pole
 from graphkin.drawing.headings import number
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage
 from graphkin.drawing.polygon_points import NamedPoint, named_points
-from graphkin.frozen import dataclass
 from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
 from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot

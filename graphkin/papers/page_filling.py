@@ -8,10 +8,8 @@ take lines of a paragraph (Software: Practice and Experience 11, 1981).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
-
-from graphkin.frozen import dataclass
 
 __all__ = ["KEPT", "Filled", "Piece", "Placed", "balanced", "fill_pages"]
 

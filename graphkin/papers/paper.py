@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, execute, plan
 from graphkin.construction.sheet import Scales
 from graphkin.drawing.box import Box
 from graphkin.drawing.polygon_on_page import extent
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 from graphkin.scene.symbol import Symbol

@@ -6,10 +6,9 @@ Heights are those of the typesetter, which measures each piece once.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from graphkin.frozen import dataclass
 from graphkin.papers.blocks import (
     Beside,
     Block,

@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import reduce
 
 from graphkin.construction.mechanism_acts import (
@@ -24,7 +25,6 @@ from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Bar, CompassArc, Mark
 from graphkin.drawing.headings import number
-from graphkin.frozen import dataclass
 from graphkin.papers.group_steps import tried_in_positions
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef

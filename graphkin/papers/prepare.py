@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from graphkin.construction.forces import force_scale
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.drawing import figures
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
 from graphkin.papers.exports import files_for, question_of

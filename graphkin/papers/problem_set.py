@@ -11,13 +11,12 @@ import re
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, field, is_dataclass
+from dataclasses import asdict, dataclass, field, is_dataclass
 from itertools import islice
 from pathlib import Path
 
 from graphkin.errors import GraphkinError
 from graphkin.files import OwnTables, Tables
-from graphkin.frozen import dataclass
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
 from graphkin.papers.variants import Answer, Unfit, Variant, examined

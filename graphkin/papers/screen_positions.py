@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Literal, TypeAlias
 
@@ -31,7 +31,6 @@ from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.drawing.train import moving_plans, train_figure
-from graphkin.frozen import dataclass
 from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Said, capital, said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, spoken_words, words_html

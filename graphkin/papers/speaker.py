@@ -10,6 +10,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn
@@ -20,7 +21,6 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.sums import laid_sum, plan_sum, rate_sum, scale_of, times_scale, unit_of
 from graphkin.drawing.written_lines import by_rates
-from graphkin.frozen import dataclass
 from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
 from graphkin.scene.symbol import PointRef, Symbol

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from graphkin.checking.readings import read_off
@@ -13,7 +14,6 @@ from graphkin.construction import Sheet, execute
 from graphkin.construction.strokes import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
-from graphkin.frozen import dataclass
 from graphkin.papers.fresh_numbers import round_step
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.vary_rules import LEVELS, Bounds

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
-from graphkin.frozen import dataclass
 from graphkin.scene.file_keys import KeyPath, path_of_key, put_at, value_at
 
 __all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "ruled_keys", "rules_checked"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,6 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.races.computed import closed_forms, complex_step, copy_time, differences, newton, one_by_one
 from graphkin.races.peers import PEERS, Skipped
 from graphkin.races.timing import Entry, Machine, best_time, this_machine

@@ -6,10 +6,9 @@ import os
 import platform
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from importlib import metadata
 from typing import Literal
-
-from graphkin.frozen import dataclass
 
 __all__ = ["Entry", "Family", "Machine", "best_time", "this_machine"]
 

@@ -3,10 +3,9 @@ published values, how the problem varies for a class."""
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about, closed
 
 if TYPE_CHECKING:

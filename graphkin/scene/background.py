@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import Background, ReadScan
 
 __all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from graphkin.errors import Problem
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.contact_tables import Cam, LawPiece

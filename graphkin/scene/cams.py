@@ -10,9 +10,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
-from graphkin.frozen import dataclass
 from graphkin.plane import Values
 from graphkin.scene.follower_law import FollowerLaw, Lift
 

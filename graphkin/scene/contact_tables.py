@@ -3,10 +3,9 @@ with teeth; followers of cams (with base circle and allowed pressure angles), dr
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about
 from graphkin.scene.follower_law import SPELLINGS
 

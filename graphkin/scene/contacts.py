@@ -6,7 +6,7 @@ their centres are r1 + r2 apart, and the point of contact parts the line of cent
 
 from __future__ import annotations
 
-from graphkin.frozen import dataclass
+from dataclasses import dataclass
 
 __all__ = ["PlacedContact", "PlacedDisc", "PlacedGear"]
 

@@ -10,8 +10,8 @@ import cmath
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from graphkin.frozen import dataclass
 from graphkin.scene.printed import Line, Unreadable
 from graphkin.scene.spelling import plain_text
 from graphkin.scene.symbol import Symbol

@@ -10,10 +10,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.model import FromDeadPoint, PinInSlot, SlidingPair
 from graphkin.scene.motion_law import MotionLaw, law_of
 from graphkin.scene.names import Flaws, Names

@@ -9,11 +9,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
 from typing import NamedTuple
 
-from graphkin.frozen import dataclass
 from graphkin.plane import Values
 
 __all__ = ["LAWS", "SPELLINGS", "FollowerLaw", "Lift", "LiftPiece", "SmoothPart", "form_of"]

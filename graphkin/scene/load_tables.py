@@ -6,10 +6,9 @@ Forces are in the file's force unit, moments in it times metre, masses in its ma
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about
 
 if TYPE_CHECKING:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.plane import direction
 from graphkin.scene.load_tables import STANDARD_GRAVITY, Load, LoadPhase, Spring
 from graphkin.scene.names import Names

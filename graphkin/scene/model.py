@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from graphkin.frozen import dataclass
 from graphkin.scene.asked_tables import Vary
 from graphkin.scene.background import PlacedBackground, PlacedScan
 from graphkin.scene.cams import LawCam

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
 from graphkin.errors import Problem
-from graphkin.frozen import dataclass
 from graphkin.scene.contact_tables import DriverLaw
 from graphkin.scene.follower_law import Lift, LiftPiece, SmoothPart, form_of
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.file_keys import KeyPath
 from graphkin.scene.tables import SceneTables
 

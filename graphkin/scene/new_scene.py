@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.frozen import dataclass
 
 __all__ = ["NEW", "NewScene", "new_scene"]
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase, say

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
-from graphkin.frozen import dataclass
 from graphkin.scene.file_table import FileTable, about, closed
 
 if TYPE_CHECKING:

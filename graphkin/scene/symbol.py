@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Container, Iterator
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.errors import Problem
-from graphkin.frozen import dataclass
 from graphkin.scene.tables import Units
 
 __all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "Value", "centre_links", "missing_names"]

@@ -9,11 +9,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.tables import Units
 

@@ -8,10 +8,9 @@ scene is made of them (`graphkin.scene.form` has the rules, from which the JSON 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from graphkin.frozen import dataclass
 from graphkin.scene.asked_tables import Positions, PrintedTable, Vary
 from graphkin.scene.contact_tables import Cam, Contact, Disc, DriverLaw, Gear
 from graphkin.scene.file_table import FileTable, about, closed

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.contact_tables import Contact, Gear
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear

@@ -8,14 +8,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import Any
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import OwnTables
-from graphkin.frozen import dataclass
 from graphkin.scene.file_keys import item_of
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism

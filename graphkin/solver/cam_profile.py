@@ -7,9 +7,10 @@ Cam Design and Manufacturing Handbook, ch. 7; Sun Huan, Mechanical Principles, c
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.follower_law import Lift

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam
 from graphkin.scene.follower_law import Lift, SmoothPart
 from graphkin.solver.cam_profile import CamAt, cam_with

@@ -5,10 +5,11 @@ Centrodes: the paths of a link's instant centre in the frame and in the link its
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.frozen import dataclass
 from graphkin.solver.motion import Motion
 from graphkin.solver.places import pole
 from graphkin.solver.pose import Array

@@ -7,12 +7,12 @@ it was made from, and all such designs are computed together.  The others are fo
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache, cached_property
 
 import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.dimensions import Dimension, with_dimensions
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.code import Code

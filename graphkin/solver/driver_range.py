@@ -8,14 +8,13 @@ study of a turn, the positions of a handout.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.driver_values import UniformGrid

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
 

@@ -16,9 +16,9 @@ The functions compute with formulas (``graphkin.solver.expressions``) as well as
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Generic, NamedTuple
 
-from graphkin.frozen import dataclass
 from graphkin.plane import Values, cross, dot
 from graphkin.solver.expressions import fmax, fmin, root, two_sum
 from graphkin.solver.pose import Number, Pose, R, V

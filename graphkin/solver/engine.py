@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code

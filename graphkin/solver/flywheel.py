@@ -8,12 +8,12 @@ flywheel of J_F = W / (delta omega^2) keeps the coefficient of speed fluctuation
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.acting import Action, load_edges
 from graphkin.solver.driver_range import DriverRange

@@ -9,11 +9,11 @@ Design of Machinery, ch. 11).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.plane import cross
 from graphkin.scene.force_names import opposite
 from graphkin.solver.acting import EDGE, Action, actions, spring_ends, without_line

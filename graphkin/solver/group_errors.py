@@ -8,12 +8,11 @@ constraints of the rates off, errors of place and rates those of the second rate
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place

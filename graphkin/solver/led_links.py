@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleFollower, SlideFollower
 from graphkin.solver.expressions import Name

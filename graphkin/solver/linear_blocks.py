@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.solver.pose import Array
 from graphkin.structure.groups import components, match
 

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange, driver_range

@@ -8,12 +8,11 @@ one driver, or two, move at the rate 1.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import at_time
 from graphkin.solver.assemblies import choose_forms, own_values

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.force_names import ForceJoint, joints
 from graphkin.scene.loads import BalanceAt
 from graphkin.scene.model import AngleDriver, Mechanism

@@ -7,12 +7,11 @@ points, and to the end of the motion.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import SlideDriver
 from graphkin.solver.discriminant import least_closes
 from graphkin.solver.dyads import DyadSolution

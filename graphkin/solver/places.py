@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.solver.cam_profile import cam_at
 from graphkin.solver.pose import Array, Pose

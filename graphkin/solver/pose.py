@@ -6,12 +6,12 @@ The drawing board has a pose of its own (``construction.sheet.Pose``, on paper, 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.frozen import dataclass
 from graphkin.plane import Values
 
 __all__ = ["FIELDS", "Array", "Number", "Pose", "R", "V", "rest", "together"]

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.code import Code

@@ -9,10 +9,9 @@ adds one rounding of what it gave.  Where a divisor is not known to differ from 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Generic, TypeVar
 
-from graphkin.frozen import dataclass
 from graphkin.solver.expressions import ExpressionGraph, Real, fmax, fmin, operands, root
 from graphkin.solver.pose import Array
 

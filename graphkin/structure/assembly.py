@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Literal
 
@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
 __all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "pick", "ways"]

@@ -10,12 +10,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, dot
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.loops import Arrow, Loop, Unknown, angle_of, loops_of

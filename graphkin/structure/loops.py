@@ -9,11 +9,10 @@ mechanisms by means of independent-position equations, 1958).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from graphkin.errors import CallError, Problem
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn
 

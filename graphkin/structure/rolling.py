@@ -14,12 +14,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice, product
 from typing import Any
 
-from graphkin.frozen import dataclass
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import (
     AngleDriver,

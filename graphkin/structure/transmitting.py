@@ -17,8 +17,9 @@ degrees.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from graphkin.errors import CallError, Problem
-from graphkin.frozen import dataclass
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn

@@ -8,8 +8,8 @@ pair follows at once, whatever the rest of the mechanism does.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure.model import Cluster, DrivenTriangle, Pair, Slide, Turn
 

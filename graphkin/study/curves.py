@@ -10,13 +10,13 @@ Theory and Approximation Practice).
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from graphkin.frozen import dataclass
 from graphkin.solver import DriverRange
 from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity

@@ -7,14 +7,13 @@ import csv
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 from numbers import Real
 
 from graphkin.errors import CallError, Problem, as_text
 from graphkin.files import OwnTables, Tables, path_of
-from graphkin.frozen import dataclass
 from graphkin.scene.written import put
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]

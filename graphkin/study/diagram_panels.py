@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from graphkin.drawing.chart import BEHIND, SOLID_AND_DASHED, add_labels, count_steps, degree_step, look, marker
 from graphkin.drawing.primitives import Stroke
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.study.driver_axis import DriverAxis, number
 from graphkin.study.quantities import Quantity

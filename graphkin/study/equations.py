@@ -10,11 +10,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.plane import Values
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion

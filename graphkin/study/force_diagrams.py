@@ -6,6 +6,7 @@ Where a load begins, ends or turns round the curve jumps: both its values stand 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,6 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.conventions import force_letters
 from graphkin.drawing.primitives import Stroke
-from graphkin.frozen import dataclass
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -18,7 +19,6 @@ from numpy.typing import NDArray
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion

@@ -7,9 +7,8 @@ Machinery, ch. 2 and 3; 孙桓 《机械原理》, ch. 8; for the offset Hall, K
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Dyad, DyadKind, Pair, Slide, Structure, Turn
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,6 @@ from numpy.typing import NDArray
 from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.chart import add_legend, add_panel, add_words
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.over_time import time_span
 from graphkin.solver import Motion, over_time, structure_of

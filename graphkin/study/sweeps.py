@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -16,7 +16,6 @@ import numpy as np
 
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Tables
-from graphkin.frozen import dataclass
 from graphkin.jobs import key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.places import transmission

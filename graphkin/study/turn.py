@@ -4,6 +4,7 @@ which ranges of the driver a mechanism can be assembled, and which of them the m
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from typing import Literal
@@ -12,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides

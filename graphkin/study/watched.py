@@ -5,12 +5,12 @@ degrees; as arrays where the mechanism can be prepared, and as the table itself.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from graphkin.errors import CallError
-from graphkin.frozen import dataclass
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.over_time import moments, moves_by_law

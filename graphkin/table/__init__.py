@@ -16,7 +16,7 @@ import html
 import io
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib import import_module
 from importlib.util import find_spec
@@ -27,7 +27,6 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
-from graphkin.frozen import dataclass
 from graphkin.table.cells import (
     Array,
     all_quoted,

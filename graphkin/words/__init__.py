@@ -8,10 +8,9 @@ same keys, and every command knows it.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache, reduce
 from pathlib import Path
-
-from graphkin.frozen import dataclass
 
 __all__ = ["BOTH", "LANGUAGES", "Phrase", "area", "class_of", "languages", "listed", "say", "word"]
 

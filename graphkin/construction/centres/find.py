@@ -6,7 +6,7 @@ The motion of a link is measured on the velocity polygon; where two links have o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.board import EXACT, Instrument
@@ -24,7 +24,6 @@ from graphkin.construction.centres.pairs import (
 from graphkin.construction.plan import Room, draft, scales_for
 from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
-from graphkin.frozen import dataclass
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure, analyse, part_of

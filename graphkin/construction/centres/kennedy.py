@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from heapq import heappop, heappush
 
 from graphkin.construction.centres.pairs import Line, LinkPair, Normal, Place, wedge
-from graphkin.frozen import dataclass
 
 __all__ = ["ROUNDING", "CentreRelation", "CrossedCentre", "Known", "Search", "closure"]
 

@@ -11,12 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
 from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import Touching
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism
 

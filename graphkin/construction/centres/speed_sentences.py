@@ -5,12 +5,12 @@ with the distances as the figure shows them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from decimal import Decimal
 
 from graphkin.construction.centres.find import Centres
 from graphkin.construction.centres.pairs import LinkPair
 from graphkin.construction.centres.speeds import SURE, Turning, by_centres, error_by_centres
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written

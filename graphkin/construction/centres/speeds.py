@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from graphkin.construction.centres.find import Centres
 from graphkin.construction.centres.kennedy import ROUNDING
 from graphkin.construction.centres.pairs import Place, product, wedge
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.symbol import PointRef, Symbol

@@ -7,11 +7,10 @@ are in N and N m, counter-clockwise positive.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from typing import Literal
 
 from graphkin.construction.sizes import Direction
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 
 __all__ = [

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.forces.order import BalanceForm
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide

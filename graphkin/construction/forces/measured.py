@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.forces.draw import forces_on
 from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["ForceReading", "force_readings", "readings_of"]

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.frozen import dataclass
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
 

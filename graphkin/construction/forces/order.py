@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
 from graphkin.scene.symbol import Symbol

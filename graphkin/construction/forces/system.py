@@ -4,6 +4,7 @@ arms measured on the mechanism; then the polygon of each link, which closes."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +13,6 @@ from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLi
 from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.naming import opposite
 from graphkin.construction.forces.order import BalanceForm
-from graphkin.frozen import dataclass
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Slide

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -20,7 +20,6 @@ from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import AngleDriver, FromDeadPoint, Mechanism
 from graphkin.scene.symbol import Symbol

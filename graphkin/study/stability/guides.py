@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin import solver
@@ -12,7 +12,6 @@ from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import ShortArm
 from graphkin.errors import Unsolvable
-from graphkin.frozen import dataclass
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.frozen import dataclass
 from graphkin.words import Phrase
 
 __all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid"]
