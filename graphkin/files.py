@@ -15,7 +15,7 @@ __all__ = ["Json", "OwnTables", "Tables", "folder_alone", "path_of", "whole_file
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
 Tables = Mapping[str, Any]
-"""Tables of a scene file, in the keys and units of the file, as its parser gives them: nothing of it is checked."""
+"""Tables of a file (a scene's, above all) in its keys and units, as the parser gives them: nothing is checked."""
 OwnTables = dict[str, Any]
 """The same, to be changed."""
 

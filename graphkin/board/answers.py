@@ -16,14 +16,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 from graphkin.api.drawn import FIGURES
 from graphkin.board import building, pictures
 from graphkin.board.moving import pulled
+from graphkin.board.pictures import Message
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.new_scene import NEW, new_scene
 from graphkin.scene.source import LARGEST_FILE, parsed
@@ -37,9 +38,7 @@ LINK = "graphkin:"
 """How a link begins that carries a scene in itself."""
 MOST_VARIANTS = 60
 
-Message = Mapping[str, Any]
-"""What a page asks: `do`, one of `QUESTIONS`, and what that needs."""
-Answer = dict[str, Any]
+Answer = dict[str, Json]
 """What it is told, as JSON."""
 
 
@@ -78,7 +77,7 @@ def answer(desk: Desk, message: object) -> Answer:
 def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
-    found = [
+    found: list[dict[str, Json]] = [
         {"text": str(problem), "line": line_of(problem, text) if isinstance(error, SceneError) or text else 0}
         for problem in error.problems[:100]
     ]
@@ -182,14 +181,17 @@ def _keep(desk: Desk, message: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
     scene, text = _scene(desk, message), _text(message)
     told = pictures.shown(scene, _at(message), pictures.Wishes(("mechanism",)), quick=True)
+    at, points = told["at"], told["points"]
+    assert isinstance(at, dict)
+    assert isinstance(points, dict)
     changes: Answer = {}
     raw = parsed(text)
     many = isinstance(raw.get("driver"), list)
     for index, driver in enumerate(scene.drivers, 1):
         key = f"driver.{index}" if many else "driver"
         name = "angle" if driver.key in {link.name for link in scene.links} else "travel"
-        changes[f"{key}.{name}"] = float(f"{told['at'][driver.key]:.10g}")
-    spots = {p: [float(f"{z[c]:.6g}") for c in "xy"] for p, z in told["points"].items()}
+        changes[f"{key}.{name}"] = float(f"{at[driver.key]:.10g}")
+    spots = {p: [float(f"{z[c]:.6g}") for c in "xy"] for p, z in points.items() if isinstance(z, dict)}
     for table in ("sketch", "drawn"):
         changes |= {f"{table}.{p}": spots[p] for p in raw.get(table, {}) if p in spots}
     return {"text": changed(text, changes)}

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.files import Json, OwnTables
 from graphkin.papers.html import figure_svg, words_html
 from graphkin.papers.speaker import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
@@ -32,10 +33,14 @@ from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
+__all__ = ["Message", "Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
+
+
+Message = Mapping[str, Any]
+"""What a page asks: `do`, the name of the question, and what that needs."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,7 @@ class Wishes:
     scales: Scales | None = None
 
     @classmethod
-    def of(cls, message: Mapping[str, Any]) -> Wishes:
+    def of(cls, message: Message) -> Wishes:
         """The wishes of a message.  Raises CallError for words that mean nothing."""
         language, convention = message.get("language") or None, message.get("convention") or None
         instrument = message.get("instrument") or "exact"
@@ -80,7 +85,7 @@ def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
     return resolved(beside(parsed(text), folder), name)[1]
 
 
-def beside(made: dict[str, Any], folder: Path | None) -> dict[str, Any]:
+def beside(made: OwnTables, folder: Path | None) -> OwnTables:
     """The mapping of a scene, with the files that it names looked for in one folder and nowhere else."""
     sheet = made.get("sheet")
     under = sheet.get("background") if isinstance(sheet, dict) else None
@@ -114,16 +119,23 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
     return say(Phrase("explained miscount", (*numbers, str(count))), language, show)
 
 
-def reach(scene: Mechanism) -> dict[str, Any]:
+class Reach(NamedTuple):
     """How far the first driver moves: its least and greatest value in its own unit, whether it turns on and on, and
     why it ends."""
+
+    low: float
+    high: float
+    turns: bool
+    why: str
+
+
+def reach(scene: Mechanism) -> Reach:
+    """How far the first driver of a scene moves.  Raises GraphkinError where that cannot be found."""
     over = _range_of(scene)
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
     unit = np.pi / 180 if isinstance(over.driver, AngleDriver) else scene.units.metres
-    low, high = (v / unit for v in values)
-    if over.full:
-        low, high = 0.0, 360.0
-    return {"low": low, "high": high, "turns": over.full, "why": over.limit_why}
+    low, high = (0.0, 360.0) if over.full else (v / unit for v in values)
+    return Reach(low, high, over.full, over.limit_why)
 
 
 def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
@@ -150,7 +162,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishe
     return Drawn(made, what, motion, names, wishes.seed, wishes.language, wishes.convention), motion
 
 
-def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quick: bool = False) -> dict[str, Any]:
+def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quick: bool = False) -> dict[str, Json]:
     """A scene at a position, as the page takes it; where it does not reach there, at the end of its range with the
     reason.
 
@@ -165,11 +177,7 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
     """
     structure = _moved(scene).structure
     if quick and wishes.instrument == "exact":
-        answer = _in_motion(_moved(scene), at, wishes)
-        rest = tuple(name for name in wishes.figures if name not in _IN_MOTION)
-        if rest and not answer["limit"]:
-            answer["figures"] |= _figures(drawn_at(structure, at, replace(wishes, figures=rest))[0])
-        return answer
+        return _in_motion(_moved(scene), at, wishes)
     said = ""
     try:
         drawn, motion = drawn_at(structure, at, wishes)
@@ -178,7 +186,7 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
             raise
         at, said = _last(scene, at), error.why
         drawn, motion = drawn_at(structure, at, wishes)
-    answer = {
+    answer: dict[str, Json] = {
         "figures": _figures(drawn),
         "points": _points(motion),
         "at": {d.key: _own(scene, d, float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
@@ -213,8 +221,10 @@ def _moved(scene: Mechanism) -> _Moved:
     return _Moved(solver.structure_of(scene))
 
 
-def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Any]:
+def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Json]:
     """The same while a hand moves: nothing is checked, and names stand where there may be others."""
+    rest = tuple(name for name in wishes.figures if name not in _IN_MOTION)
+    others = moved.structure, at, replace(wishes, figures=rest)
     scene, values = placed(moved.structure.scene, at or None)
     moved = moved if scene is moved.structure.scene else _moved(scene)
     said = ""
@@ -232,11 +242,12 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) ->
     words = {"language": wishes.language, "convention": wishes.convention}
     there = [name for name in wishes.figures if name in _IN_MOTION and _is_there(sheet, name)]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
+    figures = {name: figure_svg(figure, named=True) for name, figure in drawn.items()}
     unit = sheet.scales.length / scene.units.metres
     pulls = movable(scene)
     points = {ref.point: z * unit for ref, z in sheet.points.items() if not ref.link}
     return {
-        "figures": {name: figure_svg(figure, named=True) for name, figure in drawn.items()},
+        "figures": figures if said or not rest else figures | _figures(drawn_at(*others)[0]),
         "points": {p: {"x": z.real, "y": z.imag, "pull": pulls.get(p, "")} for p, z in points.items()},
         "at": {d.key: _own(scene, d, float(sheet.drivers[d.key])) for d in scene.drivers},
         "scales": [sheet.scales.length, sheet.scales.velocity, sheet.scales.acceleration],
@@ -270,11 +281,11 @@ def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
     """The last position on the way to one that is not reached.  Raises Unsolvable where there is no way."""
     found = reach(scene)
     key, wanted = next(iter(at.items()))
-    inside = NEAR_END * (found["high"] - found["low"])
-    if isinstance(scene.drivers[0], AngleDriver) and not found["low"] <= wanted <= found["high"]:
-        middle = (found["low"] + found["high"]) / 2
+    inside = NEAR_END * (found.high - found.low)
+    if isinstance(scene.drivers[0], AngleDriver) and not found.low <= wanted <= found.high:
+        middle = (found.low + found.high) / 2
         wanted = middle + (wanted - middle + 180.0) % 360.0 - 180.0
-    return {key: min(max(wanted, found["low"] + inside), found["high"] - inside)}
+    return {key: min(max(wanted, found.low + inside), found.high - inside)}
 
 
 def _own(scene: Mechanism, driver: AngleDriver | SlideDriver, value: float) -> float:
@@ -297,9 +308,9 @@ def _figures(drawn: Drawn) -> dict[str, str]:
     return found
 
 
-def _points(motion: Motion) -> dict[str, dict[str, Any]]:
+def _points(motion: Motion) -> dict[str, Json]:
     scene, pulls = motion.scene, movable(motion.scene)
-    places = {}
+    places: dict[str, Json] = {}
     for point, holders in scene.holders.items():
         if holders:
             z = complex(motion.position(point)[0]) / scene.units.metres
@@ -307,22 +318,23 @@ def _points(motion: Motion) -> dict[str, dict[str, Any]]:
     return places
 
 
-def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
+def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = languages(wishes.language or scene.sheet.language)[0]
     speaker = Speaker(sheet, letters_of(sheet, wishes.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
-        limits = reach(scene)
+        limits: dict[str, Json] = reach(scene)._asdict()
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": str(error)}
+    steps: list[dict[str, Json]] = [
+        {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
+         "work": [words_html(line) for line in speaker.work(step)]}
+        for step in sheet.steps
+    ]  # fmt: skip
     return {
         "readings": [list(row) for row in reading_words(drawn.checked)],
         "agrees": drawn.ok,
-        "steps": [
-            {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
-             "work": [words_html(line) for line in speaker.work(step)]}
-            for step in sheet.steps
-        ] + _force_steps(drawn, speaker.letters, spoken),
+        "steps": steps + _force_steps(drawn, speaker.letters, spoken),
         "range": limits,
         "drivers": [
             {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i])}
@@ -334,7 +346,7 @@ def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, Any]]:
+def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, Json]]:
     """The steps by which the forces are found, behind those of the motion."""
     forces = drawn.checked.forces
     if forces is None:

@@ -8,7 +8,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,7 +93,7 @@ class Suspects:
     def drawn(self) -> NDArray[np.bool_]:
         return np.array([s.drawn for s in self.all], dtype=bool)
 
-    def comparable(self, printed: Printed, line: complex | None) -> NDArray[Any]:
+    def comparable(self, printed: Printed, line: complex | None) -> NDArray[np.float64] | NDArray[np.complex128]:
         """The values as they would be stated in the form of the printed one (see `comparable`)."""
         values = self.values
         if not printed.symbol.is_vector:
@@ -178,7 +177,7 @@ class Weighing:
         """The deviation of a drawing, as a part of the value."""
         return self.bound / 3 / abs(self.exact) if self.exact and math.isfinite(self.bound) else 0.0
 
-    def _changes_nothing(self, values: NDArray[Any]) -> NDArray[np.bool_]:
+    def _changes_nothing(self, values: NDArray[np.float64] | NDArray[np.complex128]) -> NDArray[np.bool_]:
         """Which slips give the right value in the form of what is written."""
         return np.asarray(np.abs(values - self.exact) <= NEVER * abs(self.exact))
 

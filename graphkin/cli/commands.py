@@ -13,13 +13,16 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib import import_module
 from types import FrameType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, TextIO
 
 import typer
 
 from graphkin import __version__
 from graphkin.cli.output import tell
 from graphkin.errors import GraphkinError
+
+if TYPE_CHECKING:
+    from typing_extensions import Buffer
 
 __all__ = ["app_of", "main"]
 
@@ -53,7 +56,7 @@ class _Pipe(io.FileIO):
     """A file of the system.  What nobody reads any more is dropped, so that a command does what it was called for, and
     gives the status of that, also under ``| head``."""
 
-    def write(self, text: Any) -> int:
+    def write(self, text: Buffer) -> int:
         try:
             return super().write(text)
         except OSError as error:
@@ -85,7 +88,7 @@ def own_streams() -> None:
             stream.reconfigure(encoding="utf-8", errors="replace")
 
 
-def _is(stream: Any, handle: int) -> bool:
+def _is(stream: TextIO, handle: int) -> bool:
     try:
         return bool(stream.fileno() == handle)
     except (OSError, ValueError, AttributeError):

@@ -14,9 +14,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.drawing.woff2 import PrefixCode, Streams, code_for, streams, woff2
+
+if TYPE_CHECKING:
+    from fontTools.ttLib import TTFont
 
 __all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "holds", "part"]
 
@@ -193,7 +196,7 @@ def machine_glyph(character: str, em: int) -> tuple[int, bytes] | None:
 
 
 @cache
-def _font() -> Any:
+def _font() -> TTFont | None:
     from fontTools.ttLib import TTCollection, TTFont, TTLibError
 
     for path in _installed():

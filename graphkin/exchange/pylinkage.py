@@ -11,10 +11,11 @@ from __future__ import annotations
 import cmath
 import json
 import math
-from typing import Any
+from collections.abc import Sequence
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
+from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross_arcs
 
 __all__ = ["read_pylinkage", "write_pylinkage"]
@@ -42,9 +43,9 @@ def read_pylinkage(text: str, title: str) -> Bodies:
     return made
 
 
-def _mechanism(made: Bodies, data: dict[str, Any]) -> None:
+def _mechanism(made: Bodies, data: Tables) -> None:
     points: dict[str, str] = {}
-    sliding: dict[str, dict[str, Any]] = {}
+    sliding: dict[str, OwnTables] = {}
     fixed = {j["id"] for j in data["joints"] if j.get("type") == "ground"}
     fixed |= {str(link.get("motor_joint")) for link in data["links"] if "driver" in str(link.get("type"))}
     fixed |= {key for link in data["links"] if link.get("type") == "ground" for key in link.get("joints", ())}
@@ -75,14 +76,14 @@ def _mechanism(made: Bodies, data: dict[str, Any]) -> None:
             made.slides.append(BodySlide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
 
 
-def _linkage(made: Bodies, joints: list[dict[str, Any]]) -> None:
+def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
     """Bars are found from what joints refer to; what refers twice to the same pair belongs to one plate."""
     points: dict[str, str] = {}
     fixed: list[str] = []
     bars: dict[frozenset[str], list[str]] = {}
     lines: list[tuple[str, str, str]] = []
 
-    def refer(value: Any) -> str:
+    def refer(value: object) -> str:
         if isinstance(value, dict) and "ref" not in value and "x" in value:  # a static one that stands here alone
             name = f"S{len(points)}"
             points[name] = made.point(name, complex(float(value["x"]), float(value["y"])))
@@ -165,7 +166,7 @@ def write_pylinkage(bodies: Bodies) -> str:
     bodies = bodies.with_pins()
     fixed = set(bodies.bodies.get(FRAME, ()))
     slides = {s.point: s for s in bodies.slides}
-    joints: list[dict[str, Any]] = []
+    joints: list[OwnTables] = []
     for point, place in bodies.places.items():
         slide = slides.get(point)
         at = {"id": point, "position": [number(place.real), number(place.imag)]}
@@ -179,14 +180,14 @@ def write_pylinkage(bodies: Bodies) -> str:
         at |= {"type": "prismatic", "axis": [axis.real, axis.imag]}
         joints.append(at | {"line_point": line, "slide_distance": 0})
     pivots = [p for p in bodies.places if p in fixed]
-    links: list[dict[str, Any]] = [{"id": "ground", "type": "ground", "joints": pivots}]
+    links: list[OwnTables] = [{"id": "ground", "type": "ground", "joints": pivots}]
     bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
     driven = {d.body: d for d in bodies.drives if not d.point}
     bodies.left += [f"driver of {d.body}" for d in bodies.drives if d.point]
     for name, own in bodies.bodies.items():
         if name == FRAME or (len(own) < 2 and name not in driven):
             continue
-        link: dict[str, Any] = {"id": name, "type": "link", "joints": own}
+        link: OwnTables = {"id": name, "type": "link", "joints": own}
         pivot = next((p for p in own if p in fixed), None)
         if name in driven and (pivot is None or len(own) < 2):
             bodies.left.append(f"driver of {name} (it has no two points)")

@@ -9,10 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.conventions import Letters
@@ -22,12 +20,13 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.centres import instant_centre
+from graphkin.solver.pose import Array
 
 __all__ = ["FRAMES", "motion_data"]
 
 FRAMES = 72
 FAR = 3.0  # mechanisms: a centre that lies farther away is not shown
-Array = NDArray[np.complex128]
+Array = Array
 
 
 def motion_data(
@@ -96,18 +95,18 @@ class _Tracks:
         self.rows = list(rows)
         self.found: list[list[float | None]] = []
 
-    def has(self, z: NDArray[Any]) -> bool:
+    def has(self, z: Array) -> bool:
         """Whether there is a place that moves so."""
         return self._flat(z) in self.found
 
-    def add(self, z: NDArray[Any]) -> int:
+    def add(self, z: Array) -> int:
         flat = self._flat(z)
         if flat in self.found:
             return self.found.index(flat)
         self.found.append(flat)
         return len(self.found) - 1
 
-    def _flat(self, z: NDArray[Any]) -> list[float | None]:
+    def _flat(self, z: Array) -> list[float | None]:
         own = np.asarray(z)[self.rows]
         flat: list[float | None] = []
         for one in own.tolist():
@@ -133,10 +132,10 @@ def _guide(motion: Motion, tracks: _Tracks, on: str, guide: str, size: float, le
     return [tracks.add(end) for end in ends]
 
 
-def _centres(motion: Motion, tracks: _Tracks, letters: Letters, size: float, length: float) -> list[list[Any]]:
+def _centres(motion: Motion, tracks: _Tracks, letters: Letters, size: float, length: float) -> list[list[int | str]]:
     """Instant centres, where they lie within reach."""
     names = [motion.scene.frame.name, *(link.name for link in motion.scene.links)]
-    found = []
+    found: list[list[int | str]] = []
     middle = np.mean(list(motion.scene.frame.points.values()) or [0j]) / length
     for a, b in combinations(names, 2):
         q, omega = instant_centre(motion, b, a)

@@ -7,7 +7,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver import PreparedMechanism
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code
+from graphkin.solver.expressions import Name
 from graphkin.solver.pose import Array
 from graphkin.solver.program import program_of
 from graphkin.solver.quantities import formulas
@@ -110,7 +110,7 @@ def single_precision(work: Work, kinds: str) -> Callable[[Array], Array]:
     program = dimensioned.program
     code = Code(program.graph, list(formulas(program, structure, columns_of(work, kinds)).values()))
     forms = choose_forms(structure)
-    given: dict[Any, float] = {}
+    given: dict[Name, float] = {}
     for k, driver in enumerate(drivers):
         value, given["rate", k], given["second", k] = driver.values
         given["cos", k], given["sin", k], given["travel", k] = math.cos(value), math.sin(value), value
@@ -154,7 +154,7 @@ class Numeric:
         """Velocities and accelerations of the outputs."""
         structure, rows_v, rows_a = self.work.structure, [], []
         for output in self.work.outputs:
-            local: Any = structure.links[output.link].points.get(output.point)
+            local: complex | Array = structure.links[output.link].points.get(output.point, 0j)
             if not output.own:
                 holder = next(n for n in self.equations.names if output.point in structure.links[n].points)
                 x, y = self.equations.point(found, holder, structure.links[holder].points[output.point])[:2]

@@ -6,8 +6,8 @@ import cmath
 import importlib.util
 import math
 import warnings
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,10 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, Slide, Turn
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    from pylinkage.components import Component
+    from pylinkage.simulation import Linkage
 
 __all__ = ["PEERS", "Skipped", "pylinkage", "scipy_root"]
 
@@ -64,7 +68,7 @@ def pylinkage(work: Work, repeats: int) -> Iterator[Entry]:
     yield Entry("peer", "pylinkage", "", cost, cost, *own.errors(v, a))
 
 
-def _complex(found: Any) -> tuple[Array, Array, Array]:
+def _complex(found: Iterable[Array]) -> tuple[Array, Array, Array]:
     """Places, velocities, accelerations of all points as complex numbers, shape (positions, points)."""
     places, velocity, acceleration = (f[..., 0] + 1j * f[..., 1] for f in found)
     return places, velocity, acceleration
@@ -85,7 +89,7 @@ class _Model:
 
         self.work, self.structure = work, work.structure
         self.motion = work.motion
-        self.parts: list[Any] = []
+        self.parts: list[Component] = []
         self.at: dict[str, int] = {}
         frame = work.scene.frame
         for point, z in frame.points.items():
@@ -98,7 +102,7 @@ class _Model:
         if not any(o.point in self.at for o in work.outputs):
             raise Skipped("points")
 
-    def linkage(self, count: int) -> Any:
+    def linkage(self, count: int) -> Linkage:
         """What turns fully in so many steps."""
         from pylinkage.simulation import Linkage
 
@@ -112,11 +116,11 @@ class _Model:
     def _here(self, point: str) -> complex:
         return complex(self.motion.position(point)[0])
 
-    def _add(self, point: str, part: Any) -> None:
+    def _add(self, point: str, part: Component) -> None:
         self.at[point] = len(self.parts)
         self.parts.append(part)
 
-    def _part(self, point: str) -> Any:
+    def _part(self, point: str) -> Component:
         return self.parts[self.at[point]]
 
     def _crank(self, element: Driven) -> None:
@@ -139,7 +143,7 @@ class _Model:
         self._add(far, self.crank)
         self._rest(element.link)
 
-    def _anchor(self, point: str) -> Any:
+    def _anchor(self, point: str) -> Component:
         part = self._part(point)
         return part.output if part is self.crank else part
 

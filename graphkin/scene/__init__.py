@@ -34,14 +34,13 @@ Where the format leaves something open, the reader decides as follows.
 
 from __future__ import annotations
 
-from typing import Any
-
+from graphkin.files import Json
 from graphkin.scene.source import library, library_text, mechanism_of, mechanism_of_text, read
 
 __all__ = ["library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema"]
 
 
-def schema() -> dict[str, Any]:
+def schema() -> dict[str, Json]:
     """The JSON schema of a scene file, for editors that complete and check TOML."""
     from graphkin.scene.form import schema as of_file
 

@@ -7,8 +7,8 @@ import os
 from collections.abc import Mapping
 from dataclasses import MISSING, fields, replace
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
@@ -24,7 +24,7 @@ LARGEST, SMALLEST = 1e15, 1e-15
 DesignLike = Design | str | os.PathLike[str] | Tables
 
 
-def _shelf() -> Any:
+def _shelf() -> Traversable:
     return files("graphkin.scene") / "library" / "designs"
 
 
@@ -145,7 +145,7 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     return made(**values)
 
 
-def _value(where: str, form: str, value: object, problems: list[Problem]) -> Any:
+def _value(where: str, form: str, value: object, problems: list[Problem]) -> object:
     """A value in its form; a problem where it is none."""
     if form in ("length", "number", "offset"):
         return _positive(where, value, problems, zero=form == "offset")

@@ -13,9 +13,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import OwnTables
@@ -180,7 +179,9 @@ def _refs_of_angles(angles: float | Sequence[float] | None, count: int) -> list[
     return (given + [0.0] * count)[:count]
 
 
-def _centres(slots: _Slots, name: str, link: Link, keys: Sequence[tuple[tuple[str, str], float]], slot: Any) -> Any:
+def _centres(
+    slots: _Slots, name: str, link: Link, keys: Sequence[tuple[tuple[str, str], float]], slot: Callable[..., None]
+) -> dict[str, list[float]]:
     """The centres of the slots that a block runs in, as points in its own axes."""
     made: dict[str, list[float]] = {}
     for key, angle in keys:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, Field, fields
-from typing import Any, ClassVar
+from typing import ClassVar
 
 __all__ = ["FileTable", "about", "closed", "entries", "key_of", "keys_of"]
 
 
-def about(description: str, **more: Any) -> dict[str, Any]:
+def about(description: str, **more: object) -> dict[str, object]:
     """What the reader and the schema know of a key beside its type."""
     return {"description": description, **more}
 
 
-def closed(description: str) -> dict[str, Any]:
+def closed(description: str) -> dict[str, object]:
     """The same of a table whose keys are names."""
     return about(description, json_schema_extra={"additionalProperties": False})
 
@@ -25,19 +25,19 @@ class FileTable:
     __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
 
 
-def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[Any]]:
+def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[object]]:
     """The fields of a table that stand in a file."""
     for key in fields(table):  # type: ignore[arg-type]  # each table is a dataclass
         if not key.metadata.get("beside"):
             yield key
 
 
-def key_of(key: Field[Any]) -> str:
+def key_of(key: Field[object]) -> str:
     """A field's key in the file."""
     return str(key.metadata.get("alias", key.name))
 
 
-def entries(table: FileTable) -> dict[str, Any]:
+def entries(table: FileTable) -> dict[str, object]:
     """The keys of a table as they stand in a file, without those that say what holds anyway.
 
     >>> from graphkin.scene.tables import Link

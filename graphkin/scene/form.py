@@ -7,10 +7,11 @@ types of this module: so only reading a scene waits for pydantic.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 
+from graphkin.files import Json
 from graphkin.scene.asked_tables import StrokeStart
 from graphkin.scene.contact_tables import LawPiece, TimePiece
 from graphkin.scene.sheet_tables import ReadScan
@@ -152,7 +153,7 @@ SCENE: TypeAdapter[SceneTables] = TypeAdapter(SceneTables)
 SCENE.rebuild(_types_namespace=dict(globals()))  # the annotations of the tables are names of this module
 
 
-def _without_null(node: Any) -> Any:
+def _without_null(node: Json) -> Json:
     """TOML has no null: a key that may be left out keeps the type it has when it is written."""
     if isinstance(node, list):
         return [_without_null(item) for item in node]
@@ -163,11 +164,12 @@ def _without_null(node: Any) -> Any:
     if isinstance(kinds, list) and {"type": "null"} in kinds:
         rest = [kind for kind in kinds if kind != {"type": "null"}]
         del out["anyOf"]
-        out = {**rest[0], **out} if len(rest) == 1 else {**out, "anyOf": rest}
+        out = {**rest[0], **out} if len(rest) == 1 and isinstance(rest[0], dict) else {**out, "anyOf": rest}
     return out
 
 
-def schema() -> dict[str, Any]:
+def schema() -> dict[str, Json]:
     """Return the JSON schema (draft 2020-12) of a scene file, for editors that complete and check TOML."""
-    made: dict[str, Any] = _without_null(SCENE.json_schema(by_alias=True))
+    made = _without_null(SCENE.json_schema(by_alias=True))
+    assert isinstance(made, dict)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": "graphkin scene"}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import degrees
@@ -241,7 +240,7 @@ def toml_text(mapping: Tables) -> str:
     import tomlkit
     from tomlkit.items import Table
 
-    def value(given: Any) -> Any:
+    def value(given: object) -> object:
         if isinstance(given, Mapping):
             inline = tomlkit.inline_table()
             for key, item in given.items():
@@ -249,8 +248,7 @@ def toml_text(mapping: Tables) -> str:
             return inline
         if isinstance(given, list | tuple):
             return [value(item) for item in given]
-        whole = isinstance(given, float) and given.is_integer() and abs(given) < 1e15
-        return int(given) if whole else given
+        return int(given) if isinstance(given, float) and given.is_integer() and abs(given) < 1e15 else given
 
     def table(given: Tables) -> Table:
         made = tomlkit.table()

@@ -11,7 +11,6 @@ import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +22,7 @@ from graphkin.structure.model import Structure
 
 __all__ = ["ArrowValue", "LoopBlock", "LoopValue", "Root", "loops_in_numbers"]
 
-Matrix = NDArray[Any]
+Matrix = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice, product
-from typing import Any
 
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import (
@@ -118,15 +117,19 @@ def _relation(
     return RollingRelation(name, {c: f for c, f in summed.items() if f}, tuple(dict.fromkeys(links)))
 
 
+Unknown = Coordinate | int
+"""The rate of a coordinate, or that of a driver by its number."""
+
+
 class _Rows:
     """Linear equations in reduced echelon form: coordinates by the rates of the drivers."""
 
     def __init__(self) -> None:
-        self.rows: dict[Any, dict[Any, Fraction]] = {}
+        self.rows: dict[Unknown, dict[Unknown, Fraction]] = {}
 
-    def add(self, terms: Mapping[Any, Fraction]) -> bool:
+    def add(self, terms: Mapping[Coordinate, Fraction] | Mapping[Unknown, Fraction]) -> bool:
         """Take one more equation, a sum that is 0; False where it says nothing new.  Numbers stand for drivers."""
-        rest = dict(terms)
+        rest = dict[Unknown, Fraction](terms.items())
         for key in [k for k in rest if k in self.rows]:
             factor = rest[key]
             for k, f in self.rows[key].items():
@@ -165,7 +168,7 @@ def followers_of(
         for s in slides:
             system.add(_angles(frame, s.a, s.b))
         for k, driver in enumerate(scene.drivers):
-            given: dict[Any, Fraction] = {("travel", driver.key): Fraction(1)}
+            given: dict[Unknown, Fraction] = {("travel", driver.key): Fraction(1)}
             if isinstance(driver, AngleDriver):
                 given = _angles(frame, driver.link, driver.relative_to)
             system.add({**given, k: Fraction(-1)})
@@ -181,13 +184,14 @@ def followers_of(
         if ratios is None or base.ratios(coordinate, count) is not None:
             continue
         followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links))
-        base.add({coordinate: Fraction(1), **{k: -f for k, f in enumerate(ratios)}})
+        follows: dict[Unknown, Fraction] = {k: -f for k, f in enumerate(ratios)}
+        base.add({coordinate: Fraction(1), **follows})
     left = tuple(r for r in relations if r not in settled and base.add(r.terms))
     return tuple(followers), left
 
 
-def _angles(frame: str, one: str, two: str) -> dict[Any, Fraction]:
-    found: dict[Any, Fraction] = {}
+def _angles(frame: str, one: str, two: str) -> dict[Unknown, Fraction]:
+    found: dict[Unknown, Fraction] = {}
     for name, sign in ((one, 1), (two, -1)):
         if name != frame:
             found["angle", name] = Fraction(sign)

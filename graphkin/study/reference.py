@@ -6,7 +6,7 @@ The numbers of the scene are taken as they are in memory, doubles in SI, and as 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from graphkin.structure import Structure
 from graphkin.study.equations import Arithmetic, Equations, Solution
 
 if TYPE_CHECKING:
-    from mpmath import MPContext
+    from mpmath import MPContext, mpf
+
+    Digits = Sequence[float | mpf]
 
 __all__ = ["DIGITS", "Split", "context", "reference", "refined", "split"]
 
@@ -60,9 +62,8 @@ def reference(structure: Structure, mp: MPContext) -> Equations:
 
 
 def refined(
-    equations: Equations, mp: MPContext, x: Sequence[Any], values: Sequence[Any], first: Sequence[Any],
-    second: Sequence[Any],
-) -> Solution:  # fmt: skip
+    equations: Equations, mp: MPContext, x: Digits, values: Digits, first: Digits, second: Digits
+) -> Solution:
     """Position and rates to 50 digits from a start near by.
 
     Raises
@@ -110,11 +111,11 @@ class Split:
         """How far values lie off."""
         return np.asarray(np.abs((values - self.high) - self.low))
 
-    def __getitem__(self, which: Any) -> Split:
+    def __getitem__(self, which: tuple[Array, ...]) -> Split:
         return Split(self.high[which], self.low[which])
 
 
-def split(numbers: Any, mp: MPContext) -> Split:
+def split(numbers: Array, mp: MPContext) -> Split:
     """Real or complex mpmath numbers, any shape, in two parts."""
     given = np.asarray(numbers, dtype=object)
     high = np.array([complex(z) for z in given.ravel()]).reshape(given.shape)
