@@ -46,7 +46,7 @@ NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
 ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
 CLOSE_RADII = (8.0, 10.0, 13.0, 16.0, 20.0, 6.5)
-SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, where its number may stand
+SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, or the line, where its number may stand
 LEAST_ANGLE = math.radians(0.5)
 
 
@@ -149,15 +149,21 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     }
     datum = next((spots[p] for p in _datums(sheet) if p in spots), None)
     guides: tuple[list[complex], list[complex]] = ([], [])
+    on_guides: list[complex] = []  # points of what slides, on the line of its guide
     for slider in sliders(sheet):
         if slider.slide.b == scene.frame.name and slider.slide.guide.name:
             if abs(slider.along.imag) < 1e-9:
                 guides[1].append(slider.at.conjugate())
             elif abs(slider.along.real) < 1e-9:
                 guides[0].append(slider.at.conjugate())
+            ends = (sheet.points.get(PointRef(p), slider.at) for p in scene.by_name[slider.slide.a].points)
+            on_guides += [z.conjugate() for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
         places = [_Spot(z) for z in spots.values()]
         places += [_Spot(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
+        places += [
+            _Spot(z) for z in on_guides if any(abs(_part(z - guide, upright)) < 1e-5 for guide in guides[upright])
+        ]
         pairs: set[tuple[float, float]] = set()
         for spot in spots.values():
             if datum is not None and spot != datum:
@@ -222,7 +228,8 @@ def _beside(
     within = [high + far if side > 0 else low - far for far in INSIDE for side in sides]
     within += [line for far in INSIDE for line in (low + far, high - far) if low < line < high]
     for lines, over_lines in (*((lot, False) for lot in lots), (within, False), (within, True)):
-        drawn = (_on_line(sheet, places, levels, line, upright) for line in lines)
+        shares = SHARES[:3] if over_lines else SHARES[:1]
+        drawn = (_on_line(sheet, places, levels, line, upright, share) for share in shares for line in lines)
         choices = (parts for parts in drawn if parts is not None)
         found = room.take(choices, len(levels), over_lines=over_lines)
         if found is not None:
@@ -235,9 +242,10 @@ def _at_level(places: Sequence[_Spot], level: float, upright: bool) -> list[_Spo
 
 
 def _on_line(
-    sheet: Sheet, places: Sequence[_Spot], levels: Sequence[float], line: float, upright: bool
+    sheet: Sheet, places: Sequence[_Spot], levels: Sequence[float], line: float, upright: bool, share: float
 ) -> Parts | None:
-    """Levels dimensioned on one line, each from what is nearest to it; None where it runs through a guide."""
+    """Levels dimensioned on one line, each from what is nearest to it, their numbers at a share of it; None where it
+    runs through a guide."""
     per_mm = sheet.scales.length / sheet.scene.units.metres
     frame = sheet.scene.frame
     fixed = [*frame.points.values(), *(guide.through for guide in frame.guides.values())]
@@ -253,7 +261,7 @@ def _on_line(
         parts.append(_extension(spot.at + spot.reach * out, foot + OVERRUN * out))
     for (low, p), (high, q) in pairwise(zip(levels, feet, strict=True)):
         value = (_given(high, given) - _given(low, given)) * per_mm
-        parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE))
+        parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE), share)
     return tuple(parts)
 
 
@@ -271,16 +279,18 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         points = sheet.scene.by_name[driver.relative_to].points
         pivot = next((sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None)
         value = sheet.drivers[driver.key]
-        turn = math.remainder(value, 2 * math.pi)
+        # as it is given, else the shorter way
+        turns = tuple(dict.fromkeys((math.fmod(value, 2 * math.pi), math.remainder(value, 2 * math.pi))))
         base = sheet.poses.get(driver.relative_to)
         if pivot is None:
             continue
         start = phase(base.axis) if base is not None else 0.0
-        runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
         at, way = pivot.conjugate(), complex(math.cos(start), -math.sin(start))
         # rather an arc over the links than none; of a turn too small no arc is seen
         found = None
-        for crossing, radii in ((False, ANGLE_RADII), (True, CLOSE_RADII)) if abs(turn) >= LEAST_ANGLE else ():
+        ways = product(turns, ((False, ANGLE_RADII), (True, CLOSE_RADII)))
+        for turn, (crossing, radii) in ways if abs(turns[-1]) >= LEAST_ANGLE else ():
+            runs = rich(f"{number(math.degrees(turn), 5)}°", SIZE)
             choices = (
                 (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
                  *angle_dimension(at, radius, start, start + turn, runs, share))
@@ -291,7 +301,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             yield found
             continue
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
-        told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turn), 5)}°", SIZE)
+        told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
         yield Label(Text(0j, told, "start", strokes.BLACK, f"label-angle-{driver.link}", ("label",)), at, rank=1)
 
 

@@ -35,10 +35,11 @@ Part: TypeAlias = Line | Polygon | Arc | Text
 Parts: TypeAlias = tuple[Part, ...]
 
 
-def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]) -> Parts:
+def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...], share: float = 0.5) -> Parts:
     """The distance of two points, its line ``offset`` mm to the right of the way from start to end (negative: left).
 
-    The number stands upright in a gap of the line, or past its end where the line is too short for both.
+    The number stands upright in a gap of the line, at a ``share`` of it, or past its end where the line is too short
+    for both.
     """
     along = (end - start) / abs(end - start)
     right = along * 1j
@@ -48,10 +49,11 @@ def dimension(start: complex, end: complex, offset: float, runs: tuple[Run, ...]
         away = right * math.copysign(1.0, offset)
         parts += [Line(p + GAP * away, q + OVERRUN * away, strokes.DIMENSION) for p, q in ((start, a), (end, b))]
     length = abs(b - a)
-    text = _centred(runs, (a + b) / 2)
-    gap = text_box(text).grown(CLEAR).clip_line((a + b) / 2, along)
+    at = a + share * (b - a)
+    text = _centred(runs, at)
+    gap = text_box(text).grown(CLEAR).clip_line(at, along)
     head = POINTER.head_length
-    if gap is not None and abs(gap[1] - gap[0]) + 2 * head + 1.0 <= length:
+    if gap is not None and abs(gap[1] - gap[0]) + 2 * head + 1.0 <= 2 * min(share, 1 - share) * length:
         parts += [Line(a, gap[0], strokes.DIMENSION), Line(gap[1], b, strokes.DIMENSION), *_heads(a, b)]
         return *parts, text
     if length >= 3 * head:
@@ -153,8 +155,8 @@ class DimensionClearance:
         over other lines only where they must, as its number does over dashed ones, or where that is allowed at once
         (``over``).  The arrowhead of an angle
         ends on a line that is drawn, and its arc may run over what is drawn where it is given leave to
-        (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, but over no symbol
-        of a point (``over_lines``).
+        (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, its own arrowheads
+        end on lines, but none lies over a symbol of a point (``over_lines``).
         """
         second = None
         for parts in choices:
@@ -180,18 +182,22 @@ class DimensionClearance:
         if self.panel is not None and not all(self.panel.holds(box) for box in (*numbers, *heads)):
             return None
         words, tips = _arrays(numbers), _arrays(heads)
-        if self._covered(*(words if ends_on_line else _joined(words, tips))):
+        if self._covered(*(words if ends_on_line or over_lines else _joined(words, tips))):
             return None
         lines = [part for part in parts if isinstance(part, Line)]
         ends = [(line.start, line.end) for line in lines[extensions:]]
         for arc in (part for part in parts if isinstance(part, Arc)):
             course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
+            if self.panel is not None and not self.panel.holds(Box.around(course).grown(0.5)):
+                return None
             ends += pairwise(course)
         own = _segments(ends)
         middles, halves = self.areas
         large = np.hypot(halves.real, halves.imag) > ARROWHEAD if over_lines else slice(None)
         symbols = middles[large], halves[large]
         if not crossing and _over(own, symbols, 0.4):
+            return None
+        if over_lines and self._on_areas(*tips):
             return None
         if not (crossing or over_lines) and len(_crossings(own, self.segments)[0]):
             return None
@@ -216,11 +222,13 @@ class DimensionClearance:
     def _covered(self, middles: Points, halves: Points) -> bool:
         """Whether boxes meet anything."""
         grown = halves[:, None] + 0.5 * (1 + 1j)
+        return self._on_areas(middles, halves) or bool(meets(self.segments[None], middles[:, None], grown).any())
+
+    def _on_areas(self, middles: Points, halves: Points) -> bool:
+        """Whether boxes meet symbols, numbers or arrowheads."""
         taken, sizes = self.taken
-        off, reach = middles[:, None] - taken, grown + sizes
-        if ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any():
-            return True
-        return bool(meets(self.segments[None], middles[:, None], grown).any())
+        off, reach = middles[:, None] - taken, halves[:, None] + 0.5 * (1 + 1j) + sizes
+        return bool(((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any())
 
     def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
         """Extension lines, each from where nothing of its own point is in its way; None where too little is left."""

@@ -104,6 +104,19 @@ def test_links_differ_in_black_and_white():
 ])  # fmt: skip
 def test_the_angle_of_the_crank_stands_on_every_mechanism(name: str, degrees: float) -> None:
     texts = words(draw(name, at=degrees, figures=["mechanism"], language="en").figures["mechanism"])
-    turn = (degrees + 180) % 360 - 180
-    shown = f"{turn:g}°".replace("-", "−")
-    assert any(text == shown or text.endswith((f"={shown}", f"= {shown}")) for text in texts), texts
+    ways = {f"{way:g}°".replace("-", "−") for way in (degrees, (degrees + 180) % 360 - 180)}
+    assert any(text == shown or text.endswith((f"={shown}", f"= {shown}")) for text in texts for shown in ways), texts
+
+
+def test_an_angle_beyond_180_degrees_is_dimensioned_as_it_is_given():
+    assert "235°" in words(draw("toggle-press", at=235, figures=["mechanism"]).figures["mechanism"])
+
+
+@pytest.mark.parametrize(("name", "lengths"), [
+    ("hit16-double-guide", {"100", "200"}), ("sixbar-coupler-1A", {"87.5", "153.5", "41.7"}),
+    ("sixbar-1A-last-link", {"41.7"}), ("toggle-press-force", {"300", "200"}), ("cam-offset-roller", {"8"}),
+])  # fmt: skip
+def test_distances_in_the_frame_stand_on_the_mechanism_of_the_sheet(name, lengths):
+    page = walk(draw(name, figures=("sheet",)).figures["sheet"].children)
+    dimensions = next(thing for thing in page if isinstance(thing, Group) and thing.id == "dimensions")
+    assert lengths <= {thing.string for thing in walk(dimensions.children) if isinstance(thing, Text)}
