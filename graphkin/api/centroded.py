@@ -82,7 +82,7 @@ class Centroded(Result, OfScene):
 
     @cached_property
     def figure(self) -> Drawing:
-        from graphkin.drawing.centrodes import centrodes_figure
+        from graphkin.drawing.centres_in_motion import centrodes_figure
 
         mm = self.centres.links.mm
         pose = self.centres.links.poses[self.link]

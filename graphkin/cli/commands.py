@@ -30,7 +30,7 @@ INTERRUPTED = 130
 """Exit status of what was interrupted, as shells have it."""
 
 PLACES = {
-    "scenes": "solve",
+    "scenes": "scenes",
     "draw": "check",
     "check": "check",
     "solve": "solve",
@@ -39,10 +39,10 @@ PLACES = {
     "sweep": "sweep",
     "handout": "handout",
     "design": "design",
-    "cam": "cam",
-    "convert": "convert",
-    "explain": "explain",
-    "open": "open",
+    "cam": "design",
+    "convert": "scenes",
+    "explain": "scenes",
+    "open": "scenes",
     "study": "study",
 }
 """The module of each command, in the order of the help."""

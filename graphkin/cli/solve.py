@@ -1,13 +1,8 @@
-"""``graphkin scenes``: what comes along, and the schema of scene files.
-
-``graphkin solve``: the analytic solution in tables.
-"""
+"""``graphkin solve``: the analytic solution in tables."""
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -26,8 +21,7 @@ from graphkin.cli.options import (
     SceneArgument,
     driver_values,
 )
-from graphkin.cli.output import print_json, print_paths, print_table, tell, unsolvable_as_json
-from graphkin.errors import CallError, Problem
+from graphkin.cli.output import print_json, print_table, tell, unsolvable_as_json
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
@@ -36,95 +30,11 @@ if TYPE_CHECKING:
 Told = Mapping[str, Any]
 """A part of the object that ``--json`` prints."""
 
-__all__ = ["scenes", "solve"]
+__all__ = ["solve"]
 
 _OF_SLIDES = {"travel": "position", "velocity": "velocity", "acceleration": "acceleration"}
 _KINDS = {"deg": "angle", "rad/s": "omega", "rad/s2": "alpha", "/s": "velocity", "/s2": "acceleration"}
 """Which bound of a position holds for a quantity, by its unit without that of lengths."""
-
-
-def scenes(
-    name: Annotated[str | None, typer.Argument(help="A scene that comes along: print its text.")] = None,
-    file: Annotated[
-        Path | None, typer.Argument(help="With --copy: where to write it; NAME.toml here if not given.")
-    ] = None,
-    copy: Annotated[bool, typer.Option("--copy", help="Write the scene out to start from.")] = False,
-    schema: Annotated[
-        bool, typer.Option("--schema", help="Print the JSON schema of scene files, for editors.")
-    ] = False,
-    new: Annotated[
-        str | None,
-        typer.Option(
-            "--new", metavar="KIND", help="A new commented scene: four-bar, slider-crank, guide-bar, ..."
-        ),
-    ] = None,
-    given: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="With --new: a length (crank=150); asked for otherwise."),
-    ] = None,
-    as_json: JsonOption = False,
-) -> None:
-    """List the scenes that come along, print one, copy one out, or begin a new one."""
-    from graphkin import scene as room
-
-    if new is not None:
-        # the one name that is given is that of the file
-        _begin(new, given or [], Path(name) if name is not None else file)
-    elif schema:
-        typer.echo(json.dumps(room.schema(), ensure_ascii=False, indent=2))
-    elif name is not None:
-        text = room.library_text(name)
-        if copy:
-            _write_new(file or Path(f"{name}.toml"), text)
-        else:
-            typer.echo(text, nl=False)
-    elif copy:
-        raise CallError(Problem("--copy", "no scene is named", "write graphkin scenes NAME --copy"))
-    else:
-        _list(as_json)
-
-
-def _begin(kind: str, given: list[str], file: Path | None) -> None:
-    """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
-    from graphkin.scene.new_scene import NEW, new_scene
-
-    values: dict[str, float] = {}
-    for text in given:
-        name, _, number = text.partition("=")
-        try:
-            values[name.strip()] = float(number)
-        except ValueError:
-            raise CallError(Problem(f"--set {text}", f'"{number}" is no number', "write --set crank=150")) from None
-    new_scene(kind, values)
-    if sys.stdin is not None and sys.stdin.isatty():
-        for name, usual in NEW[kind].asks.items():
-            if name not in values:
-                values[name] = typer.prompt(name, default=usual, type=float, err=True)
-    made = new_scene(kind, values)
-    if file is None:
-        typer.echo(made, nl=False)
-    else:
-        _write_new(file, made)
-
-
-def _list(as_json: bool) -> None:
-    from graphkin.api.scene_list import scenes as listed
-
-    found = listed()
-    if as_json:
-        print_json(found.data)
-    else:
-        print_table(["scene", "title", "", "F"], [[n, t, z, str(f)] for n, t, z, f in found.rows])
-
-
-def _write_new(path: Path, text: str) -> None:
-    if path.exists():
-        raise CallError(Problem(str(path), "a file of that name is there already", "name another file"))
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise CallError(Problem(str(path), f"cannot be written: {error.strerror}")) from None
-    print_paths([path])
 
 
 def solve(

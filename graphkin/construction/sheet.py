@@ -22,7 +22,7 @@ from graphkin.structure.model import Cluster, Element, Structure
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.construction.train_sheet import TrainPlan
+    from graphkin.construction.centre_lines import TrainPlan
 
 __all__ = [
     "DIAGRAMS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits", "Pose", "Rate",

@@ -15,9 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.centre_lines import CentreLine, Spot
+from graphkin.construction.centre_lines import CentreLine, PlanLine, PlanScales, PlanTrial, Spot, TrainPlan
 from graphkin.construction.sheet import Extent, fitting_scale
-from graphkin.construction.train_sheet import PlanLine, PlanScales, PlanTrial, TrainPlan
 from graphkin.plane import unit
 from graphkin.structure import Mesh
 

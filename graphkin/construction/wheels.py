@@ -16,8 +16,8 @@ from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
 
 if TYPE_CHECKING:
+    from graphkin.construction.centre_lines import TrainPlan
     from graphkin.construction.train_plan import Travel, Turned
-    from graphkin.construction.train_sheet import TrainPlan
 
 __all__ = ["Wheels"]
 

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from graphkin.construction.centre_lines import PlanLine, TrainPlan
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.train_sheet import PlanLine, TrainPlan
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement

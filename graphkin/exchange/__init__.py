@@ -1,9 +1,79 @@
-"""Other people's mechanisms: files of PMKS and PMKS+, Linkage, pyslvs, pylinkage and GeoGebra, read and written."""
+"""Other people's mechanisms: files of PMKS and PMKS+, Linkage, pyslvs, pylinkage and GeoGebra, read and written; which
+program a file is of, by its name and by what stands in it."""
 
 from __future__ import annotations
 
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
-from graphkin.exchange.files import READ, WRITTEN, read_bodies, write_bodies
-from graphkin.exchange.pmks import is_address
+from collections.abc import Callable, Mapping
+from pathlib import Path
 
-__all__ = ["FRAME", "READ", "WRITTEN", "Bodies", "BodyDrive", "BodySlide", "is_address", "read_bodies", "write_bodies"]
+from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
+from graphkin.exchange.geogebra import read_geogebra
+from graphkin.exchange.linkage2 import read_linkage2, write_linkage2
+from graphkin.exchange.pmks import is_address, read_address, read_table
+from graphkin.exchange.pylinkage import read_pylinkage, write_pylinkage
+from graphkin.exchange.pyslvs import read_pyslvs, write_pyslvs
+
+__all__ = ["FRAME", "READ", "Bodies", "BodyDrive", "BodySlide", "is_address", "read_bodies", "write_bodies"]
+
+
+
+
+LARGEST = 20_000_000
+READ = (".linkage2", ".pyslvs", ".json", ".ggb", ".txt", ".csv", ".tsv", ".url")
+"""Endings of files that are read; a shared link of PMKS+ may stand instead of a file."""
+WRITTEN: Mapping[str, Callable[[Bodies], str]] = {
+    ".linkage2": write_linkage2, ".pyslvs": write_pyslvs, ".json": write_pylinkage
+}  # fmt: skip
+"""Writers by the ending of the file's name."""
+
+
+def read_bodies(source: str) -> Bodies:
+    """The bodies of a file of another program, or of a shared link of PMKS+.
+
+    Raises
+    ------
+    CallError : there is no such file, or it is of no program that is known here
+    """
+    if "://" in source or (is_address(source) and not Path(source[:200]).exists()):
+        return read_address(source, "PMKS") if is_address(source) else read_table(source, "PMKS")
+    path = Path(source)
+    title, kind = path.stem, path.suffix.lower()
+    if kind not in READ:
+        raise CallError(Problem(path.name[:100], f'"{kind}" is of no program known here', f"known: {', '.join(READ)}"))
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CallError(Problem(str(path)[:200], f"cannot be read: {reason}")) from None
+    if len(data) > LARGEST:
+        raise CallError(Problem(str(path), "is larger than 20 MB", "a mechanism is smaller"))
+    if kind == ".ggb":
+        return read_geogebra(data, title)
+    if data.startswith(b"SQLite format 3"):
+        wanted = "open it in pyslvs and save it as YAML, or copy its expression"
+        raise CallError(Problem(path.name, "is a data base of an early pyslvs", wanted))
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    return _read_text(text, title, kind)
+
+
+def _read_text(text: str, title: str, kind: str) -> Bodies:
+    if kind == ".linkage2" or text.lstrip().startswith("<linkage2"):
+        return read_linkage2(text, title)
+    if kind == ".json":
+        return read_pylinkage(text, title)
+    if kind == ".pyslvs" or "M[" in text:
+        return read_pyslvs(text, title)
+    return read_address(text, title) if is_address(text) else read_table(text, title)
+
+
+def write_bodies(bodies: Bodies, ending: str) -> str:
+    """The text of a file for another program, by the ending of its name.  Raises CallError for an unknown one."""
+    if ending not in WRITTEN:
+        known = ", ".join((".toml", *WRITTEN))
+        raise CallError(Problem("convert", f'"{ending}" is of no program that is written here', f"known: {known}"))
+    return WRITTEN[ending](bodies)

@@ -17,11 +17,10 @@ from importlib.resources import files
 from graphkin.drawing.embedded import face_rules, families
 from graphkin.papers.blocks import Block, Document, Heading, Said, clean, said
 from graphkin.papers.html import blocks_html, said_html, used_characters
-from graphkin.papers.lesson import Lesson
+from graphkin.papers.lesson import Lesson, tolerances
 from graphkin.papers.problem import given, scene_title
 from graphkin.papers.screen_positions import Progress, View, positions_data
 from graphkin.papers.solution import results_blocks, solution, solution_blocks
-from graphkin.papers.trial import tolerances
 from graphkin.words import languages, word
 
 __all__ = ["document_page", "handout_page"]

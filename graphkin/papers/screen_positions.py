@@ -34,11 +34,10 @@ from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Said, capital, said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, spoken_words, words_html
-from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.lesson import Lesson, Stage, force_found, found_in, plain_words
 from graphkin.papers.pictures import ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import equation_words, given
 from graphkin.papers.solution import results_blocks, stage_title, step_items
-from graphkin.papers.trial import force_found, found_in
 from graphkin.scene.model import AngleDriver
 from graphkin.words import languages
 

@@ -15,8 +15,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.acting import without_line
 from graphkin.solver.driver_range import DriverRange
-from graphkin.solver.findings import structure_of
 from graphkin.solver.forces import Forces, forces_of
+from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.redundant import all_slides

@@ -20,7 +20,7 @@ from graphkin.construction.forces.force_sheet import (
     Part,
 )
 from graphkin.construction.forces.images import Images
-from graphkin.construction.forces.naming import JointNames, opposite
+from graphkin.construction.forces.joints import JointNames, opposite
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol

@@ -15,7 +15,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
     Part,
 )
-from graphkin.construction.forces.naming import opposite
+from graphkin.construction.forces.joints import opposite
 from graphkin.construction.sizes import Direction
 from graphkin.plane import unit
 from graphkin.scene.symbol import Symbol

@@ -24,8 +24,7 @@ from graphkin.construction.forces.group_figure import (
     outer_couple,
     slide_found,
 )
-from graphkin.construction.forces.naming import opposite
-from graphkin.construction.forces.order import BalanceForm
+from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.plane import dot, unit
 from graphkin.structure import Dyad, DyadKind, Slide, Turn, links_of
 

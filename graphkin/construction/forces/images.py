@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.forces.order import BalanceForm
+from graphkin.construction.forces.joints import BalanceForm
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

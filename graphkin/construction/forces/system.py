@@ -11,8 +11,7 @@ import numpy as np
 from graphkin.construction.forces.cut_free import CutFree, HeadToTail, dead_point
 from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLine, ForceTerm, ForceVector
 from graphkin.construction.forces.group_figure import across
-from graphkin.construction.forces.naming import opposite
-from graphkin.construction.forces.order import BalanceForm
+from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Slide

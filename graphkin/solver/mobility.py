@@ -1,4 +1,6 @@
-"""What a scene leaves open and its own position decides: the sense of guides, the rate of a driver by a point's speed.
+"""The structure of a scene as the solver takes it: what the scene leaves open is decided by its own position, the sense
+of guides, the rate of a driver by a point's speed; and why its mobility is wrong (redundant but mobile,
+over-constrained, not to be closed, wrongly counted).
 
 What slides on a swinging or turning guide lies on its positive side where nobody says which way it points, but where
 links that hang on it reach each other only the other way round, and in one way alone, that is meant.
@@ -13,17 +15,122 @@ from itertools import combinations
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_forms, new_places, own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.findings import singular
+from graphkin.solver.followers import meeting_followers
 from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, analyse, links_of, pick
+from graphkin.solver.redundant import Fit, fit
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    Rolled,
+    Slide,
+    Structure,
+    analyse,
+    links_of,
+    mobility_of,
+    pick,
+)
 from graphkin.structure.assembly import TOUCH
+from graphkin.structure.replacement import with_cams
 
-__all__ = ["at_given_speed", "with_sensible_slots"]
+__all__ = ["structure_of"]
+
+NEARBY = 0.01
+
+
+def structure_of(scene: Mechanism | Structure) -> Structure:
+    """The structure of a scene, a driver's value that is given from a dead point found; a structure as it is.
+
+    Raises
+    ------
+    Unsolvable
+        status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
+        and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
+    """
+    scene = with_cams(scene)
+    if isinstance(scene, Structure):
+        return scene
+    try:
+        structure = meeting_followers(analyse(scene))
+    except Unsolvable as stop:
+        found = _diagnosis(scene) if stop.status == "mobility" else None
+        if found is None:
+            raise
+        raise Unsolvable("mobility", *stop.problems, found) from None
+    if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
+        from graphkin.solver.dead_points import from_dead_point
+
+        structure = from_dead_point(structure)
+    structure = with_sensible_slots(structure)
+    if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
+        return at_given_speed(structure)
+    return structure
+
+
+def _diagnosis(scene: Mechanism) -> Problem | None:
+    tried: list[tuple[str, Fit, bool]] = []
+    for link in reversed(scene.links):
+        if link.redundant or any(link.name in d.key.split("/") for d in scene.drivers):
+            continue
+        without = replace(
+            scene, links=tuple(replace(x, redundant=True) if x.name == link.name else x for x in scene.links), drawn={}
+        )
+        try:
+            structure = analyse(without)
+            forms = choose_forms(structure)
+        except GraphkinError:
+            continue
+        fits: list[Fit] = []
+        for shift in (0.0, NEARBY):
+            value = own_values(scene)[None] + shift * _unit(scene)
+            state = positions(structure, Drive.at(structure, value), {i: f[None] for i, f in forms.items()})
+            laid = fit(without, link, state.poses)
+            if laid is None or any(dead[0] for _, dead in singular(structure, state, 1)):
+                break
+            fits.append(laid)
+        if len(fits) == 2:
+            tried.append((link.name, fits[0], bool(fits[0].fits[0] and fits[1].position[0] < 1e-9)))
+    # a driver too many does not make a link one too many
+    counted = 0 < mobility_of(scene).value < len(scene.drivers)
+    return _verdict([x for x in tried if x[2] or not counted])
+
+
+def _unit(scene: Mechanism) -> float:
+    """A small step of every driver: an angle, or a part of the size."""
+    return 1.0 if not any("/" in d.key for d in scene.drivers) else scene.size
+
+
+def _verdict(tried: list[tuple[str, Fit, bool]]) -> Problem | None:
+    mobile = [name for name, _, moves in tried if moves]
+    if mobile:
+        return Problem(
+            f"link {mobile[0]}",
+            "it only repeats what the other links already hold: the mechanism is redundant but mobile",
+            f"write redundant = true in [links.{mobile[0]}]",
+        )
+    here = [name for name, laid, _ in tried if laid.position[0] < 1e-9]
+    if here:
+        return Problem(
+            f"link {here[0]}",
+            "it fits in this position, but locks the others: the mechanism is over-constrained",
+            f"leave link {here[0]} out, or one of its joints",
+        )
+    if tried:
+        name, laid, _ = min(tried, key=lambda x: float(x[1].position[0]))
+        return Problem(
+            f"link {name}",
+            f"it does not fit between the others here (by {100 * float(laid.position[0]):.3g} % of the size)",
+            f"leave link {name} out, or one of its joints",
+        )
+    return None
+
 
 MOST = 4
 """Guides that may point either way are tried in all combinations up to so many."""

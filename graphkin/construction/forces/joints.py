@@ -1,0 +1,152 @@
+"""What forces there are before any is found: joints and their forces by name, and the groups in which they are found,
+those of the mechanism driven where it is balanced, last group first.
+
+Links at one point: the first that has it (the frame, or the link written first) is paired with each later one.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphkin.errors import Unsolvable
+from graphkin.scene.cams import LawCam
+from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, analyse
+
+__all__ = ["BalanceForm", "JointNames", "balance_of", "force_groups", "opposite"]
+
+
+def opposite(symbol: Symbol) -> Symbol:
+    """The force or couple of the second link on the first."""
+    return Symbol(symbol.kind, symbol.of, link=symbol.other, other=symbol.link)
+
+
+@dataclass(frozen=True)
+class JointNames:
+    """The names of the joint forces of a mechanism.  The block of a pin in a slot has no name of its own: what it
+    carries is the force between the link of the pin and the link of the slot."""
+
+    structure: Structure
+
+    @cached_property
+    def blocks(self) -> Mapping[str, tuple[str, str]]:
+        """For each block the link of its pin and that of its slot."""
+        return {pin.key: (pin.of, pin.on) for pin in self.structure.scene.pins if pin.key in self.structure.links}
+
+    @cached_property
+    def holders(self) -> Mapping[str, tuple[str, ...]]:
+        """The links that meet at each hinge, blocks left out."""
+        return {p: tuple(n for n in names if n not in self.blocks) for p, names in self.structure.hinges.items()}
+
+    @cached_property
+    def _shared(self) -> Counter[frozenset[str]]:
+        pairs = [frozenset((names[0], later)) for names in self.holders.values() for later in names[1:]]
+        pairs += [frozenset((s.a, s.b)) for s in self.structure.slides if not s.slot]
+        pairs += [frozenset(ends) for ends in self.blocks.values()]
+        return Counter(pairs)
+
+    def between(self, first: str, second: str, point: str | None, kind: str = "F") -> Symbol:
+        """The force (couple) of one link on another at a joint."""
+        several = point and self._shared[frozenset((first, second))] > 1
+        return Symbol(kind, PointRef(point) if several and point else None, link=first, other=second)
+
+    def of_pin(self, point: str, link: str) -> Symbol:
+        """What the force of the pin at a point on a link is called."""
+        if link in self.blocks:
+            of, on = self.blocks[link]
+            return self.between(of, on, point)
+        names = self.holders[point]
+        if link != names[0]:
+            return self.between(names[0], link, point)
+        if len(names) == 2:
+            return self.between(names[1], link, point)
+        block = [ends for ends in self.blocks.values() if ends[0] == link] if len(names) == 1 else []
+        if len(block) == 1:
+            return self.between(block[0][1], link, point)
+        return Symbol("F", link=point, other=link)
+
+    def of_slide(self, slide: Slide, kind: str = "F") -> Symbol:
+        """The force (couple) of the guiding link on the sliding one."""
+        if slide.slot:
+            of, on = self.blocks[slide.key]
+            return self.between(on, of, slide.pin, kind)
+        return self.between(slide.b, slide.a, slide.pin, kind)
+
+    def turning(self) -> Iterator[tuple[str, str, str]]:
+        """Every turning pair: its point, the first link, the later one."""
+        for point, names in self.holders.items():
+            for later in names[1:]:
+                yield point, names[0], later
+
+
+@dataclass(frozen=True)
+class BalanceForm:
+    """What balances at a driver: a moment (``along`` is 0) or a force on ``link`` at a place of its own axes (m), its
+    opposite on ``other``; ``along`` is a direction in the frame, ``square`` one square to the link's own axis."""
+
+    symbol: Symbol
+    link: str
+    other: str
+    at: complex = 0j
+    along: complex = 0j
+    square: bool = False
+    slide: str = ""
+
+    @property
+    def is_moment(self) -> bool:
+        return self.symbol.kind == "M"
+
+
+def balance_of(structure: Structure, driver: AnyDriver) -> BalanceForm:
+    """What balances in place of a driver of a structure: what the scene says, else a moment where it turns and a force
+    along the guide where it slides."""
+    scene = structure.scene
+    said = scene.loading.balance
+    if said is not None:
+        symbol = Symbol("M" if said.kind == "moment" else "F", link=said.link)
+        along = 0j if said.kind == "moment" else said.turn
+        return BalanceForm(symbol, said.link, scene.frame.name, said.at, along, said.square)
+    if isinstance(driver, AngleDriver):
+        return BalanceForm(Symbol("M", link=driver.link), driver.link, driver.relative_to)
+    slide = structure.slide(driver.key)
+    of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
+    return BalanceForm(Symbol("F", link=of), slide.a, slide.b, slide=slide.key)
+
+
+def force_groups(structure: Structure) -> tuple[Element, ...]:
+    """The groups of the mechanism, in the order of solution, were it driven where it is balanced: a force or a moment
+    there leaves so many equations to each group as it has unknown forces.
+
+    Where no driver stands for the balance, all moving links are one group.
+    """
+    scene = structure.scene
+    said = scene.loading.balance
+    if said is None or len(scene.drivers) != 1:
+        return structure.elements
+    own = scene.drivers[0]
+    frame = scene.frame.name
+    if isinstance(own, AngleDriver) and (own.link, own.relative_to) == (said.link, frame) and said.kind == "moment":
+        return structure.elements
+    slide = next((s for s in structure.slides if {s.a, s.b} == {said.link, frame}), None)
+    driver: AnyDriver = AngleDriver(said.link, frame, 0.0, 0.0, 0.0)
+    if said.kind == "force" and slide is not None:
+        driver = SlideDriver(slide.key, 0.0, 0.0, 0.0)
+    try:
+        return analyse(replace(scene, drivers=(driver,))).elements
+    except Unsolvable:
+        members = tuple(name for name in structure.links if name != frame)
+        real = tuple(link.name for link in scene.links if link.name in members)
+        return (Cluster(members, (), (driver,), real, 3),)
+
+
+def driver_of(element: Element) -> tuple[AnyDriver, ...]:
+    """The drivers that act in a group."""
+    if isinstance(element, Driven):
+        return () if isinstance(element.driver, LawCam | Rolled) else (element.driver,)
+    if isinstance(element, Dyad):
+        return tuple(weld.driver for body in element.bodies for weld in body.welds)
+    return element.drivers
