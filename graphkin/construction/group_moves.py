@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from graphkin.construction.group_plan import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
+from graphkin.construction.moves import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.net import Edge, Joined, Net, RollingPoint, TwoWays
 from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
@@ -31,7 +31,7 @@ class GroupMoves(Polygons):
         taken = {*self.places, *(p for link in self.links.values() for p in link.points)}
         return [name for name in LETTERS if name not in taken]
 
-    def _net(self, group: Cluster) -> Net:
+    def _net(self, group: Cluster, wide: bool = False) -> Net:
         slides = [p for p in group.pairs if isinstance(p, Slide)]
         welds = []
         for driver in group.drivers:
@@ -40,7 +40,8 @@ class GroupMoves(Polygons):
                 welds.append(Weld(pair, driver, pair.b, pair.a))
         driven = frozenset(d.key for d in group.drivers if isinstance(d, SlideDriver))
         rolling = self._rolling_points(group)
-        whole = Joined(group.members, group.pairs, welds, driven, near=True, rolling=rolling)
+        seen = [(held, n) for held, rest in self.contours.get(group, ()) for n in rest.links]
+        whole = Joined(group.members, group.pairs, welds, driven, near=True, rolling=rolling, contours=seen, wide=wide)
         joined = self._at_contacts(group, whole)
         names = {s.key: self.guide_names(s) for s in slides}
         return Net(self.links, self.ground, joined, self.places, names, self._same_turn(group), self.tiny)

@@ -15,53 +15,18 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
+from graphkin.construction.moves import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.net import Edge, Net, TwoWays
 from graphkin.construction.relative_points import FarPoint, best_relative_point
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
+from graphkin.structure import Cluster
 
-__all__ = ["Closed", "Crossed", "GroupPlan", "Move", "OneLine", "Special", "plan_group"]
+__all__ = ["GroupPlan", "plan_group"]
 
-Path = tuple[Edge, ...]
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
 LONGEST = 5  # edges of an equation
-
-
-@dataclass(frozen=True)
-class Crossed:
-    """An equation with two unknown sizes."""
-
-    chain: TwoWays
-
-
-@dataclass(frozen=True)
-class Closed:
-    """What is left of a way between two points known already: one vector at most is measured."""
-
-    path: Path
-
-
-@dataclass(frozen=True)
-class Special:
-    """The special point ``letter`` of a link and the legs that give it: ways from known points to points of the link,
-    each with one unknown; or from points of another moving link, ``base``, as which the link moves there."""
-
-    link: str
-    letter: str
-    legs: tuple[Path, Path]
-    base: str = ""
-
-
-@dataclass(frozen=True)
-class OneLine:
-    """Two parallel legs, their special point at infinity: the way from one to the other gives the link's rate."""
-
-    link: str
-    path: Path
-
-
-Move = Crossed | Closed | Special | OneLine
 
 
 @dataclass(frozen=True)
@@ -71,7 +36,8 @@ class GroupPlan:
     ``tried`` are the unknowns that are assumed ("omega 4"); ``open_ends`` as many edges whose ends do not meet for a
     wrong assumption, along them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind
     of polygon (SI).  ``parallel`` names links and two legs of theirs that are parallel, ``far`` the special point for
-    want of which a rate is assumed, where there is one.
+    want of which a rate is assumed, where there is one.  ``contours`` are drawn before: the link held still, and the
+    rest as a group on it.
     """
 
     moves: tuple[Move, ...]
@@ -81,6 +47,7 @@ class GroupPlan:
     open_ends: tuple[tuple[Edge, bool], ...] = ()
     assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
     far: FarPoint | None = None
+    contours: tuple[tuple[str, Cluster], ...] = ()
 
     @property
     def way(self) -> Literal["special points", "superposition"]:
@@ -276,7 +243,7 @@ class _Search:
         if best is not None:
             _, link, legs2, at = best
             letter = next(self.letters)
-            self.nodes.add(self.net.add(link, letter, at, self.turn.get(link, link)))
+            self.nodes.add(self.net.add(link, letter, at))
             self.moves.append(Special(link, letter, legs2))
             self.settle()
             return True
@@ -308,7 +275,7 @@ class _Search:
         if point is None:
             return False
         letter = next(self.letters)
-        self.net.tie(point.links, letter, point.at, self.turn)
+        self.net.tie(point.links, letter, point.at)
         base, link = point.links
         self.moves.append(Special(link, letter, point.legs, base))
         self.ties.append(point.links)

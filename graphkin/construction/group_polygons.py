@@ -1,43 +1,39 @@
-"""Groups larger than a dyad in the polygons: special points, and trial polygons that are superposed.
-
-Everything is linear in a rate that is assumed.  So two polygons with two assumed rates give the true one by
-proportional division of what each leaves open; with k rates left open it takes k + 1 polygons (method of superposition:
-Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
-"""
+"""Groups larger than a dyad in the polygons: contours of known shape first, then special points or trial polygons."""
 
 from __future__ import annotations
 
-import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import chain, product
 
-import numpy as np
-
-from graphkin.construction.board import Board, Instrument
-from graphkin.construction.group_moves import GroupMoves
-from graphkin.construction.group_plan import GroupPlan, Special, plan_group
-from graphkin.construction.net import Edge
-from graphkin.construction.plot import Order
-from graphkin.construction.polygon_acts import Superposed, TakenOff, TrialDrawn
-from graphkin.construction.remarks import Magnified, ParallelLegs
+from graphkin.construction.as_seen import equations_seen, seen, steps_seen
+from graphkin.construction.board import Board
+from graphkin.construction.contours import Joint, contours
+from graphkin.construction.group_plan import GroupPlan, plan_group
+from graphkin.construction.moves import Move, Special, paths_of
+from graphkin.construction.net import Edge, contacts_of
+from graphkin.construction.plot import Order, Plot
+from graphkin.construction.polygon_acts import SeenFrom
+from graphkin.construction.polygons import links_alike
+from graphkin.construction.relative_points import FarPoint
+from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import DrawnGroup, Rate, Scales
 from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.strokes import Aid, Vector
-from graphkin.construction.terms import parts_of
+from graphkin.construction.strokes import Vector
+from graphkin.construction.trial_polygons import TrialPolygons
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
-from graphkin.scene.model import AngleDriver
-from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Structure
+from graphkin.scene.model import AngleDriver, SlideDriver
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, driver_pair
 
 __all__ = ["GroupPolygons"]
 
-NAUGHT = 1e-9  # part of the largest vector that an end that meets may be off in a trial polygon
+MOST_WAYS = 12  # choices of held links that are tried
 
 
-class GroupPolygons(GroupMoves):
+class GroupPolygons(TrialPolygons):
     """Both polygons of one position, larger groups among their elements."""
 
     def __init__(
@@ -45,6 +41,7 @@ class GroupPolygons(GroupMoves):
     ) -> None:
         super().__init__(board, structure, frame, scales, slip)
         self.plans: dict[Cluster, GroupPlan] = {}
+        self.part_of: Cluster | None = None  # the group to which all belongs that is drawn with a link of it held still
 
     def draw(self, order: Order, element: Driven | Dyad | Cluster) -> None:
         """Draw what an element adds to a polygon."""
@@ -54,6 +51,7 @@ class GroupPolygons(GroupMoves):
         self._known_turns(order, element)
         self._rolling_points(element)
         if element in self.plans:
+            self.contours[element] = self.plans[element].contours
             self._by_plan(order, element, self.plans[element])
         else:
             self._first(order, element)
@@ -71,8 +69,23 @@ class GroupPolygons(GroupMoves):
 
     def _first(self, order: Order, group: Cluster) -> None:
         """Find how a group is drawn, and draw it so."""
+        plain = plan_group(self._net(group), self._same_turn(group), self._way, self._free_letters())
+        first = next(plain, None)
+        if first is None or not first.tried:
+            self._take(order, group, () if first is None else (first,))
+            return
+        shorter, far = self._shorter(group, len(first.tried))
+        if shorter:
+            self.contours[group] = shorter[0].contours
+            self._see(order, group)
+            self._take(order, group, shorter)
+        else:
+            self._take(order, group, [replace(p, far=p.far or far) for p in (first, *plain)])
+
+    def _take(self, order: Order, group: Cluster, plans: Iterable[GroupPlan]) -> None:
+        """Draw a group by the first plan without trials, else by that whose trials find the rates best."""
         best: tuple[float, GroupPlan] | None = None
-        for found in plan_group(self._net(group), self._same_turn(group), self._way, self._free_letters()):
+        for found in plans:
             if not found.tried:
                 best = 1.0, found
                 break
@@ -85,9 +98,8 @@ class GroupPolygons(GroupMoves):
         self.plans[group] = best[1]
         self._by_plan(order, group, best[1])
 
-    # -- one drawing of a group ----------------------------------------------------------------------------------------
-
     def _by_plan(self, order: Order, group: Cluster, plan: GroupPlan) -> None:
+        self._see(order, group)
         if order == "velocity":
             for _, one, two in plan.parallel:
                 self.board.notice("mechanism", ParallelLegs((one, two)))
@@ -100,209 +112,166 @@ class GroupPolygons(GroupMoves):
         for edge in self._left(order, plan.net):
             self._close(order, (edge,), group)
 
-    # -- superposition -------------------------------------------------------------------------------------------------
+    # -- contours of known shape ---------------------------------------------------------------------------------------
 
-    def _assume(self, order: Order, group: Cluster, plan: GroupPlan, rates: Sequence[float]) -> None:
-        """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
-        for unknown, value in zip(plan.tried, rates, strict=True):
-            kind, name = unknown.split(" ", 1)
-            if kind == "omega":
-                self.rates[order][name] = Rate(name, value)
-                self._spread(order, name, group)
+    def _turned(self, order: Order | None, group: Dyad | Cluster) -> list[tuple[str, str, float]]:
+        pairs = super()._turned(order, group if self.part_of is None else self.part_of)
+        for held, rest in self.contours.get(group, ()) if isinstance(group, Cluster) else ():
+            seen = self.seen[held].rates[order] if order and held in self.seen else {}
+            pairs += [(held, n, seen[n].value if n in seen else 0.0) for n in rest.members if not order or n in seen]
+        return pairs
+
+    def _same_turn(self, group: Dyad | Cluster) -> dict[str, str]:
+        if self.part_of is None or not isinstance(group, Cluster):
+            return super()._same_turn(group)
+        # links of the group that are not of the contour turn as unknown as its own
+        alike = links_alike(group.members, self._turned(None, group))
+        inside = set(group.members)
+        return {n: self.ground if self.ground in alike[n] else min(alike[n] & inside) for n in group.members}
+
+    def _shorter(self, group: Cluster, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
+        """The plans of a group with fewer trials than so many, special points carried over to all links that turn with
+        theirs, its contours drawn first where that spares more; none where neither does, and then the special point
+        met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
+        seen."""
+        choices = [self._held(group, links) for links in self._contours(group)]
+        choices = [some for some in choices if some]
+        best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
+        far: FarPoint | None = None
+        for number, chosen in enumerate(chain([()], product(*choices) if choices else ())):
+            self.contours[group] = chosen
+            net = self._net(group, wide=True)
+            plans = plan_group(net, self._same_turn(group), self._way, self._free_letters())
+            first = next(plans, None)
+            if first is not None and len(first.tried) >= trials:
+                far = far or first.far
+            elif first is not None:
+                cost = len(first.tried), _against(first)
+                if best is None or cost < best[0]:
+                    best = cost, [replace(p, contours=chosen) for p in (first, *(plans if first.tried else ()))]
+            if number + 1 == MOST_WAYS or (best is not None and best[0] == (0, False)):
+                break
+        del self.contours[group]
+        return (best[1] if best is not None else []), far
+
+    def _contours(self, group: Cluster) -> list[tuple[str, ...]]:
+        if group.rolling or (self.at_contacts and contacts_of(self.structure, group)):
+            return []
+        inside = set(group.members)
+        keys = {d.key for d in group.drivers if isinstance(d, SlideDriver)}
+        held = [driver_pair(d, self.links, self.structure.slides) for d in group.drivers]
+        turned = {frozenset((p.a, p.b)) for p in held if isinstance(p, Turn)}
+        joints = []
+        for pair in group.pairs:
+            if not {pair.a, pair.b} <= inside:
+                continue
+            if isinstance(pair, Slide):
+                along = self.frame.poses[pair.b].axis * pair.guide.direction
+                at = self.places[pair.pin] if pair.pin else self.frame.poses[pair.a].origin
+                joints.append(Joint((pair.a, pair.b), at, along, pair.key in keys))
             else:
-                self.tried[order, name] = value
+                driven = frozenset((pair.a, pair.b)) in turned
+                joints.append(Joint((pair.a, pair.b), self.places[pair.point], None, driven))
+        turning = [(a, b) for a, b, _ in self._turned(None, group) if {a, b} <= inside]
+        return contours(group.members, joints, turning)
 
-    def again(self, hand: Instrument) -> GroupPolygons:
-        """The same polygons as they stand here, to go on with by other hands."""
-        board, made = self.board, copy.copy(self)
-        made.board = Board(hand, [*board.steps], [*board.equations], [*board.noticed], [*board.causes])
-        made.ends = {name: dict(found) for name, found in self.ends.items()}
-        made.rates = {name: dict(found) for name, found in self.rates.items()}
-        made.drawn = {name: dict(found) for name, found in self.drawn.items()}
-        made.tried, made.believed = dict(self.tried), set(self.believed)
-        made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
-        made.pitch_points = dict(self.pitch_points)
-        made.ties = dict(self.ties)
-        return made
-
-    def _fork(self, number: int) -> GroupPolygons:
-        """The same polygons, for a trial of their own with the same hands."""
-        made = self.again(self.board.instrument)
-        made.board, made.trial = Board(self.board.instrument), number
-        return made
-
-    def _tried(
-        self, order: Order, group: Cluster, plan: GroupPlan, number: int, rates: Sequence[float]
-    ) -> GroupPolygons:
-        trial = self._fork(number)
-        trial._assume(order, group, plan, rates)
-        trial._complete(order, group)
-        for move in plan.moves:
-            trial._move(order, group, move)
-        return trial
-
-    def _trial_rates(self, order: Order, plan: GroupPlan) -> list[list[float]]:
-        """The assumptions of each trial polygon: none moves in the first, then each in turn."""
-        drivers = self.structure.scene.drivers
-        fastest = max((abs(d.values[1]) for d in drivers if isinstance(d, AngleDriver)), default=0.0)
-        if not fastest:
-            travel = max((abs(d.values[1]) for d in drivers), default=0.0)
-            fastest = travel / self.structure.scene.size or 1.0
-        base = fastest if order == "velocity" else fastest**2
-        once = [base * (1.0 if t.startswith("omega") else self.structure.scene.size) for t in plan.tried]
-        return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
-
-    def _ends_apart(self, order: Order, plan: GroupPlan) -> dict[tuple[Edge, bool], float]:
-        """How far ends that should meet lie apart (mm) after a trial: along each edge, and square to it."""
-        found: dict[tuple[Edge, bool], float] = {}
-        for ref in plan.net.nodes:
-            for edge in plan.net.edges[ref]:
-                bare = edge.slide is not None and edge.slide.pin is None  # no point of it is a joint
-                if edge.forward and (bare or plan.net.natural >= {edge.start, edge.end}):
-                    for across in (False, True):
-                        value = self._apart(order, edge, across)
-                        if value is not None:
-                            found[edge, across] = value
+    def _held(self, group: Cluster, contour: Sequence[str]) -> list[tuple[str, Cluster]]:
+        """The links of a contour that can be held still so that the rest is drawn on it without trials; those first on
+        which the most hangs besides."""
+        outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
+        found = []
+        for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
+            rest = _on(group, held, contour, self.structure.slides)
+            made = self._with_held(group, held)
+            plan = next(plan_group(made._net(rest), made._same_turn(rest), made._way, made._free_letters()), None)
+            if plan is not None and not plan.tried:
+                self.plans[rest] = plan
+                found.append((held, rest))
         return found
 
-    def _apart(self, order: Order, edge: Edge, across: bool) -> float | None:
-        whole = replace(edge, unknown="")
-        parts = parts_of(self, order, whole)
-        missing = self.end(order, edge.end) - self.end(order, edge.start)
-        missing -= sum((p.span for p in parts if p.span is not None), 0j)
-        if not across and any(p.span is None for p in parts):
-            return None
-        return dot(missing, self._measured_along(edge, across))
+    def _with_held(self, group: Cluster, held: str) -> GroupPolygons:
+        """Empty polygons with a link of a group for the frame."""
+        made = self._fork(0)
+        made.ground, made.part_of = held, group
+        made.slip = Slip(line=lambda symbol, way: self.slip.line(seen(symbol, held), way))
+        made.still = made._never_turning()
+        made.seen, made.contours = {}, {}
+        for order in ("velocity", "acceleration"):
+            made.ends[order] = {PointRef(p): 0j for p in self.links[held].points}
+            made.rates[order] = {held: Rate(held, 0.0)}
+            made.drawn[order] = {}
+        return made
 
-    def _measured_along(self, edge: Edge, across: bool) -> complex:
-        """Direction in which what an edge leaves open is measured: along it, or square to it."""
-        way = self._way(edge, self.places)
-        way = way if edge.slide is not None or edge.contact else -1j * way
-        return 1j * way if across else way
+    def _turn_driven(self, order: Order, rest: Cluster) -> None:
+        """Lay off points of links that turn at known rates about hinges of the held link."""
+        for pair in (p for p in rest.pairs if isinstance(p, Turn) and self.ground in (p.a, p.b)):
+            name, pivot = pair.b if pair.a == self.ground else pair.a, PointRef(pair.point)
+            if name not in self.rates[order] or name in self.still:
+                continue
+            for end in self._first_ends(name, pair.point):
+                if end not in self.ends[order]:
+                    way = Direction("square", (pivot.point, end.point))
+                    self._lay_off(order, (Edge(pivot, end, (pivot, end), way, link=name),), rest)
 
-    def _taken_off(self, order: Order, edge: Edge, across: bool) -> Iterator[TakenOff]:
-        """What is known of an edge and has a part in the direction in which it is left open."""
-        way = self._measured_along(edge, across)
-        parts = parts_of(self, order, replace(edge, unknown=""))
-        for p in parts:
-            if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
-                yield TakenOff(p.symbol, p.size, dot(p.span, way))
-
-    def _judged(self, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
-        """How well a group is found by some trials (0: not at all), and the ends by which the true rates are known."""
-        try:
-            trials = [
-                self._tried(order, group, plan, i + 1, rates)
-                for i, rates in enumerate(self._trial_rates(order, plan))
-            ]
-            rows = [trial._ends_apart(order, plan) for trial in trials]
-        except Unsolvable:
-            return 0.0, plan
-        keys = [k for k in rows[0] if all(k in row for row in rows)]
-        slopes = np.array([[row[k] - rows[0][k] for row in rows[1:]] for k in keys])
-        scale = max((abs(v) for trial in trials for v in trial.ends[order].values()), default=0.0)
-        scale = max(scale, float(np.abs(slopes).max(initial=0.0)))
-        chosen: list[int] = []
-        left = slopes.copy()
-        quality = 1.0
-        for _ in plan.tried:
-            sizes = np.hypot.reduce(left, axis=1) if len(left) else np.zeros(1)
-            best = int(np.argmax(sizes))
-            if not len(left) or sizes[best] <= NAUGHT * scale:
-                return 0.0, plan
-            quality = min(quality, float(sizes[best]) / scale)
-            chosen.append(best)
-            e = left[best] / sizes[best]
-            left = left - np.outer(left @ e, e)
-        return quality, replace(plan, open_ends=tuple(keys[i] for i in chosen))
-
-    def _with_assumptions(self, order: Order, group: Cluster, plan: GroupPlan) -> GroupPlan:
-        """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
-        side of it, all on the one side in the first trial, each in its turn on the other in those that follow."""
-        if order in plan.assumed:
-            return plan
-        rates = self._trial_rates(order, plan)
-        apart = [self._open(order, plan, self._tried(order, group, plan, 1, assumed)) for assumed in rates]
-        around = []
-        for x, once in zip(_divided(rates, apart), (rates[i + 1][i] for i in range(len(plan.tried))), strict=True):
-            small = abs(x) <= 0.05 * abs(once)
-            around.append((_round(-0.3 * once), _round(0.3 * once)) if small else (_round(0.75 * x), _round(1.25 * x)))
-        first = [low for low, _ in around]
-        fair = [first, *([high if i == j else low for j, (low, high) in enumerate(around)] for i in range(len(first)))]
-        return replace(plan, assumed={**plan.assumed, order: tuple(tuple(row) for row in fair)})
-
-    def _open(self, order: Order, plan: GroupPlan, trial: GroupPolygons) -> list[float]:
-        """What a trial leaves open (mm, or as read)."""
-        return [trial._apart(order, *one) or 0.0 for one in plan.open_ends]
-
-    def _true_rates(self, order: Order, group: Cluster, plan: GroupPlan) -> list[float]:
-        """The true rates by proportional division of what trial polygons leave open."""
-        rates = plan.assumed[order]
-        apart: list[list[float]] = []
-        ends: list[dict[PointRef, complex]] = []
-        far = plan.far and replace(plan.far, away=plan.far.away * self.scales.length)
-        for number, assumed in enumerate(rates, 1):
-            trial = self._tried(order, group, plan, number, assumed)
-            apart.append([self.board.instrument.read(mm) for mm in self._open(order, plan, trial)])
-            ends.append(trial.ends[order])
-            # special points are marked on the mechanism by the trial that meets them first
-            self.special, self.places, self.links = trial.special, trial.places, trial.links
-            for step in trial.board.steps:
+    def _see(self, order: Order, group: Cluster) -> None:
+        """Draw the contours of a group, each as it moves seen from one of its links."""
+        for held, rest in self.contours.get(group, ()):
+            if held not in self.seen:
+                self.seen[held] = self._with_held(group, held)
+            apart = self.seen_from(held)
+            if rest.members[0] in apart.rates[order]:
+                continue
+            assert isinstance(apart, GroupPolygons)
+            before = len(apart.board.steps), len(apart.board.equations)
+            apart._spread(order, held, rest)
+            apart._turn_driven(order, rest)
+            apart.draw(order, rest)
+            for name in rest.members:
+                apart.complete(order, name)
+            self.special, self.places, self.links = apart.special, apart.places, apart.links
+            for step in apart.board.steps[before[0] :]:
                 if step.diagram == "mechanism":
                     self.board.do("mechanism", step.act, *step.strokes)
-            steps = [step for step in trial.board.steps if step.diagram == order]
-            strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
-            self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed), far), *strokes)
-        self.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
-        found = _divided(rates, apart)
-        closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
-        ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
-        between = tuple((self.label(e.labels[0]), self.label(e.labels[1])) for e, _ in plan.open_ends)
-        less = tuple(tuple(trial._taken_off(order, *one)) for one in plan.open_ends)
-        named = self._named(order, plan, found)
-        self.board.do(order, Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less))
-        return found
+            first = len(self.board.equations) + 1 if len(apart.board.equations) > before[1] else None
+            self.board.do(order, SeenFrom(held, rest.links, order), equation=first)
+            self._tell(order, group, held, apart, *before)
+        for held, rest in self.contours.get(group, ()):
+            for name in (held, *rest.members):
+                if name in self.rates[order]:
+                    self._spread(order, name, group)
 
-    def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
-        """Rates by their symbols, in scene units."""
-        named = []
-        metres = self.structure.scene.units.rates.metres
-        for unknown, value in zip(plan.tried, values, strict=True):
-            kind, name = unknown.split(" ", 1)
-            if kind == "omega":
-                named.append((Symbol("omega" if order == "velocity" else "alpha", link=name), value))
-                continue
-            slide = self.structure.slide(name)
-            point = slide.pin or next(iter(self.links[slide.a].points), "")
-            of, to = self.label(PointRef(point, slide.a)), self.label(PointRef(point, slide.b))
-            named.append((Symbol("v" if order == "velocity" else "ar", of, to), value / metres))
-        return tuple(named)
+    def _tell(self, order: Order, group: Cluster, held: str, apart: Plot, steps: int, equations: int) -> None:
+        """What has been drawn with a link held still, after so many steps and equations."""
+        further = len(self.board.equations) - equations
+        self.board.equations += equations_seen(apart, equations, held, group, further)
+        for act, strokes, number in steps_seen(apart, steps, held, further):
+            self.board.do(order, act, *strokes, equation=number)
+
+    def _move(self, order: Order, group: Cluster, move: Move) -> None:
+        for edge in (e for path in paths_of(move) for e in path if e.held):
+            # the point of the contour that the equation needs
+            apart = self.seen_from(edge.held)
+            before = len(apart.board.steps), len(apart.board.equations)
+            apart.end(order, edge.end if edge.forward else edge.start)
+            if not self.trial:
+                self._tell(order, group, edge.held, apart, *before)
+        super()._move(order, group, move)
 
 
-def _left_open(edge: Edge, across: bool) -> Direction:
-    """Along which direction a trial leaves an edge open."""
-    names = (edge.start.point, edge.end.point) if edge.link else edge.direction.names
-    return Direction("square" if across else "along", names)
+def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Slide]) -> Cluster:
+    """The links of a contour besides the held one, as a group of their own."""
+    rest = tuple(n for n in contour if n != held)
+    within = set(contour)
+    joined = {s.key: {s.a, s.b} for s in slides}
+    drivers = tuple(
+        d for d in group.drivers
+        if (isinstance(d, AngleDriver) and {d.link, d.relative_to} <= within)
+        or (isinstance(d, SlideDriver) and joined[d.key] <= within)
+    )  # fmt: skip
+    pairs = tuple(p for p in group.pairs if {p.a, p.b} <= within)
+    return Cluster(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
 
 
-def _divided(rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
-    """The rates at which nothing is left open, from trials that each differ from the first in one rate: proportional
-    division."""
-    first = np.array(apart[0])
-    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
-    part = np.linalg.solve(slopes, -first)
-    return [float(rates[0][i] + x * (rates[i + 1][i] - rates[0][i])) for i, x in enumerate(part)]
-
-
-def _magnified(ends: Sequence[Mapping[PointRef, complex]], apart: Sequence[Sequence[float]]) -> float:
-    """How far an end point moves, at most, for what is left open in a trial."""
-    first = np.array(apart[0])
-    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
-    inverse = np.linalg.inv(slopes)
-    moved = [[end[ref] - z for end in ends[1:]] for ref, z in ends[0].items() if all(ref in end for end in ends)]
-    return float(np.abs(np.array(moved) @ inverse).max(initial=0.0))
-
-
-def _round(value: float) -> float:
-    """A value with one figure, easy to lay off."""
-    return float(f"{value:.1g}")
+def _against(plan: GroupPlan) -> bool:
+    """Whether a plan lays off what was seen from a link in the other sense."""
+    return any(e.held and not e.forward for move in plan.moves for path in paths_of(move) for e in path)

@@ -37,8 +37,9 @@ class Edge:
 
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
     turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip; or they lie at the special
-    point of two links (``tied``), which legs join.  ``unknown`` names what is not known of it ("omega 3", "slide 2/3");
-    "" if nothing.  ``labels`` are the nodes as written, coincident points with their links.
+    point of two links (``tied``), which legs join; or on two links of one contour, of which one is ``held`` still.
+    ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes as
+    written, coincident points with their links.
     """
 
     start: PointRef
@@ -51,6 +52,7 @@ class Edge:
     contact: str = ""
     rolling: str = ""
     tied: bool = False
+    held: str = ""
     forward: bool = True
     unknown: str = ""
 
@@ -87,7 +89,9 @@ class Joined:
     nothing replaces.
 
     ``near`` keeps of the points that lie under each other on two links those next to a point of either, as larger
-    groups need: all of them would be too many.  ``rolling`` are the points where links of a group roll.
+    groups need: all of them would be too many.  ``rolling`` are the points where links of a group roll; ``contours`` a
+    held link with each other of its contour.  With ``wide`` a special point of one link lies under it on all that turn
+    with it, too.
     """
 
     inside: Sequence[str]
@@ -97,6 +101,8 @@ class Joined:
     near: bool = False
     contacts: tuple[PlacedContact, ...] = ()
     rolling: Sequence[RollingPoint] = ()
+    contours: Sequence[tuple[str, str]] = ()
+    wide: bool = False
 
 
 class Net:
@@ -114,6 +120,7 @@ class Net:
     ) -> None:
         self.links, self.frame, self.places, self.tiny = links, frame, places, tiny
         self.inside, pairs, welds = joined.inside, joined.pairs, joined.welds
+        self.shares = same_turn
         slides = [p for p in pairs if isinstance(p, Slide)]
         turns = [p for p in pairs if isinstance(p, Turn)]
         driven = {w.pair.key for w in welds if isinstance(w.pair, Slide)} | joined.driven
@@ -151,6 +158,13 @@ class Net:
         for one in joined.rolling:
             a, b = (PointRef(one.letter, link) for link in one.links)
             self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=one.name))
+        for held, other in joined.contours:
+            self._seen(held, other, letters)
+        self.under: list[Edge] = []  # for links that turn alike one edge between coincident points of theirs
+        if joined.wide:
+            found = {(e.slide or e.weld or e.held, *self._sides(e)): e for n in self.nodes for e in self.edges[n]
+                     if e.forward and (e.slide or e.weld or e.held) and "/" not in "".join(self._sides(e))}
+            self.under = list(found.values())
 
     def copy(self) -> Net:
         """The same net, to which special points may be added."""
@@ -193,6 +207,13 @@ class Net:
                 hinge = w.pair.point  # type: ignore[union-attr]
                 self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), weld=w))
 
+    def _seen(self, held: str, other: str, letters: Sequence[str]) -> None:
+        for letter in letters:
+            a, b = node(self.links, letter, held), node(self.links, letter, other)
+            if a in self.owners and b in self.owners and a != b:
+                labels = (PointRef(letter, held), PointRef(letter, other))
+                self._add(Edge(a, b, labels, Direction("found", ()), held=held))
+
     def _touching(self, contact: PlacedContact) -> None:
         # against the frame where it can be: its point stands in the pole
         sides = sorted(contact.links, key=lambda link: link != self.frame)
@@ -200,16 +221,45 @@ class Net:
         way = Direction("along", ("t-t",))
         self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=f"slip {contact.name}"))
 
-    def add(self, name: str, letter: str, at: complex, shares: str) -> PointRef:
+    def _sides(self, edge: Edge) -> tuple[str, str]:
+        """The links of an edge between coincident points, as it was added."""
+        return edge.labels[0].link, edge.labels[1].link
+
+    def add(self, name: str, letter: str, at: complex) -> PointRef:
         """One more point of a link, such as a special point."""
-        return self._added(PointRef(letter), name, at, shares)
+        ref = self._added(PointRef(letter), name, at)
+        self._carry_over({name: ref}, at)
+        return ref
 
-    def tie(self, names: tuple[str, str], letter: str, at: complex, turn: Mapping[str, str]) -> None:
+    def tie(self, names: tuple[str, str], letter: str, at: complex) -> None:
         """The special point of two links: a point of each, of which the relative motion is found first."""
-        one, two = (self._added(PointRef(letter, name), name, at, turn.get(name, name)) for name in names)
+        one, two = (self._added(PointRef(letter, name), name, at) for name in names)
         self._add(Edge(one, two, (one, two), Direction("found", ()), tied=True))
+        self._carry_over({names[0]: one, names[1]: two}, at)
 
-    def _added(self, ref: PointRef, name: str, at: complex, shares: str) -> PointRef:
+    def _carry_over(self, refs: dict[str, PointRef], at: complex) -> None:
+        """A special point also on the links that turn with those that have it."""
+        letter = next(iter(refs.values())).point
+        left, grown = list(self.under), True
+        while grown:
+            grown = False
+            for edge in list(left):
+                sides = self._sides(edge)
+                if not any(name in refs for name in sides) or not all(name in self.inside for name in sides):
+                    continue
+                for name in sides:
+                    if name not in refs:
+                        refs[name] = self._added(PointRef(letter, name), name, at)
+                labels = PointRef(letter, sides[0]), PointRef(letter, sides[1])
+                way = edge.direction
+                if edge.weld is not None:
+                    way = Direction("square", (edge.weld.pair.point, letter))  # type: ignore[union-attr]
+                self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=way))
+                left.remove(edge)
+                grown = True
+
+    def _added(self, ref: PointRef, name: str, at: complex) -> PointRef:
+        shares = self.shares.get(name, name)
         unknown = f"omega {shares}" if shares in self.inside else ""
         others = [n for n in self.nodes if name in self.owners[n]]
         self.owners[ref], self.edges[ref] = [name], []
@@ -251,6 +301,7 @@ def _near(
         for side in c.links:
             on[side].add(c.name)
     touching = [(p.a, p.b) for p in joined.pairs if isinstance(p, Slide)] + [(w.a, w.b) for w in joined.welds]
+    touching += joined.contours
     for _ in range(2):
         shared = [(a, b, on[a] | on[b]) for a, b in touching]
         for a, b, both in shared:

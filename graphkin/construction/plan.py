@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
+from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.carried_out import carried_out, finished
@@ -23,7 +24,7 @@ from graphkin.construction.position import branches_at
 from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import DIAGRAMS, DiagramName, Extent, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.strokes import Vector
+from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.task import ORDERS, Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
@@ -102,7 +103,7 @@ def _least(extent: Extent, room: Room, name: DiagramName) -> float:
 
 
 def _extents(
-    places: Iterable[complex], vectors: Callable[[Order], Iterable[Vector]], scales: Scales
+    places: Iterable[complex], vectors: Callable[[Order], Iterable[Vector | Aid]], scales: Scales
 ) -> dict[DiagramName, Extent]:
     """Extents of the mechanism and of both polygons, pole included."""
     extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, scales.length)}
@@ -126,10 +127,11 @@ def drawn_sizes(sheet: Sheet) -> tuple[tuple[float, float], ...]:
 
 
 def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
-    def vectors(order: Order) -> Iterator[Vector]:
+    def vectors(order: Order) -> Iterator[Vector | Aid]:
         for step in sheet.steps:
             if step.diagram == order and not isinstance(step.act, Asked):
                 yield from (s for s in step.strokes if isinstance(s, Vector))
+        yield from vectors_seen(sheet, order)
 
     outlines = outlines_on_paper(sheet.scene, sheet.poses, 1.0 / sheet.scales.length)
     places = [*sheet.points.values(), *(z for o in outlines.values() for z in o)]
@@ -326,7 +328,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
         places += profile
     places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.frame.poses).outermost()
-    extents = _extents(places, polygons.shown_of, NATURAL)
+    extents = _extents(places, lambda order: (*polygons.shown_of(order), *vectors_seen(exact, order)), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)
     return Plan(**own, scales=scales, exact=exact, extents=extents)

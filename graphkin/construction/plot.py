@@ -5,10 +5,11 @@ Images after Mehmke: the end points of a link's points form a figure similar to 
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, Self
 
-from graphkin.construction.board import Board
+from graphkin.construction.board import Board, Instrument
 from graphkin.construction.net import node
 from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
 from graphkin.construction.rigid import PlacedLinks
@@ -41,6 +42,7 @@ class Plot:
         self.special: set[str] = set()
         self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
         self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
+        self.seen: dict[str, Plot] = {}  # polygons with a link of a contour held still, by that link
         self.trial = 0  # number of the trial polygon that this is; 0: it is none
         self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
         self.ground = structure.scene.frame.name
@@ -58,6 +60,26 @@ class Plot:
         self.touching = {c.name for c in structure.scene.contacts}
         self.block_of = {p.key: p.of for p in structure.scene.pins}
         self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
+
+    def again(self, hand: Instrument) -> Self:
+        """The same polygons as they stand here, to go on with by other hands."""
+        board, made = self.board, copy.copy(self)
+        made.board = Board(hand, [*board.steps], [*board.equations], [*board.noticed], [*board.causes])
+        made.ends = {name: dict(found) for name, found in self.ends.items()}
+        made.rates = {name: dict(found) for name, found in self.rates.items()}
+        made.drawn = {name: dict(found) for name, found in self.drawn.items()}
+        made.tried, made.believed = dict(self.tried), set(self.believed)
+        made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
+        made.pitch_points = dict(self.pitch_points)
+        made.ties = dict(self.ties)
+        made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
+        return made
+
+    def seen_from(self, held: str) -> Plot:
+        """The polygons with a link of a contour held still, with the special points that were marked since."""
+        seen = self.seen[held]
+        seen.special, seen.places, seen.links = self.special, self.places, self.links
+        return seen
 
     def centre_letter(self, name: str, link: str) -> str:
         """The centre of what is round on a link in a contact, or the axis of a wheel."""

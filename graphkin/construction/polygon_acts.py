@@ -19,6 +19,7 @@ __all__ = [
     "Carried",
     "DirectionLine",
     "FoundVector",
+    "ImageSeen",
     "InPolygon",
     "LaidOff",
     "LinesMeet",
@@ -29,8 +30,11 @@ __all__ = [
     "PlanTravel",
     "PlanTried",
     "PutBack",
+    "RateSeen",
     "Resultant",
     "SamePlace",
+    "SeenByRate",
+    "SeenFrom",
     "Superposed",
     "TakenOff",
     "Translated",
@@ -216,6 +220,50 @@ class TakenOff:
 
 
 @dataclass(frozen=True)
+class SeenFrom:
+    """Links of a contour are seen from one that is held still, in an ``order``: what follows is drawn so."""
+
+    held: str
+    links: tuple[str, ...]
+    order: Literal["velocity", "acceleration"]
+
+
+@dataclass(frozen=True)
+class RateSeen:
+    """How a link turns as seen from a held one (rad/s, rad/s2), measured from a vector and its bar."""
+
+    rate: Literal["omega", "alpha"]
+    link: str
+    held: str
+    vector: Symbol
+    bar: tuple[str, str]
+    value: float
+
+
+@dataclass(frozen=True)
+class ImageSeen:
+    """The vector to a point of a link as seen from a held one, by the image of the link over two others: a similar
+    figure, or, ``on_line``, a division of a line."""
+
+    vector: Symbol
+    between: tuple[Symbol | None, Symbol | None]
+    points: tuple[str, str, str]
+    link: str
+    on_line: bool
+
+
+@dataclass(frozen=True)
+class SeenByRate:
+    """The vector to a point of a link as seen from a held one, from that to another of its points (None: it rests) by
+    the rates of the link."""
+
+    vector: Symbol
+    start: Symbol | None
+    link: str
+    held: str
+
+
+@dataclass(frozen=True)
 class Superposed:
     """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
     ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
@@ -232,7 +280,7 @@ class Superposed:
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
     | ByRate | ByImage | Translated | MeasuredRate | OnPlan | TrialDrawn
-    | Superposed
+    | Superposed | SeenFrom | RateSeen | ImageSeen | SeenByRate
 )  # fmt: skip
 
 
@@ -269,11 +317,24 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
             open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
             return Phrase("superposed", (open_at, rows, *_assumed(found)))
+        case SeenFrom(held, links, order):
+            return Phrase(f"seen from {order}", (held, ", ".join(links)))
+        case ImageSeen(vector, between, points, link, on_line):
+            key = "division seen" if on_line else "image seen"
+            return Phrase(key, (vector, *map(_end_of, between), link, "".join(points)))
+        case SeenByRate(vector, start, link, held):
+            return Phrase("by rate seen", (vector, _end_of(start), f"{link}{held}"))
         case PlanDrawn() | PlanTravel() | PlanTried():
             return _on_plan(act)
+        case RateSeen(rate, link, held, vector, bar, value):
+            return polygon_phrase(MeasuredRate(rate, f"{link}{held}", vector, bar, value))
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
+
+
+def _end_of(vector: Symbol | None) -> Phrase:
+    return Phrase("the pole itself") if vector is None else Phrase("the end of", (vector,))
 
 
 def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:

@@ -36,7 +36,7 @@ from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollow
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, Turn, links_of
 
-__all__ = ["Polygons", "same_turn"]
+__all__ = ["Polygons", "links_alike", "same_turn"]
 
 _Side = list[tuple[Edge, list[Component]]]
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
@@ -50,6 +50,7 @@ class Polygons(Plot):
     ) -> None:
         super().__init__(board, structure, frame, scales, slip)
         self.chains: dict[Dyad, TwoWays] = {}
+        self.contours: dict[Cluster, tuple[tuple[str, Cluster], ...]] = {}  # of groups: the held link, the rest on it
         self.wheels = Wheels.of(structure)
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
 
@@ -184,7 +185,12 @@ class Polygons(Plot):
 
     def _same_turn(self, group: Dyad | Cluster) -> dict[str, str]:
         contacts = contacts_of(self.structure, group) if self.at_contacts else ()
-        return same_turn(group, {c.block for c in contacts})
+        return same_turn(group, self._turned(None, group), {c.block for c in contacts})
+
+    def _turned(self, order: Order | None, group: Dyad | Cluster) -> list[tuple[str, str, float]]:
+        """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a); without an order
+        only which."""
+        return _turned_alike(group, order or "velocity", self.given if order else {})
 
     def _known_turns(self, order: Order, group: Dyad | Cluster) -> None:
         """Links that share their rotation with one already known."""
@@ -198,7 +204,7 @@ class Polygons(Plot):
 
     def _spread(self, order: Order, start: str, group: Dyad | Cluster) -> None:
         """From one known rotation to those of all links that slide on each other or are held by drivers."""
-        pairs = _turned_alike(group, order, self.given)
+        pairs = self._turned(order, group)
         queue = [start]
         while queue:
             at = queue.pop(0)
@@ -227,7 +233,7 @@ class Polygons(Plot):
         others = [side for side in terms if side not in alone]
         return (*(alone or [(Term(whole, False, False),)]), *others)
 
-    def _lay_off(self, order: Order, edges: tuple[Edge, ...], element: Driven) -> None:
+    def _lay_off(self, order: Order, edges: tuple[Edge, ...], element: Driven | Cluster) -> None:
         """An equation without unknowns: the vectors are laid off one after the other."""
         number = len(self.board.equations) + 1
         side = self._side(order, edges)
@@ -355,14 +361,22 @@ def _turned_alike(
     return [*((s.a, s.b, 0.0) for s in slides), *held]
 
 
-def same_turn(group: Dyad | Cluster, without: Collection[str] = ()) -> dict[str, str]:
-    """For each link of a group one link with the same rotation but for given ones: a known one if there is any, none of
-    those it is ``without``."""
-    inside = links_of(group)
-    alike = {n: {n} for n in inside}
-    for a, b, _ in _turned_alike(group, "velocity", {}):
+def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -> dict[str, set[str]]:
+    """For each link all those with the same rotation but for given ones."""
+    alike = {n: {n} for n in links}
+    for a, b, _ in pairs:
         merged = alike.get(a, {a}) | alike.get(b, {b})
         for n in merged:
             alike[n] = merged
+    return alike
+
+
+def same_turn(
+    group: Dyad | Cluster, pairs: Iterable[tuple[str, str, float]], without: Collection[str] = ()
+) -> dict[str, str]:
+    """For each link of a group one link with the same rotation but for given ones, as ``pairs`` turn: a known one if
+    there is any, none of those it is ``without``."""
+    inside = links_of(group)
+    alike = links_alike(inside, pairs)
     own = {n: min(alike[n].difference(without), default=n) for n in inside}
     return {n: next((m for m in sorted(alike[n]) if m not in inside), own[n]) for n in inside}

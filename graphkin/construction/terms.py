@@ -28,6 +28,8 @@ def parts_of(plot: Plot, order: Order, edge: Edge) -> list[Component]:
         return _rolling_parts(plot, order, edge)
     if edge.tied:
         return _tied_parts(plot, order, edge)
+    if edge.held:
+        return _contour_parts(plot, order, edge)
     if edge.slide is not None:
         return _slide_parts(plot, order, edge, edge.slide)
     return _rigid_parts(plot, order, edge)
@@ -78,6 +80,37 @@ def _tied_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     if span == 0.0:
         return []
     return [Component(symbol_of(plot, letter(order), edge), "relative", unit(span), span, edge.direction)]
+
+
+def _contour_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
+    """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
+    with the term of Coriolis, for that one turns."""
+    seen = plot.seen_from(edge.held)
+    way = 1 if edge.forward else -1
+    moving = edge.end if edge.forward else edge.start
+    role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
+    slip = way * seen.end("velocity", moving)
+    if order == "velocity":
+        return [Component(symbol_of(plot, "v", edge), role, unit(slip or 1.0), slip, edge.direction)]
+    held, turns = edge.labels[0].link, plot.rates["velocity"]
+    # seen from a link that turns itself as seen from the held one, the rest has another share of Coriolis
+    more = 2j * (turns[edge.held].value - turns[held].value) * _measured(plot, slip)
+    rest = way * seen.end("acceleration", moving) + more
+    coriolis = 2j * turns[held].value * _measured(plot, slip)
+    parts = [Component(symbol_of(plot, "ar", edge), "sliding", unit(rest or 1.0), rest, edge.direction)]
+    if held not in plot.still:
+        symbol = symbol_of(plot, "v", edge)
+        size = RateTimes("omega", (held,), symbol, twice=True)
+        parts.insert(0, Component(
+            symbol_of(plot, "ak", edge), "coriolis", unit(coriolis or 1.0), coriolis, edge.direction, size
+        ))  # fmt: skip
+    return parts
+
+
+def _measured(plot: Plot, slip: complex) -> complex:
+    """A relative velocity as it is read off its polygon, as mm of the other for each 1/s."""
+    read = plot.board.instrument.read(abs(slip)) * plot.scales.velocity / plot.scales.acceleration
+    return unit(slip) * read if slip else 0j
 
 
 def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Component]:

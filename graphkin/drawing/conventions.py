@@ -98,7 +98,8 @@ class Letters:
         return as_vector(self.convention, self.vector(symbol))
 
     def vector(self, symbol: Symbol) -> str:
-        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``."""
+        """The magnitude of a vector, or a rate: ``v_{B3B2}``, ``a^{n}_{CB}``, ``ω_{3}``; as link 2 sees it, held still,
+        ``a^{n(2)}_{CB}``."""
         if symbol.at:
             return f"{self.vector(symbol.here)}({symbol.at})"
         if symbol.scope == "force":
@@ -114,9 +115,9 @@ class Letters:
         if symbol.to is not None:
             index += ("/" if us else "") + self.ref(symbol.to)
         letter = symbol.kind[0].upper() if us else symbol.kind[0]
-        if symbol.kind in _ORDER:
-            return f"{letter}^{{{_PARTS[self.convention][_ORDER.index(symbol.kind)]}}}_{{{index}}}"
-        return f"{letter}_{{{index}}}"
+        marks = _PARTS[self.convention][_ORDER.index(symbol.kind)] if symbol.kind in _ORDER else ""
+        marks += f"({symbol.seen})" if symbol.seen else ""
+        return f"{letter}^{{{marks}}}_{{{index}}}" if marks else f"{letter}_{{{index}}}"
 
     def end(self, diagram: DiagramName, ref: PointRef) -> str:
         """The end point of a vector from the pole: small letter, primed in the acceleration polygon; in the us

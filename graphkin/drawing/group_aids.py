@@ -8,6 +8,7 @@ from cmath import phase
 from collections.abc import Iterator
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Aid, Bar, TrialCurve
 from graphkin.drawing import strokes
@@ -59,6 +60,7 @@ def aids_in_mechanism(sheet: Sheet) -> Piece:
 
 def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
+    held = {step.act.held for step in here.steps if isinstance(step.act, SeenFrom)}
     for step in here.steps:
         aids = [s for s in step.strokes if isinstance(s, Aid) and abs(s.tip - s.tail) > SAME]
         if not aids:
@@ -76,10 +78,10 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             whole = abs(clipped[1] - here.at(aid.tip)) < SAME
             if whole and abs(aid.tip - aid.tail) > 2.5:
                 parts.append(arrowhead(here.at(aid.tip), clipped[1] - clipped[0], 1.6, 0.6, strokes.GREY))
-            if not trial and _apart(aid) and abs(clipped[1] - clipped[0]) > 4.0:
+            if not trial and (_apart(aid) or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
                 text = Text(0j, symbol(here.letters.arrow(aid.symbol), 3.0), "start", strokes.GREY,
                             f"label-special-{aid.symbol.id}", ("label",))  # fmt: skip
-                labels.append(Label(text, clipped, rank=4))
+                labels.append(Label(text, clipped, rank=3 if aid.symbol.to and aid.symbol.to.link in held else 4))
             if trial and whole and aid.symbol.to is None and aid.symbol.of is not None and (
                 same_place(aid.tip) not in named
             ):  # fmt: skip
@@ -97,6 +99,6 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
 
 
 def _apart(aid: Aid) -> bool:
-    """Whether a vector is what the special points of two links move apart by."""
+    """Whether a vector is what two points that lie under each other move apart by."""
     of, to = aid.symbol.of, aid.symbol.to
     return of is not None and to is not None and of.point == to.point

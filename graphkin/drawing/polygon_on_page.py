@@ -8,8 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.sheet import DiagramName, Sheet, Step
-from graphkin.construction.strokes import Bar, Vector
+from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.primitives import Segment
@@ -85,7 +86,8 @@ def same_place(z: complex) -> complex:
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
     """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
     where they do not reach far."""
-    ends = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
+    vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *vectors_seen(sheet, diagram)]
+    ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(z.conjugate() for z in ends)
     for step in sheet.steps:
         for stroke in step.strokes:

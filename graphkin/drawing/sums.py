@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, RateSeen, Superposed, TrialDrawn
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import RateTimes, RollingCurves, Size
 from graphkin.drawing.conventions import Letters
@@ -185,7 +185,7 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[str]:
     bars: dict[frozenset[str], tuple[str, str]] = {}
     for step in sheet.steps:
         act, bar = step.act, None
-        if isinstance(act, MeasuredRate):
+        if isinstance(act, MeasuredRate | RateSeen):
             bar = act.bar
         elif isinstance(act, LaidOff) and isinstance(act.size, RateTimes) and not isinstance(act.size.factor, Symbol):
             bar = act.size.factor

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Literal
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, Superposed
+from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, RateSeen, Superposed
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
 from graphkin.construction.sizes import Direction, RateTimes
 from graphkin.drawing.conventions import Letters
@@ -36,6 +36,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
+        elif isinstance(step.act, RateSeen):
+            lines.append(_seen(step.act, letters, language))
         elif isinstance(step.act, ByRate):
             lines += by_rates(sheet, step, step.act, letters)
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
@@ -99,6 +101,14 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     way = "" if rate.value == 0.0 else f",  {term('clockwise' if rate.value < 0 else 'counter-clockwise', language)}"
     value = bound(rate_sum(sheet, act, units=False)) or f"{number(abs(rate.value), 5)} {unit}"
     return " =\u00a0".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
+
+
+def _seen(act: RateSeen, letters: Letters, language: str) -> str:
+    """``ω_42 = v_CC2 / l_BC = 0.65 rad/s, clockwise``, as a link is seen from a held one."""
+    rule = f"${letters.vector(act.vector)}$ / ${letters.length(act.bar)}$"
+    unit = "rad/s" if act.rate == "omega" else "rad/s²"
+    way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
+    return f"{_rate_name(act.rate, act.link + act.held)} = {rule} = {number(abs(act.value), 5)} {unit}{way}"
 
 
 def by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
-from graphkin.construction.polygon_acts import TrialDrawn
+from graphkin.construction.polygon_acts import SeenFrom, TrialDrawn
 from graphkin.construction.sheet import Equation, Term
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.papers.blocks import Paragraph
@@ -81,7 +81,9 @@ def _rolling_at(lesson: Lesson) -> Mapping[str, tuple[str, str]]:
 def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
     of, to = term.symbol.of, term.symbol.to
-    apart = of is not None and to is not None and of.point == to.point and _is_special(lesson, of)
+    apart = of is not None and to is not None and of.point == to.point and (
+        _is_special(lesson, of) or _is_seen(lesson, to.link)
+    )
     if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
         return 0
     earlier = (
@@ -95,6 +97,11 @@ def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
 
 def _is_special(lesson: Lesson, ref: PointRef) -> bool:
     return any(isinstance(s.act, SpecialPoint) and s.act.point == ref.point for s in lesson.sheet.steps)
+
+
+def _is_seen(lesson: Lesson, held: str) -> bool:
+    """Whether a link is held still, and others are seen from it."""
+    return any(isinstance(s.act, SeenFrom) and s.act.held == held for s in lesson.sheet.steps)
 
 
 def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:

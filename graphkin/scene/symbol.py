@@ -132,7 +132,8 @@ class Symbol:
 
     Of forces ``link`` acts on ``other`` at the joint ``of`` (where they share two); ``name`` is that of a load, or of a
     force whose arm is meant; with ``plus`` the load that begins or ends exactly there acts.  ``turning`` is a load that
-    is a moment, which no name tells.
+    is a moment, which no name tells.  ``seen`` is the link from which a vector is seen, with that held still; "" for
+    the frame.
 
     >>> Symbol.parse("v_B@3/B@2").id
     'v_B3-B2'
@@ -149,6 +150,7 @@ class Symbol:
     name: str = ""
     plus: bool = False
     turning: bool = field(default=False, compare=False)
+    seen: str = ""
 
     @classmethod
     def parse(cls, text: str) -> Symbol:
@@ -227,7 +229,9 @@ class Symbol:
     @property
     def id(self) -> str:
         """The symbol as an SVG id: ``@`` dropped, ``/`` written ``-``."""
-        return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-").replace("+", "-with")
+        return str(self).replace("@", "").replace("/", "-").replace(" at ", "-at-").replace("+", "-with").replace(
+            " seen from ", "-seen-from-"
+        )
 
     def __str__(self) -> str:
         if self.of is None or self.link:
@@ -236,6 +240,7 @@ class Symbol:
             name += (f"@{self.of}" if self.of else "") + ("+" if self.plus else "")
         else:
             name = f"{self.kind}_{self.of}" + (f"/{self.to}" if self.to else "")
+            name += f" seen from {self.seen}" if self.seen else ""
         return f"{name} at {self.at}" if self.at else name
 
 

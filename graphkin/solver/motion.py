@@ -15,7 +15,7 @@ from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import ErrorBound
-from graphkin.structure import Slide, Structure
+from graphkin.structure import Cluster, Slide, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase
 
@@ -174,9 +174,11 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
                 continue
             first = motion.point(of.point, of.link)
             second = motion.point(to.point, to.link)
-            omega = motion.poses[pair.b].omega
-            coriolis = 2j * omega * (first.v - second.v)
-            return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
+            return _apart(symbol, first, second, motion.poses[pair.b].omega)
+    for group in motion.structure.groups:  # links of a group that are drawn as one, seen from one of them
+        if isinstance(group, Cluster) and of.point == to.point and {of.link, to.link} <= {*group.members}:
+            first, second = motion.point(of.point, of.link), motion.point(to.point, to.link)
+            return _apart(symbol, first, second, motion.poses[to.link].omega)
     pairs = [s for s in motion.slides if s.pin]
     example = (
         f"write for example {symbol.kind}_{pairs[0].pin}@{pairs[0].b}/{pairs[0].pin}"
@@ -186,6 +188,11 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
     raise CallError(
         Problem(str(symbol), "these are not coincident points of two links that slide on each other", example)
     )
+
+
+def _apart(symbol: Symbol, first: Pose, second: Pose, omega: Array) -> Array:
+    coriolis = 2j * omega * (first.v - second.v)
+    return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
 
 
 class Sliding(NamedTuple):

@@ -1,0 +1,108 @@
+"""Contours of known shape in larger groups: seen from a link held still, then drawn as one link; a slip in it shows."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from typing import Any
+
+import pytest
+
+import graphkin
+from graphkin.construction.contours import Joint, contours
+from graphkin.construction.polygon_acts import RateSeen, SeenFrom
+from graphkin.construction.slip import Slip
+from graphkin.scene.symbol import Symbol
+from tests.construction.test_groups import everything, wrong
+
+FOUR_BAR: dict[str, Any] = {  # plate, bar, plate, bar: its first hinge is driven; it hangs on a crank and a pivot
+    "frame": {"points": {"A": [0, 0], "G": [265, -55]}},
+    "links": {
+        "1": {"points": ["A", "F"], "length": 95},
+        "2": {"points": ["B", "E"], "length": 124, "at": {"F": [90, -80]}},
+        "3": {"points": ["C", "D"], "length": 119, "at": {"G": [52, 127]}},
+        "4": {"points": ["B", "C"], "length": 150},
+        "5": {"points": ["D", "E"], "length": 51},
+    },
+    "driver": {"link": "5", "relative_to": "2", "angle": 283, "omega": -3.7, "alpha": -30},
+    "sketch": {"B": [134, 157], "C": [264, 82], "D": [154, 36], "E": [103, 37], "F": [34, 89]},
+}
+THROUGH_A_BLOCK: dict[str, Any] = {  # a block on link 4 is driven from link 1, and so is link 4, which hangs on it
+    "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": [60, 116], "angle": -61.6}}},
+    "links": {
+        "1": {"points": ["A", "D"], "length": 119},
+        "4": {"points": ["D"], "guides": {"c": {"through": [-68, 43], "angle": 23.4},
+                                          "b": {"through": [-107, 25], "angle": -74.8}}},
+        "2": {"points": ["B", "C"], "length": 77, "on": "0.g", "angle_on": 47},
+        "3": {"points": ["C"], "on": "4.c"},
+        "5": {"points": ["B"], "on": "4.b"},
+    },
+    "driver": {"link": "1", "relative_to": "3", "angle": 120, "omega": 6, "alpha": -12},
+    "sketch": {"D": [57, 104], "B": [18, 193], "C": [93, 174]},
+}  # fmt: skip
+TURNED_ALIKE: dict[str, Any] = {  # the special points lie on two links that turn alike, one carried over to the other
+    "frame": {"points": {"A": [0, 0], "D": [138, -16], "F": [252, 199], "G": [344, 65]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 39},
+        "2": {"points": ["B", "C"], "length": 116, "on": "5.g", "angle_on": -136},
+        "3": {"points": ["C", "D"], "length": 130},
+        "4": {"points": ["F"], "on": "6.g"},
+        "5": {"points": ["E"], "guides": {"g": {"through": [-3, -43], "angle": 143}}},
+        "6": {"points": ["E"], "guides": {"g": {"through": [159, 66], "angle": -116}}},
+        "7": {"points": ["G"], "on": "6", "angle_on": 117},
+    },
+    "driver": {"link": "6", "relative_to": "5", "angle": -36, "omega": -10, "alpha": 29},
+    "sketch": {"B": [20, 33], "C": [107, 110], "E": [58, 68]},
+}
+SCENES = {"four-bar": FOUR_BAR, "through a block": THROUGH_A_BLOCK, "turned alike": TURNED_ALIKE}
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("more", [-8, 0, 5])
+def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: str, more: float) -> None:
+    scene = SCENES[name]
+    result = graphkin.check(scene, scene["driver"]["angle"] + more)
+    assert "special points" == result.data["construction"]
+    assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_coriolis() -> None:
+    sheet = graphkin.check(FOUR_BAR).sheet
+    acts = [step.act for step in sheet.steps]
+    assert [("2", "velocity"), ("2", "acceleration")] == [(a.held, a.order) for a in acts if isinstance(a, SeenFrom)]
+    exact = {row.symbol: row.exact for row in graphkin.check(FOUR_BAR).report.rows}
+    turned = {(a.rate, a.link): a.value for a in acts if isinstance(a, RateSeen)}
+    for rate in ("omega", "alpha"):
+        for link in "34":
+            more = exact[Symbol(rate, link=link)] - exact[Symbol(rate, link="2")]
+            assert turned[rate, link] == pytest.approx(more.real, rel=1e-9)
+    assert {"v_F@3/F@2", "ak_F@3/F@2", "ar_F@3/F@2"} <= {str(symbol) for symbol in exact}
+
+
+def test_a_line_of_the_contour_turned_by_a_tenth_of_a_degree_shows() -> None:
+    turned = cmath.rect(1.0, math.radians(0.1))
+
+    def line(symbol: Symbol, along: complex) -> complex:
+        return along * turned if str(symbol) == "v_C/C@2" else along
+
+    assert set() == wrong(FOUR_BAR, Slip())
+    assert {"omega_3", "omega_1", "v_F", "alpha_3"} <= wrong(FOUR_BAR, Slip(line=line))
+
+
+def test_links_that_drivers_hold_to_each_other_are_one_contour() -> None:
+    hinges = [Joint(("2", "4"), 134 + 157j, None, False), Joint(("4", "3"), 264 + 82j, None, False),
+              Joint(("3", "5"), 154 + 36j, None, False)]  # fmt: skip
+    driven, free = (Joint(("5", "2"), 103 + 37j, None, held) for held in (True, False))
+    assert [("2", "3", "4", "5")] == contours("2345", [*hinges, driven], [])
+    assert [] == contours("2345", [*hinges, free], [])
+    assert [("2", "3", "4", "5")] == contours("2345", [*hinges, free], [("3", "2")])
+
+
+def test_two_links_that_a_driver_holds_at_their_hinge_are_no_contour() -> None:
+    assert [] == contours("12", [Joint(("1", "2"), 10 + 5j, None, True)], [])
+
+
+def test_a_hinge_between_links_that_turn_alike_makes_them_one() -> None:
+    joints = [Joint(("1", "4"), 40 + 110j, None, False), Joint(("3", "4"), 0j, 1 + 1j, False)]
+    assert [("1", "4")] == contours("134", joints, [("1", "3")])
