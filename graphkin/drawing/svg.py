@@ -12,7 +12,7 @@ from base64 import b64encode
 from collections.abc import Callable
 from functools import cache, lru_cache, partial
 from html import escape
-from itertools import chain, count
+from itertools import count
 from typing import TYPE_CHECKING, Protocol
 from zlib import crc32
 
@@ -266,7 +266,7 @@ class _Ink:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
         named = {"class": " ".join(classes)} if classes else {}
         if id:
-            free = next(name for name in chain((id,), (f"{id}-{n}" for n in count(2))) if name not in self.ids)
+            free = id if id not in self.ids else next(n for k in count(2) if (n := f"{id}-{k}") not in self.ids)
             self.ids.add(free)
             named["id"] = free
         return named
@@ -335,23 +335,32 @@ def _written(page: _Page) -> str:
     out = [page.tostring().removesuffix(" />"), ">"]
 
     def write(element: _Element) -> None:
-        tag = element.elementname
-        looks = [pair for pair in sorted(element.attribs.items()) if pair[1]]
-        if _MARKUP.search("".join([value for _, value in looks])):
-            looks = [(key, _quoted(value)) for key, value in looks]
-        look = "".join([f' {key}="{value}"' for key, value in looks])
-        if not (element.elements or element.text):
-            out.append(f"<{tag}{look} />")
-            return
-        out.append(f"<{tag}{look}>{_escaped(element.text)}")
-        for child in element.elements:
-            write(child)
-        out.append(f"</{tag}>")
+        tag, attributes = element.elementname, element.attribs
+        if "" in attributes.values():
+            attributes = {key: value for key, value in attributes.items() if value}
+        if _MARKUP.search("".join(attributes.values())):
+            attributes = {key: _quoted(value) for key, value in attributes.items()}
+        opening = _opening(tag, tuple(attributes)) % attributes
+        if element.elements:
+            out.append(f"{opening}>{_escaped(element.text)}")
+            for child in element.elements:
+                write(child)
+            out.append(f"</{tag}>")
+        elif element.text:
+            out.append(f"{opening}>{_escaped(element.text)}</{tag}>")
+        else:
+            out.append(f"{opening} />")
 
     for child in children:
         write(child)
     page.elements = children
     return "".join([*out, "</svg>"])
+
+
+@cache
+def _opening(tag: str, names: tuple[str, ...]) -> str:
+    """How an element with these attributes begins, in the order of their names, a gap for each value."""
+    return f"<{tag}" + "".join(f' {name}="%({name})s"' for name in sorted(names))
 
 
 def _escaped(text: str) -> str:
