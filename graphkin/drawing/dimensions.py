@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -19,7 +19,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
 from graphkin.drawing.obstacles import Flags, Floats, Indices, Obstacles, Points, cross_product, meets
-from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Text, page_direction
+from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain
 
@@ -120,14 +120,52 @@ ON_LINE = 1e-9  # mm²: a smaller area with a line is rounding
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
 
+class _Choice(NamedTuple):
+    """One of the dimensions that may be taken: its extension lines, its other lines, its arcs, and the boxes of its
+    numbers and of its arrowheads."""
+
+    parts: Parts
+    extensions: list[Line]
+    lines: list[Line]
+    arcs: list[Arc]
+    numbers: list[Box]
+    heads: list[Box]
+
+    @classmethod
+    def of(cls, parts: Parts, extensions: int) -> _Choice:
+        made = cls(parts, [], [], [], [], [])
+        for part in parts:
+            if isinstance(part, Line):
+                (made.extensions if len(made.extensions) < extensions else made.lines).append(part)
+            elif isinstance(part, Polygon):
+                made.heads.append(Box.around(part.points))
+            elif isinstance(part, Text):
+                made.numbers.append(text_box(part))
+            else:
+                made.arcs.append(part)
+        return made
+
+    def courses(self) -> list[list[complex]]:
+        """Points of its arcs."""
+        return [[arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)] for arc in self.arcs]
+
+    def own(self) -> list[Segment]:
+        """Its lines, and the chords of its arcs."""
+        return [*((line.start, line.end) for line in self.lines), *(c for arc in self.courses() for c in pairwise(arc))]
+
+    def with_extensions(self, lines: Sequence[Line]) -> Parts:
+        """The dimension with other extension lines."""
+        return *lines, *(part for part in self.parts if not any(part is line for line in self.extensions))
+
+
 class _Fit(NamedTuple):
     """A dimension clear of what is drawn: its parts, its lines, the boxes of its numbers and of its arrowheads, and
     whether its extension lines run over other lines."""
 
     parts: Parts
-    lines: Points
-    numbers: tuple[Points, Points]
-    heads: tuple[Points, Points]
+    lines: list[Segment]
+    numbers: list[Box]
+    heads: list[Box]
     over: bool
 
 
@@ -136,12 +174,11 @@ class DimensionClearance:
 
     def __init__(self, obstacles: Obstacles, panel: Box | None) -> None:
         self.panel = panel
-        self.segments = np.array(obstacles.solid, dtype=complex).reshape(-1, 2)
-        self.dashed = np.array(obstacles.dashed, dtype=complex).reshape(-1, 2)
+        self.segments = _segments(obstacles.solid)
+        self.dashed = _segments(obstacles.dashed)
         self.areas = _arrays(obstacles.areas)
         self.numbers = _arrays(())  # of dimensions, over which nothing runs
         self.heads = _arrays(())  # arrowheads of dimensions, over which extension lines of others may run
-        self.taken = self.areas  # with all of these
         corners = [z for box in obstacles.areas for z in box.corners] + [z for s in obstacles.solid for z in s]
         self.content = Box.around(corners) if corners else Box(0, 0, 0, 0)
 
@@ -158,80 +195,85 @@ class DimensionClearance:
         (``crossing``), its number not.  The lines of a distance may run over lines and arrowheads, its own arrowheads
         end on lines, but none lies over a symbol of a point (``over_lines``).
         """
-        second = None
-        for parts in choices:
-            fit = self._fit(parts, extensions, ends_on_line, crossing, over_lines)
-            if fit is not None and (over or not fit.over):
-                return self._added(fit)
-            second = second or fit
-        return self._added(second) if second is not None else None
-
-    def _added(self, fit: _Fit) -> Parts:
-        self.segments = np.concatenate((self.segments, fit.lines))
-        self.areas, self.numbers = _joined(self.areas, fit.numbers), _joined(self.numbers, fit.numbers)
-        self.heads = _joined(self.heads, fit.heads)
-        self.taken = _joined(self.areas, self.heads)
-        return fit.parts
-
-    def _fit(
-        self, parts: Parts, extensions: int, ends_on_line: bool, crossing: bool, over_lines: bool
-    ) -> _Fit | None:
-        """The dimension with its extension lines trimmed, if it is clear of everything they may not run over."""
-        numbers = [text_box(part) for part in parts if isinstance(part, Text)]
-        heads = [Box.around(part.points) for part in parts if isinstance(part, Polygon)]
-        if self.panel is not None and not all(self.panel.holds(box) for box in (*numbers, *heads)):
+        fits = self._fits([_Choice.of(parts, extensions) for parts in choices], ends_on_line, crossing, over_lines)
+        first = next((fit for fit in fits if over or not fit.over), fits[0] if fits else None)
+        if first is None:
             return None
-        words, tips = _arrays(numbers), _arrays(heads)
-        if self._covered(*(words if ends_on_line or over_lines else _joined(words, tips))):
-            return None
-        lines = [part for part in parts if isinstance(part, Line)]
-        ends = [(line.start, line.end) for line in lines[extensions:]]
-        for arc in (part for part in parts if isinstance(part, Arc)):
-            course = [arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)]
-            if self.panel is not None and not self.panel.holds(Box.around(course).grown(0.5)):
-                return None
-            ends += pairwise(course)
-        own = _segments(ends)
+        self.segments = np.concatenate((self.segments, _segments(first.lines)))
+        numbers = _arrays(first.numbers)
+        self.areas, self.numbers = _joined(self.areas, numbers), _joined(self.numbers, numbers)
+        self.heads = _joined(self.heads, _arrays(first.heads))
+        return first.parts
+
+    def _fits(
+        self, choices: list[_Choice], ends_on_line: bool, crossing: bool, over_lines: bool
+    ) -> list[_Fit]:
+        """Those of some dimensions that are clear of everything they may not run over, with extension lines trimmed.
+
+        Each question is asked of all that are left at once.
+        """
+        if self.panel is not None:
+            choices = [one for one in choices if all(map(self.panel.holds, (*one.numbers, *one.heads)))]
+        boxes = [one.numbers if ends_on_line or over_lines else one.numbers + one.heads for one in choices]
+        choices = _left(choices, self._covered(boxes))
+        if self.panel is not None:
+            arcs = [[Box.around(course).grown(0.5) for course in one.courses()] for one in choices]
+            choices = [one for one, each in zip(choices, arcs, strict=True) if all(map(self.panel.holds, each))]
+        if over_lines:
+            choices = _left(choices, self._on_areas([one.heads for one in choices]))
+        if not choices:
+            return []
         middles, halves = self.areas
         large = np.hypot(halves.real, halves.imag) > ARROWHEAD if over_lines else slice(None)
         symbols = middles[large], halves[large]
-        if not crossing and _over(own, symbols, 0.4):
-            return None
-        if over_lines and self._on_areas(*tips):
-            return None
-        if not (crossing or over_lines) and len(_crossings(own, self.segments)[0]):
-            return None
-        if not crossing and _over(own, self.heads, 0.4):
-            return None
-        trimmed = self._trimmed(lines[:extensions])
+        if not crossing:
+            own = [one.own() for one in choices]
+            bad = _over(own, _joined(symbols, self.heads), 0.4)
+            choices = _left(choices, bad if over_lines else bad | self._crossed(own))
+        trimmed = self._trimmed([one.extensions for one in choices])
         if crossing:
-            trimmed = [kept or line for kept, line in zip(trimmed, lines, strict=False)]
-        shown = [line for line in trimmed if line is not None]
-        beyond = _segments([(line.start, line.end) for line in shown])
-        if not crossing and (len(shown) < extensions or _over(beyond, symbols, 0.4)):
-            return None
-        lines_of_it = np.concatenate((own, beyond))
-        if _over(lines_of_it, words, 0.0):
-            return None  # a number past the end of a short dimension stands on the next one
-        if crossing and _over(lines_of_it, self.numbers, 0.3):
-            return None
-        kept_parts = *shown, *(part for part in parts if not any(part is line for line in lines[:extensions]))
-        over = len(_crossings(beyond, self.segments)[0]) > 0 or _over(self.dashed, words, 0.3)
-        return _Fit(kept_parts, lines_of_it, words, tips, over)
+            whole = [one.extensions for one in choices]
+            shown = [[k or line for k, line in zip(*both, strict=True)] for both in zip(trimmed, whole, strict=True)]
+        else:
+            choices = _left(choices, np.array([None in lines for lines in trimmed], dtype=bool))
+            shown = [[line for line in lines if line is not None] for lines in trimmed if None not in lines]
+        beyond = [[(line.start, line.end) for line in lines] for lines in shown]
+        lines = [one.own() + further for one, further in zip(choices, beyond, strict=True)]
+        numbers = [one.numbers for one in choices]
+        bad = _over_own(lines, numbers)  # a number past the end of a short dimension stands on the next one
+        bad |= _over(lines, self.numbers, 0.3) if crossing else _over(beyond, symbols, 0.4)
+        over = self._crossed(beyond) | self._dashed_over(numbers)
+        return [
+            _Fit(one.with_extensions(own), ends, one.numbers, one.heads, runs_over)
+            for one, own, ends, no, runs_over in zip(choices, shown, lines, bad.tolist(), over.tolist(), strict=True)
+            if not no
+        ]
 
-    def _covered(self, middles: Points, halves: Points) -> bool:
-        """Whether boxes meet anything."""
-        grown = halves[:, None] + 0.5 * (1 + 1j)
-        return self._on_areas(middles, halves) or bool(meets(self.segments[None], middles[:, None], grown).any())
+    def _covered(self, boxes: Sequence[Sequence[Box]]) -> Flags:
+        """Which of some dimensions with these boxes stand on anything."""
+        middles, halves = _arrays([box for each in boxes for box in each])
+        on_lines = meets(self.segments[None], middles[:, None], halves[:, None] + 0.5 * (1 + 1j))
+        return self._on_areas(boxes) | _any(boxes, on_lines.nonzero()[0])
 
-    def _on_areas(self, middles: Points, halves: Points) -> bool:
-        """Whether boxes meet symbols, numbers or arrowheads."""
-        taken, sizes = self.taken
+    def _on_areas(self, boxes: Sequence[Sequence[Box]]) -> Flags:
+        """Which of some dimensions with these boxes stand on symbols, numbers or arrowheads."""
+        middles, halves = _arrays([box for each in boxes for box in each])
+        taken, sizes = _joined(self.areas, self.heads)
         off, reach = middles[:, None] - taken, halves[:, None] + 0.5 * (1 + 1j) + sizes
-        return bool(((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).any())
+        return _any(boxes, ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0])
 
-    def _trimmed(self, lines: Sequence[Line]) -> list[Line | None]:
+    def _crossed(self, lines: Sequence[Sequence[Segment]]) -> Flags:
+        """Which of some dimensions with these lines cross lines that are drawn."""
+        return _any(lines, _crossings(_segments([line for each in lines for line in each]), self.segments)[0])
+
+    def _dashed_over(self, numbers: Sequence[Sequence[Box]]) -> Flags:
+        """Over the numbers of which dimensions dashed lines run."""
+        middles, halves = _arrays([box for each in numbers for box in each])
+        return _any(numbers, meets(self.dashed[None], middles[:, None], halves[:, None] + 0.3 * (1 + 1j)).nonzero()[0])
+
+    def _trimmed(self, extensions: Sequence[Sequence[Line]]) -> list[list[Line | None]]:
         """Extension lines, each from where nothing of its own point is in its way; None where too little is left."""
+        lines = [line for each in extensions for line in each]
         lengths = [abs(line.end - line.start) for line in lines]
         ways = [(line.end - line.start) / length for line, length in zip(lines, lengths, strict=True)]
         near = _segments([(line.start, line.start + AROUND_POINT * way) for line, way in zip(lines, ways, strict=True)])
@@ -242,26 +284,49 @@ class DimensionClearance:
         # the symbols on the point end where the line leaves their boxes
         middles, reach = self.areas[0], self.areas[1] + 0.4 * (1 + 1j)
         which, what = meets(near[:, None], middles, reach).nonzero()
-        if len(which):
-            low, high = (middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist()
-            for i, corners in zip(which.tolist(), zip(low, high, strict=True), strict=True):
-                chord = Box.around(corners).clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
-                if chord is not None:
-                    starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
+        low, high = (middles[what] - reach[what]).tolist(), (middles[what] + reach[what]).tolist()
+        for i, corners in zip(which.tolist(), zip(low, high, strict=True), strict=True):
+            chord = Box.around(corners).clip(lines[i].start, lines[i].start + AROUND_POINT * ways[i])
+            if chord is not None:
+                starts[i] = max(starts[i], abs(chord[1] - lines[i].start) / AROUND_POINT)
         found: list[Line | None] = []
         for line, length, way, share in zip(lines, lengths, ways, starts, strict=True):
             start = AROUND_POINT * share + TRIM if share > 0 else 0.0
             kept = start < length - LEAST_EXTENSION
             found.append(replace(line, start=line.start + start * way) if kept else None)
-        return found
+        each_of = iter(found)
+        return [list(islice(each_of, len(each))) for each in extensions]
 
 
-def _over(segments: Points, boxes: tuple[Points, Points], space: float) -> bool:
-    """Whether any of some segments comes nearer to a box than a space (mm)."""
-    return bool(meets(segments[:, None], boxes[0], boxes[1] + space * (1 + 1j)).any())
+def _left(choices: Sequence[_Choice], bad: Flags) -> list[_Choice]:
+    return [one for one, no in zip(choices, bad.tolist(), strict=True) if not no]
 
 
-def _segments(ends: Sequence[tuple[complex, complex]]) -> Points:
+def _owners(things: Sequence[Sequence[object]]) -> Indices:
+    return np.repeat(np.arange(len(things)), [len(each) for each in things])
+
+
+def _any(things: Sequence[Sequence[object]], found: Indices) -> Flags:
+    """Which of some groups hold any of the things found, counted through all groups."""
+    some = np.zeros(len(things), dtype=bool)
+    some[_owners(things)[found]] = True
+    return some
+
+
+def _over(lines: Sequence[Sequence[Segment]], boxes: tuple[Points, Points], space: float) -> Flags:
+    """Of which groups of lines any comes nearer to a box than a space (mm)."""
+    own = _segments([line for each in lines for line in each])
+    return _any(lines, meets(own[:, None], boxes[0], boxes[1] + space * (1 + 1j)).nonzero()[0])
+
+
+def _over_own(lines: Sequence[Sequence[Segment]], boxes: Sequence[Sequence[Box]]) -> Flags:
+    """Which of some dimensions have a line that meets a box of their own."""
+    own = _segments([line for each in lines for line in each])
+    met = meets(own[:, None], *_arrays([box for each in boxes for box in each]))
+    return _any(lines, (met & (_owners(lines)[:, None] == _owners(boxes))).nonzero()[0])
+
+
+def _segments(ends: Sequence[Segment]) -> Points:
     return np.array(ends, dtype=complex).reshape(-1, 2)
 
 
