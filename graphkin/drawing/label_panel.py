@@ -46,7 +46,7 @@ CLEARANCE = 0.35  # between a label and any line or area, mm
 NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
-LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 10.0, 3.0
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 60.0, 3.0
 AREA_WEIGHT, THICK_WEIGHT = 25.0, 10.0  # of what a leader crosses, where a thin line counts 1
 FORBIDDEN = 1e5
 TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector

@@ -38,13 +38,14 @@ class LabelPosition(NamedTuple):
     def box(self) -> Box:
         return Box(self.left, self.top, self.right, self.bottom)
 
-    def meets(self, other: LabelPosition, space: float) -> bool:
-        """Whether two labels come nearer than a space (mm), or one's leader crosses the other or its leader."""
+    def meets(self, other: LabelPosition, space: complex) -> bool:
+        """Whether two labels come nearer than a space (mm, across and down), or one's leader crosses the other or its
+        leader."""
         if (
-            self.left - space < other.right
-            and other.left < self.right + space
-            and self.top - space < other.bottom
-            and other.top < self.bottom + space
+            self.left - space.real < other.right
+            and other.left < self.right + space.real
+            and self.top - space.imag < other.bottom
+            and other.top < self.bottom + space.imag
         ):
             return True
         if self.leader is None and other.leader is None:
@@ -146,9 +147,9 @@ class HeldPositions:
         del self.standing[label]
         self.leaders.pop(label, None)
 
-    def met(self, places: LabelPositions, space: float) -> Flags:
+    def met(self, places: LabelPositions, space: complex) -> Flags:
         """Which of some places (rows) meet the positions of which labels (columns), as `LabelPosition.meets` says."""
-        room = self.halves + places.half + complex(space, space)
+        room = self.halves + places.half + space
         over: Flags = np.abs(places.centres.real[:, None] - self.middles.real) < room.real
         over &= np.abs(places.centres.imag[:, None] - self.middles.imag) < room.imag
         theirs = np.array(list(self.leaders), dtype=np.intp)
@@ -172,7 +173,7 @@ class HeldPositions:
                 over[own[i[hit]], theirs[j[hit]]] = True
         return over
 
-    def first_free(self, places: LabelPositions, count: int, space: float) -> int | None:
+    def first_free(self, places: LabelPositions, count: int, space: complex) -> int | None:
         """The index of the cheapest of the first ``count`` places that meets no label; None where all do."""
         others = tuple(self.standing.values())
         for k in range(min(count, FEW)):

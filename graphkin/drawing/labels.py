@@ -31,7 +31,7 @@ _STAGES = (0, 2, 5, len(RINGS))
 # What a label is worth by its rank: so much more must others be worth together before it gives way to them.
 _WORTH = (12, 5, 4, 3, 2, 1)
 _DRIVES = 4  # how often labels may drive out others, for each label
-_SPACE = 0.9  # between two labels, mm
+_SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
 _TRIED = 40  # places tried to get round a vector
 _LOOKED_AT = 120  # places of a label that is to make room
 # Pushes for one label; what each costs the pushed one, more each time; what it costs to drop one that may be missing.

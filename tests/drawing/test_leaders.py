@@ -9,6 +9,9 @@ import pytest
 import shapely
 
 from graphkin import draw
+from graphkin.drawing import Text
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.primitives import walk
 
 SVG = "{http://www.w3.org/2000/svg}"
 drawn = cache(draw)
@@ -64,6 +67,16 @@ def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
         assert number == "".join(texts[id].itertext())
         assert "".join(entry.itertext()).startswith(number)
         assert len("".join(entry.itertext())) > len(number)
+
+
+@pytest.mark.parametrize(("scene", "figure", "one", "other"), [
+    ("slotter-75-150", "sheet", "label-velocity-C", "label-direction-17"),
+    ("sixbar-guide-40deg", "velocity", "label-velocity-D", "label-direction-15"),
+])  # fmt: skip
+def test_letters_on_one_line_do_not_run_together(scene, figure, one, other):
+    texts = {thing.id: thing for thing in walk(drawn(scene).figures[figure].children) if isinstance(thing, Text)}
+    a, b = text_box(texts[one]), text_box(texts[other])
+    assert max(a.left - b.right, b.left - a.right) >= 1.7 or max(a.top - b.bottom, b.top - a.bottom) >= 0.9
 
 
 def test_the_letter_of_a_small_foot_stands_in_its_inset_alone():
