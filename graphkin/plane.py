@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any, TypeAlias, overload
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Points = NDArray[np.complex128]
+    Floats = NDArray[np.float64]
 
 __all__ = ["Values", "cross", "cross_arcs", "cross_line_arc", "cross_lines", "degrees", "direction", "dot", "unit"]
 
@@ -14,6 +21,8 @@ Values: TypeAlias = Any
 @overload
 def dot(a: complex, b: complex) -> float: ...
 @overload
+def dot(a: Points, b: Points) -> Floats: ...
+@overload
 def dot(a: Values, b: Values) -> Values: ...
 def dot(a: Values, b: Values) -> Values:
     """Scalar product of two plane vectors: complex numbers, arrays of them, or formulas."""
@@ -22,6 +31,8 @@ def dot(a: Values, b: Values) -> Values:
 
 @overload
 def cross(a: complex, b: complex) -> float: ...
+@overload
+def cross(a: Points, b: Points) -> Floats: ...
 @overload
 def cross(a: Values, b: Values) -> Values: ...
 def cross(a: Values, b: Values) -> Values:

@@ -21,6 +21,7 @@ from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.words import Phrase, languages, say
+from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -131,7 +132,7 @@ class CamMade:
                 name = "rad" + per[order - 1]
             else:
                 value, name = value / units.metres, units.length + per[order - 1]
-            found.append(Phrase(f"cam {key}", (f"{value:.6g}".replace("-", "−"), name, _degree(most))))
+            found.append(Phrase(f"cam {key}", (true_minus(f"{value:.6g}"), name, _degree(most))))
         return found
 
     def sentences(self, language: str) -> list[str]:

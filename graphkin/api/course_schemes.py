@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -20,7 +19,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.prepare import positions
 from graphkin.papers.variants import asked_of
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
 
@@ -68,7 +67,7 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
             lesson = Lesson(sheet, compare(sheet, read_off(sheet), exact, asked), {}, "en", "chinese", asked)
             places[place] = read_at(place, value, lesson, asked)
         except Unsolvable:
-            places[place] = PlaceValues(place, _in_unit(scene, value))
+            places[place] = PlaceValues(place, scene.in_file_units(scene.drivers[0], value))
     return Scheme(name, scene, drivers, places)
 
 
@@ -80,7 +79,7 @@ def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -
         row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
         for row in rows
     }
-    return PlaceValues(place, _in_unit(lesson.sheet.scene, value), read, exact)
+    return PlaceValues(place, lesson.sheet.scene.in_file_units(lesson.sheet.scene.drivers[0], value), read, exact)
 
 
 def scheme_name(course: Mapping[str, Scheme], who: Student) -> str:
@@ -148,7 +147,3 @@ def tabled(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbo
         return kept
     drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))
     return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))
-
-
-def _in_unit(scene: Mechanism, value: float) -> float:
-    return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres

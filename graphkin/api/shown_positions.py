@@ -139,7 +139,7 @@ def _least(
     inner = group.inner
     assert isinstance(inner, Turn)
     pose = sheet.poses[inner.a]
-    at = pose.origin + pose.axis * (structure.links[inner.a].points[inner.point] / sheet.scales.length)
+    at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
     first, second = _ways(structure, joint, best)
     return sheet, gamma(best), (at, -first, -second)
 
@@ -147,7 +147,7 @@ def _least(
 def _ways(structure: Structure, joint: TransmissionAngle, one: Turned) -> tuple[complex, complex]:
     def of(spot: tuple[str, complex]) -> complex:
         pose = one.poses[spot[0]]
-        return pose.origin + pose.axis * (spot[1] / structure.scene.size)
+        return pose.place(spot[1] / structure.scene.size)
 
     first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
     return first, second * (1j if joint.square else 1.0)

@@ -19,21 +19,15 @@ from graphkin.drawing.synthesis import asked_words, construction_picture, step_w
 from graphkin.papers.blocks import Said, said
 from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task
 from graphkin.papers.paper import Paper
+from graphkin.papers.problem import labelled
 from graphkin.scene.cams import SwingingFollower
 from graphkin.words import languages, say, word
+from graphkin.words.written import in_markup
 
 __all__ = ["cam_papers", "design_papers", "write_design_papers"]
 
 def _each(language: str, text: Callable[[str], str]) -> Said:
     return tuple((each, text(each)) for each in languages(language))
-
-
-def _plain(text: str) -> str:
-    return text.replace("$", "$$")
-
-
-def _line(key: str, text: str, language: str) -> str:
-    return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 
 def _accepted(value: float, deviation: float, least: float = 0.0) -> str:
@@ -57,9 +51,9 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
         results.append(TaskResult(name, unit, number(row.measured), number(row.exact), within))
     find = ", ".join(result.name for result in results)
     task = DrawnTask(
-        title=_each(language, lambda each: _plain(given.title_in(each) or given.name)),
+        title=_each(language, lambda each: in_markup(given.title_in(each) or given.name)),
         given=(_each(language, lambda each: asked_words(given, each)),
-               _each(language, lambda each: _line("find", find, each))),
+               _each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
         whole=(construction_picture(given, sheet, language),),
         captions=(said("design figure", language),),
@@ -91,14 +85,14 @@ def _notes(designed: Designed, language: str) -> list[Said]:
     made: list[Said] = []
     told = "; ".join(f"{one.what}: {number(one.found)}" for one in designed.confirmed if math.isfinite(one.found))
     if told:
-        made.append(_each(language, lambda each: _line("confirmed", told, each)))
+        made.append(_each(language, lambda each: labelled("confirmed", told, each)))
     spoken = {each: designed.sentences(each) for each in languages(language)}
     return [*made, *_by_sentence(spoken)]
 
 
 def _by_sentence(spoken: Mapping[str, Sequence[str]]) -> list[Said]:
     """Sentences of each language, put together one by one."""
-    told = ([(each, _plain(text)) for text in texts] for each, texts in spoken.items())
+    told = ([(each, in_markup(text)) for text in texts] for each, texts in spoken.items())
     return [tuple(pairs) for pairs in zip(*told, strict=True)]
 
 
@@ -123,9 +117,9 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     spoken = {each: made.sentences(each) for each in languages(language)}
     notes = tuple(_by_sentence(spoken))
     task = DrawnTask(
-        title=_each(language, lambda each: _plain(scene.title_in(each) or scene.name)),
+        title=_each(language, lambda each: in_markup(scene.title_in(each) or scene.name)),
         given=(_each(language, lambda each: cam_given(scene, cam, each)),
-               _each(language, lambda each: _line("find", word("cam find", each), each))),
+               _each(language, lambda each: labelled("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
         whole=cam_pictures(scene, sheet, language),
         captions=(said("cam diagram", language), said("cam figure", language)),

@@ -25,7 +25,7 @@ from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import figure_svg, words_html
 from graphkin.papers.speaker import Speaker
-from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import parsed
 from graphkin.scene.written import resolved
 from graphkin.solver import Motion
@@ -33,6 +33,7 @@ from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.reach import driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
+from graphkin.words.written import in_markup
 
 __all__ = ["Message", "Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
 
@@ -190,7 +191,7 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
     answer: dict[str, Json] = {
         "figures": _figures(drawn),
         "points": _points(motion),
-        "at": {d.key: _own(scene, d, float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
+        "at": {d.key: scene.in_file_units(d, float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
         "scales": [drawn.plan.scales.length, drawn.plan.scales.velocity, drawn.plan.scales.acceleration],
         "perMm": drawn.plan.scales.length / scene.units.metres,
         "limit": said,
@@ -250,7 +251,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) ->
     return {
         "figures": figures if said or not rest else figures | _figures(drawn_at(*others)[0]),
         "points": {p: {"x": z.real, "y": z.imag, "pull": pulls.get(p, "")} for p, z in points.items()},
-        "at": {d.key: _own(scene, d, float(sheet.drivers[d.key])) for d in scene.drivers},
+        "at": {d.key: scene.in_file_units(d, float(sheet.drivers[d.key])) for d in scene.drivers},
         "scales": [sheet.scales.length, sheet.scales.velocity, sheet.scales.acceleration],
         "perMm": unit,
         "limit": said,
@@ -289,10 +290,6 @@ def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
     return {key: min(max(wanted, found.low + inside), found.high - inside)}
 
 
-def _own(scene: Mechanism, driver: AngleDriver | SlideDriver, value: float) -> float:
-    return float(np.degrees(value)) if isinstance(driver, AngleDriver) else value / scene.units.metres
-
-
 def _figures(drawn: Drawn) -> dict[str, str]:
     """The figures as elements of the page, which has their letters; a figure that cannot be drawn says why."""
     found = {}
@@ -300,7 +297,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
         try:
             made = FIGURES[name].make(drawn)
         except GraphkinError as error:
-            found[name] = f"<p>{words_html(str(error).replace('$', '$$'))}</p>"
+            found[name] = f"<p>{words_html(in_markup(str(error)))}</p>"
             continue
         if made is not None:
             found[name] = figure_svg(made, named=True)

@@ -20,7 +20,7 @@ def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]
     for slide in sheet.structure.slides:
         if {slide.a, slide.b} <= set(sheet.poses):
             guide = sheet.poses[slide.b]
-            start = guide.origin + guide.axis * (slide.guide.through / sheet.scales.length)
+            start = guide.place(slide.guide.through / sheet.scales.length)
             along = guide.axis * slide.guide.direction
             travels[slide.key] = dot(sheet.poses[slide.a].origin - start, along) * sheet.scales.length
     return axes, travels

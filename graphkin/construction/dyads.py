@@ -114,7 +114,7 @@ def _rrp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     p, local = hinge(frame, one, outer)
     letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
     start, step = rail(frame, two, slide)
-    q0 = start.origin + start.axis * inner2
+    q0 = start.place(inner2)
     radius = frame.instrument.compass(abs(inner1 - local))
     if radius == 0.0:
         return Meeting(0.0, 0.0, (), _nothing)
@@ -181,7 +181,7 @@ def _prp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     assert isinstance(slide2, Slide)
     letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
     (start1, step1), (start2, step2) = rail(frame, one, slide1), rail(frame, two, slide2)
-    q1, q2 = start1.origin + start1.axis * inner1, start2.origin + start2.axis * inner2
+    q1, q2 = start1.place(inner1), start2.place(inner2)
 
     def placed(q: complex) -> dict[str, Pose]:
         moved1 = Pose(start1.origin + (q - q1), start1.axis)

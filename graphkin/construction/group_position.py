@@ -22,7 +22,7 @@ from graphkin.construction.follow import drawn_near, fitted
 from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions, TrialTable
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
-from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rigid import PlacedLinks, Poses, apart
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
@@ -140,7 +140,7 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
             )
         else:
             meeting = meet(board, element)
-            best = min(range(len(meeting.poses)), key=lambda k: _off(meeting.poses[k], poses), default=None)
+            best = min(range(len(meeting.poses)), key=lambda k: apart(meeting.poses[k], poses), default=None)
             told_here = meeting.tell(best) if best is not None else ()
         story += told_here
         for name in links_of(element):
@@ -153,10 +153,6 @@ def _started(frame: PlacedLinks, driver: AnyDriver) -> RollingStarts:
     if isinstance(driver, AngleDriver):
         return RollingStarts(driver.link, "angle", cmath.phase(frame.poses[driver.link].axis))
     return RollingStarts(driver.key, "travel", driver.values[0] * frame.mm)
-
-
-def _off(one: Poses, other: Poses) -> float:
-    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
 def _trial_drawings(
@@ -264,7 +260,7 @@ def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> compl
         return free - _at(drawn, drawn.poses, *removed.ends[1]) + _at(drawn, poses, *removed.ends[1])
     base = removed.other_side
     was, lies = drawn.poses[base], poses[base]
-    return lies.origin + lies.axis * ((free - was.origin) / was.axis)
+    return lies.place((free - was.origin) / was.axis)
 
 
 def _at(frame: PlacedLinks, poses: Poses, point: str, link: str) -> complex:

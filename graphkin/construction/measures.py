@@ -103,7 +103,7 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
 def _travel(slide: Slide, poses: Poses, mm: float) -> float:
     """From the guide's origin to the sliding link's own, along the guide's sense (mm of paper)."""
     guide = poses[slide.b]
-    start = guide.origin + guide.axis * (slide.guide.through * mm)
+    start = guide.place(slide.guide.through * mm)
     return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
 
 
@@ -112,7 +112,7 @@ def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
 
     def of(spot: tuple[str, complex]) -> complex:
         pose = sheet.poses[spot[0]]
-        return pose.origin + pose.axis * (spot[1] / sheet.scales.length)
+        return pose.place(spot[1] / sheet.scales.length)
 
     first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
     return first, second * (1j if joint.square else 1.0)

@@ -21,7 +21,7 @@ from graphkin.construction.net import contacts_of
 from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.position import branches_at
-from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rigid import PlacedLinks, apart
 from graphkin.construction.sheet import DIAGRAMS, DiagramName, Extent, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Aid, Vector
@@ -277,7 +277,7 @@ def _by_trial(
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
             found = meet(frame, element).poses
-            branches[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], poses))  # type: ignore[misc]
+            branches[i] = min(range(len(found)), key=lambda k, found=found: apart(found[k], poses))  # type: ignore[misc]
         elif isinstance(element, Cluster):
             given = at_start and bool(element.rolling)
             at_hand = standing(there, element, frame, poses) if given else best_reduced(choices, element, frame, poses)
@@ -290,10 +290,6 @@ def _by_trial(
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
     rolled = {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
     return branches, trials, starts | rolled
-
-
-def _off(one: Poses, other: Poses) -> float:
-    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 
 def _known(sheet: Sheet) -> Known:

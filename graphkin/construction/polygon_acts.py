@@ -10,7 +10,7 @@ from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
-from graphkin.words.written import amount, on_paper
+from graphkin.words.written import amount, on_paper, true_minus
 
 __all__ = [
     "Asked",
@@ -314,7 +314,7 @@ def polygon_phrase(act: InPolygon) -> Phrase:
                 return Phrase("trial polygon at rest", (number, assumed[0][0]))
             return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
         case Superposed(found, closing, apart, ways, _, _):
-            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            rows = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart))
             open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
             return Phrase("superposed", (open_at, rows, *_assumed(found)))
         case SeenFrom(held, links, order):
@@ -342,7 +342,7 @@ def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
     (first, value), *rest = rates
     units = {"omega": " rad/s", "alpha": " rad/s²"}
     more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)
-    return first, f"{amount(value, 5)}{units.get(first.kind, '')}{more}".replace("-", "−")
+    return first, true_minus(f"{amount(value, 5)}{units.get(first.kind, '')}{more}")
 
 
 def _on_plan(act: OnPlan) -> Phrase:
@@ -351,13 +351,13 @@ def _on_plan(act: OnPlan) -> Phrase:
         case PlanDrawn(rate, link, by, known, mm, per_mm, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             if known:
-                told = amount(value, 4).replace("-", "−")
+                told = true_minus(amount(value, 4))
                 return Phrase(f"plan line {rate}", (link, by[0], told, "−" * (value < 0.0) + on_paper(mm)))
             read = on_paper(mm), amount(per_mm, 6), amount(abs(value), 4)
             return Phrase(f"plan line {rate} {turning}", (link, *by, *read))
         case PlanTravel(_, slide, mm):
             return Phrase("plan travel", (slide, on_paper(mm)))
         case PlanTried(_, links, _, apart, found):
-            rows = "; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart).replace("-", "−")
+            rows = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart))
             rates = ", ".join(f"{letter}_{{{n}}} = {amount(v, 5)}" for n, v in zip(links, found, strict=True))
-            return Phrase("plan tried", (", ".join(f"{letter}_{{{n}}}" for n in links), rows, rates.replace("-", "−")))
+            return Phrase("plan tried", (", ".join(f"{letter}_{{{n}}}" for n in links), rows, true_minus(rates)))

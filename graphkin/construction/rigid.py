@@ -16,6 +16,12 @@ __all__ = ["LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge",
 
 
 Poses = Mapping[str, Pose]
+
+
+def apart(one: Poses, other: Poses) -> float:
+    """How far links lie from where others of the same names do, on paper (mm, and direction by direction)."""
+    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+
 SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 
@@ -46,8 +52,7 @@ class PlacedLinks:
 
     def place(self, link: str, local: complex) -> complex:
         """A place given in a link's own axes (m), on paper."""
-        pose = self.poses[link]
-        return pose.origin + pose.axis * (local * self.mm)
+        return self.poses[link].place(local * self.mm)
 
     def point(self, link: str, point: str) -> complex:
         if point in self.pricked:
@@ -102,7 +107,7 @@ class RigidBody:
             if isinstance(weld.pair, Turn):
                 turned = (weld.driver.link == weld.b) if isinstance(weld.driver, AngleDriver) else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
-                hinge = base.origin + base.axis * self._local(weld.a, weld.pair.point)
+                hinge = base.place(self._local(weld.a, weld.pair.point))
                 self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
             else:
                 self.rel[weld.b] = across(weld.pair, weld.b, base, value * frame.mm, frame.mm)
@@ -112,14 +117,14 @@ class RigidBody:
 
     def point(self, link: str, point: str) -> complex:
         pose = self.rel[link]
-        return pose.origin + pose.axis * self._local(link, point)
+        return pose.place(self._local(link, point))
 
     def placed(self, base: Pose) -> dict[str, Pose]:
         """Its links, its base link lying so."""
         if not self.body.welds:
             return {self.body.links[0]: Pose(base.origin, unit(base.axis))}
         return {
-            name: Pose(base.origin + base.axis * rel.origin, unit(base.axis * rel.axis))
+            name: Pose(base.place(rel.origin), unit(base.axis * rel.axis))
             for name, rel in self.rel.items()
         }
 
@@ -133,7 +138,7 @@ def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Po
     """Pose of one side of a sliding pair from the other and the travel (mm)."""
     g, start = slide.guide.direction, slide.guide.through * mm
     if link == slide.a:
-        return Pose(other.origin + other.axis * (start + travel * g), other.axis * g * slide.turn)
+        return Pose(other.place(start + travel * g), other.axis * g * slide.turn)
     axis = other.axis * (g * slide.turn).conjugate()
     return Pose(other.origin - axis * (start + travel * g), axis)
 

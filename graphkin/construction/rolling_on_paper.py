@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.position import choose, start_board
-from graphkin.construction.rigid import PlacedLinks, Poses
+from graphkin.construction.rigid import PlacedLinks, Poses, apart
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
@@ -65,7 +65,7 @@ def _placed(
                 wanted = "choose a driver value that the motion reaches"
                 raise Unsolvable("not assembled", Problem(
                     f"links {', '.join(element.links)}", "their loci do not meet on the way to this position", wanted))
-            chosen[i] = min(range(len(found)), key=lambda k, found=found: _off(found[k], before))  # type: ignore[misc]
+            chosen[i] = min(range(len(found)), key=lambda k, found=found: apart(found[k], before))  # type: ignore[misc]
             frame.poses.update(found[chosen[i]])
         elif isinstance(element, Driven):
             if isinstance(element.driver, Rolled):
@@ -84,7 +84,3 @@ def _placed(
 def _with(frame: PlacedLinks, key: str, value: float) -> PlacedLinks:
     frame.values = {**frame.values, key: value}
     return frame
-
-
-def _off(one: Poses, other: Poses) -> float:
-    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())

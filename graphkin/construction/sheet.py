@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DIAGRAMS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits", "Pose", "Rate",
-    "Scales", "Sheet", "Step", "Term", "fitting_scale",
+    "Scales", "Sheet", "Step", "Term", "fitting_scale", "next_of_series",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
@@ -139,6 +139,10 @@ class Pose:
 
     origin: complex
     axis: complex
+
+    def place(self, own: complex) -> complex:
+        """A place on paper (mm), given in the link's own axes (mm)."""
+        return self.origin + self.axis * own
 
     def scaled(self, times: float) -> Pose:
         """The same place on a larger figure."""
@@ -288,6 +292,17 @@ class Sheet:
 SERIES = (1.0, 2.0, 2.5, 5.0)
 
 
+def next_of_series(least: float) -> float:
+    """The next number of the series 1, 2, 2.5, 5 times a power of ten, in which scales and divisions are chosen.
+
+    >>> next_of_series(0.21), next_of_series(60.0), next_of_series(2.0)
+    (0.25, 100.0, 2.0)
+    """
+    decade = 10.0 ** math.floor(math.log10(least))
+    fit = (step * decade for step in (*SERIES, 10.0) if step * decade >= least * (1 - 1e-9))
+    return float(f"{next(fit, 10.0 * decade):.12g}")
+
+
 @dataclass(frozen=True)
 class Extent:
     """Width and height of what a figure shows (m, m/s, m/s2)."""
@@ -310,8 +325,4 @@ def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> fl
     least = max(extent.width / room[0], extent.height / room[1]) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
-    decade = 10.0 ** math.floor(math.log10(least))
-    for step in (*SERIES, 10.0):
-        if step * decade >= least * (1 - 1e-12):
-            return float(f"{step * decade:.12g}")
-    return 10.0 * decade
+    return next_of_series(least)

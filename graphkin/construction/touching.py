@@ -44,8 +44,7 @@ class Touching:
 
     def place(self, link: str, local: complex) -> complex:
         """A place given in a link's own axes (m), on paper (mm)."""
-        pose = self.poses[link]
-        return pose.origin + pose.axis * (local * self.mm)
+        return self.poses[link].place(local * self.mm)
 
     def contacts(self) -> Iterator[PlacedContact]:
         """The contacts both of whose links stand on paper."""

@@ -24,12 +24,12 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper
-from graphkin.drawing.obstacles import cross_product
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.drawing.touching import replacing_links
+from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
 
@@ -92,7 +92,7 @@ def _free(
 
     places = np.array([a + (b - a) * (0.1 + 0.01 * k) for k in range(81)])
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
-    near += [np.abs(cross_product(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
+    near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
     room = np.minimum.reduce([np.full(81, 9.0), *near]).tolist()
     off = np.abs(places - (a + b) / 2).tolist()
     # of two places that are alike the first: rounding, so that the last bit does not choose

@@ -18,6 +18,7 @@ from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.written import true_minus
 
 __all__ = [
     "Letters", "as_vector", "force_letters", "in_counting_order", "letters_of", "pole", "rows_of", "scale_statement",
@@ -244,7 +245,7 @@ def _number(value: float) -> str:
     text = f"{value:.10g}"
     if "e" in text:
         head, power = text.split("e")
-        return f"{head}·$10^{{{str(int(power)).replace('-', '−')}}}$"
+        return f"{head}·$10^{{{true_minus(str(int(power)))}}}$"
     return text
 
 

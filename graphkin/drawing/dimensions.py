@@ -18,10 +18,11 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
-from graphkin.drawing.obstacles import Flags, Floats, Indices, Obstacles, Points, cross_product, meets
+from graphkin.drawing.obstacles import Flags, Floats, Indices, Obstacles, Points, meets
 from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain
+from graphkin.plane import cross
 
 __all__ = [
     "GAP", "LEAST_EXTENSION", "OVERRUN", "DimensionClearance", "Part", "Parts", "angle_dimension", "check_bar",
@@ -350,12 +351,12 @@ def _crossings(own: Points, others: Points) -> tuple[Indices, Floats]:
     p, d = own[:, None, 0], own[:, None, 1] - own[:, None, 0]
     q, e = others[None, :, 0], others[None, :, 1] - others[None, :, 0]
     away = q - p
-    crossing = _either_side(cross_product(d, away), cross_product(d, q + e - p))
-    crossing &= _either_side(cross_product(e, -away), cross_product(e, p + d - q))
+    crossing = _either_side(cross(d, away), cross(d, q + e - p))
+    crossing &= _either_side(cross(e, -away), cross(e, p + d - q))
     which, what = crossing.nonzero()
     if not len(which):
         return which, np.empty(0)
-    turn = cross_product(d[which, 0], e[0, what])
+    turn = cross(d[which, 0], e[0, what])
     along = np.abs(turn) < ON_LINE  # on one line: no place of their own
-    share = cross_product(q[0, what] - p[which, 0], e[0, what]) / np.where(along, 1.0, turn)
+    share = cross(q[0, what] - p[which, 0], e[0, what]) / np.where(along, 1.0, turn)
     return which, np.where(along, 0.0, share)

@@ -3,15 +3,12 @@ direction, and the lines that close it."""
 
 from __future__ import annotations
 
-import cmath
-import math
-
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceTerm, ForceVector, MomentEquation
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, force_letters
 from graphkin.drawing.headings import written
 from graphkin.words import Phrase, say
-from graphkin.words.written import amount, on_paper, to_lay_off
+from graphkin.words.written import amount, on_paper, pointing, to_lay_off
 
 __all__ = ["arm_lines", "closed_by", "corners", "laid_lines", "laid_off"]
 
@@ -61,7 +58,7 @@ def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Let
         value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
         lines.append(
             f"{_ends(group, v)}{_name(v, letters)} = {written(value)} {units.force} ÷ {scale} {units.force}/mm = "
-            f"{written(length)} mm,  {_degrees(v.span)}°"
+            f"{written(length)} mm,  {pointing(v.span)}°"
         )
     return lines
 
@@ -121,8 +118,3 @@ def _way(group: ForceGroup, vector: ForceVector, letters: Letters, frame: str) -
 
 def _name(vector: ForceVector, letters: Letters) -> str:
     return f"${force_letters(letters.convention, vector.symbol, vector.part)}$"
-
-
-def _degrees(span: complex) -> str:
-    return f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")
-

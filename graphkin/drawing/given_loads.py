@@ -104,7 +104,7 @@ def springs(here: MechanismOnPaper) -> Piece:
         if not {*one.links} <= {*here.sheet.poses}:
             continue
         poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
-        a, b = (pose.origin + pose.axis * at for pose, at in poses)
+        a, b = (pose.place(at) for pose, at in poses)
         drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",)))
         text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",))
         names.append(Label(text, (page(a), page(b)), rank=1))

@@ -21,7 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, listed, say, word
-from graphkin.words.written import amount, on_paper, product
+from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
 
 __all__ = [
     "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "once", "punctuation",
@@ -96,7 +96,7 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
         for d in scene.drivers
     )
     found = (scene.title_in(each) or scene.name for each in languages(language))
-    return tuple(dict.fromkeys(_plain(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
+    return tuple(dict.fromkeys(in_markup(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
 
 
 def dimensions_in(sheet: Sheet, language: str) -> str:
@@ -119,7 +119,7 @@ def number(value: float, digits: int = 6) -> str:
 
 def written(plain: str) -> str:
     """A number of `graphkin.words.written` for people: powers of ten as such, a true minus sign."""
-    head, _, power = plain.replace("-", "−").partition("e")
+    head, _, power = true_minus(plain).partition("e")
     return f"{head}·$10^{{{power}}}$" if power else head
 
 
@@ -202,10 +202,6 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     }
 
 
-def _plain(text: str) -> str:
-    return text.replace("$", "$$")
-
-
 def spoken_ref(ref: PointRef, language: str) -> str:
     """A point in words: "B of link 3"."""
     return " / ".join(_ref(ref, each) for each in languages(language))
@@ -272,7 +268,7 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
             return f"${letters.vector(Symbol.parse(str(thing)))}$"
         except ValueError:
             text = str(thing)
-            return f"${letters.point(text)}$" if text in sheet.scene.holders else text.replace("$", "$$")
+            return f"${letters.point(text)}$" if text in sheet.scene.holders else in_markup(text)
 
     said = (say(n, language, written) for n in notes)
     return [_capital(text).rstrip("。.") + word("full stop", language) for text in said]
@@ -311,7 +307,7 @@ def _vectors(sheet: Sheet, diagram: DiagramName, language: str) -> list[str]:
             continue
         angle = math.degrees(math.atan2(vector.span.imag, vector.span.real))
         size = on_paper(abs(vector.span))
-        values = (words, product(size, amount(per_mm, 12)), unit, size, f"{angle:.1f}".replace("-", "−"))
+        values = (words, product(size, amount(per_mm, 12)), unit, size, true_minus(f"{angle:.1f}"))
         said.append(say(Phrase("vector is", values), language))
     return said
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.sheet import Sheet, next_of_series
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
@@ -92,8 +92,7 @@ def _scale(blocks: Iterable[LoopBlock]) -> float:
     for loop in (one for block in blocks for one in block.loops):
         box = Box.around(_corners(loop, 1.0))
         least = max(least, box.width / (PANEL[0] - 1.5 * ROOM), box.height / (1.6 * PANEL[1] - 2 * ROOM))
-    decade = 10.0 ** math.floor(math.log10(least))
-    return next(float(f"{step * decade:.12g}") for step in (1.0, 2.0, 2.5, 5.0, 10.0) if step * decade >= least)
+    return next_of_series(least)
 
 
 def _corners(loop: LoopValue, scale: float) -> list[complex]:

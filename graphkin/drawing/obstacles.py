@@ -30,9 +30,10 @@ from graphkin.drawing.primitives import (
     page_direction,
     walk,
 )
+from graphkin.plane import cross
 
 __all__ = [
-    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "cross_product", "crosses", "free_boxes", "meets",
+    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "crosses", "free_boxes", "meets",
     "near", "obstacles_of", "separated", "sides", "sides_around",
 ]  # fmt: skip
 
@@ -129,11 +130,6 @@ def _size(polygon: Polygon) -> float:
     return max(box.width, box.height)
 
 
-def cross_product(a: Points, b: Points) -> Floats:
-    """Of plane vectors as complex numbers or arrays."""
-    return a.real * b.imag - a.imag * b.real
-
-
 def sides(low: Points, high: Points) -> Sides:
     """Of boxes with these corners."""
     return low.real.copy(), low.imag.copy(), high.real.copy(), high.imag.copy()
@@ -168,7 +164,7 @@ def separated(centres: Points, half: Points | complex, start: Points, end: Point
     """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
     caller's to check."""
     along = end - start
-    distance = np.abs(cross_product(along, centres - start))
+    distance = np.abs(cross(along, centres - start))
     return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
 
 
@@ -184,15 +180,15 @@ def meets(segments: Points, centres: Points, half: Points) -> Flags:
 
 def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
     """Whether lines from a to b cross lines from c to d between their ends."""
-    apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
-    across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
+    apart = cross(b - a, c - a) * cross(b - a, d - a)
+    across = cross(d - c, a - c) * cross(d - c, b - c)
     return (apart < 0) & (across < 0)
 
 
 def touches(a: Points, b: Points, c: Points, d: Points) -> Flags:
     """As `crosses`, or one ends on the other."""
-    apart = cross_product(b - a, c - a) * cross_product(b - a, d - a)
-    across = cross_product(d - c, a - c) * cross_product(d - c, b - c)
+    apart = cross(b - a, c - a) * cross(b - a, d - a)
+    across = cross(d - c, a - c) * cross(d - c, b - c)
     return (apart <= ON_LINE) & (across <= ON_LINE)
 
 

@@ -12,6 +12,7 @@ from graphkin.drawing.headings import term, titles
 from graphkin.drawing.primitives import Group, Primitive, Run, Text, walk
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
+from graphkin.words.written import in_markup
 
 __all__ = [
     "FOOT",
@@ -34,7 +35,7 @@ INDENT = 8.0
 
 def heading(title: str, given: str) -> list[Primitive]:
     """The title, and below it what is given, from the upper margin on."""
-    head: list[tuple[Run, ...]] = [rich(title.replace("$", "$$"), 4.0, bold=True)]
+    head: list[tuple[Run, ...]] = [rich(in_markup(title), 4.0, bold=True)]
     head += wrapped(given, 3.2, WIDTH - 2 * MARGIN)
     return [Text(complex(MARGIN, MARGIN + 3.5 + 5.0 * i), runs, classes=("heading",)) for i, runs in enumerate(head)]
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.construction.as_seen import vectors_seen
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import SERIES, DiagramName, Sheet, Step
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
@@ -24,7 +24,6 @@ ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 FAR = 60.0  # mm: construction further outside than this is cut off
 SMALL = 2.0  # mm: shorter vectors are drawn again larger
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
-SERIES = (1.0, 2.0, 2.5, 5.0)
 SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
 

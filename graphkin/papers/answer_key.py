@@ -18,7 +18,7 @@ from graphkin.papers.problem import paper_title, reach, scene_title
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.words import languages, word
-from graphkin.words.written import LEAST, amount
+from graphkin.words.written import LEAST, amount, true_minus
 
 __all__ = [
     "KeyRow", "answer_key", "answers_template", "key_rows", "key_table", "length_on_paper", "unsigned", "way",
@@ -149,6 +149,6 @@ def way(row: Compared, language: str) -> str:
         return ""
     if row.symbol.is_vector:
         angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
-        return f"{180.0 if angle == -180.0 else angle:.1f}°".replace("-", "−")
+        return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}°")
     key = "counter-clockwise" if value.real > 0 else "clockwise"
     return " ".join(word(key, each) for each in languages(language))

@@ -34,6 +34,7 @@ from graphkin.papers.problem import given, paper_title, scene_title
 from graphkin.papers.solution import solution_blocks
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, word
+from graphkin.words.written import in_markup
 
 __all__ = ["ClassRow", "CourseDesign", "PlaceValues", "Student", "class_document", "on_paper", "report"]
 
@@ -123,7 +124,7 @@ def report(made: CourseDesign) -> Document:
     for key, pictures in figures:
         blocks += _headed(key, pictures, language)
     drawn = said("course drawn", language)
-    place = said("course position", language, _plain(made.student.place)) if made.student.place else ()
+    place = said("course position", language, in_markup(made.student.place)) if made.student.place else ()
     blocks.append(Heading(_joined(drawn, place or said("course place", language, made.place_words))))
     blocks += [_lower(block) for block in solution_blocks(lesson)]
     blocks.append(
@@ -156,7 +157,7 @@ def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Sym
             keys.append(key)
             cells = [(*before, own or "–") for before, own in zip(cells, found, strict=True)]
     heads = tuple(said(key, language) for key in keys)
-    plain = [tuple(cell.replace("$", "$$") for cell in line) for line in cells]
+    plain = [tuple(in_markup(cell) for cell in line) for line in cells]
     tables = _value_tables(lesson, heads, plain, [row.values for row in rows], asked, unit)
     blocks: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
@@ -189,21 +190,17 @@ def _cover(made: CourseDesign) -> Iterable[Block]:
     for key, blank, text in (("course student", "name of student", student.name),
                              ("course id", "class of student", student.id)):  # fmt: skip
         if text:
-            yield Paragraph(said(key, language, _plain(text)))
+            yield Paragraph(said(key, language, in_markup(text)))
         else:
             blanks.append(blank)
     if student.scheme:
-        yield Paragraph(said("course scheme", language, _plain(student.scheme)))
+        yield Paragraph(said("course scheme", language, in_markup(student.scheme)))
     if student.place:
-        yield Paragraph(said("course position", language, _plain(student.place)))
+        yield Paragraph(said("course position", language, in_markup(student.place)))
     yield Paragraph(said("course place", language, made.place_words))
     yield Fields(tuple(said(key, language) for key in (*blanks, "course teacher", "date")))
     layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
     yield Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
-
-
-def _plain(text: str) -> str:
-    return text.replace("$", "$$")
 
 
 def _letters(head: str) -> str:
@@ -214,8 +211,8 @@ def _letters(head: str) -> str:
     """
     found = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
     if found is None:
-        return _plain(head)
-    return f"${found[1]}_{{{found[2] or found[3]}}}${_plain(head[found.end():])}"
+        return in_markup(head)
+    return f"${found[1]}_{{{found[2] or found[3]}}}${in_markup(head[found.end():])}"
 
 
 def _data(made: CourseDesign) -> Iterable[TableBlock]:
@@ -227,7 +224,7 @@ def _data(made: CourseDesign) -> Iterable[TableBlock]:
         yield TableBlock(
             tuple((("en", _letters(head)),) if i else said("course scheme head", made.lesson.language)
                   for i, head in enumerate((heads[0], *heads[part]))),
-            tuple(tuple(map(_plain, (row[0], *row[part]))) for row in rows),
+            tuple(tuple(map(in_markup, (row[0], *row[part]))) for row in rows),
             "l" + "r" * len(heads[part]), own,
         )  # fmt: skip
 

@@ -18,15 +18,14 @@ from itertools import pairwise
 from typing import Any
 
 from graphkin.files import OwnTables, Tables
-from graphkin.papers.vary_rules import asked_now, free_of_rules, ruled, ruled_keys
+from graphkin.papers.vary_rules import asked_now, free_of_rules, round_step, ruled, ruled_keys
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.file_keys import KeyPath, put_at, value_at
 from graphkin.scene.model import Mechanism
 
-__all__ = ["Spread", "candidate", "round_step", "varied_keys"]
+__all__ = ["Spread", "candidate", "varied_keys"]
 
-STEPS = (1.0, 2.0, 5.0)
 SHY = 0.12  # part of its reach that a driver keeps off both ends
 
 
@@ -45,17 +44,6 @@ class Spread:
     def narrower(self) -> Spread:
         """For mechanisms that do not assemble with lengths much unlike their own."""
         return replace(self, lengths=0.4 * self.lengths, places=0.4 * self.places)
-
-
-def round_step(value: float) -> float:
-    """The step of the 1-2-5 series that is about a sixtieth of a value, so that its multiples look round beside it.
-
-    >>> round_step(580), round_step(90), round_step(0.34)
-    (5.0, 1.0, 0.005)
-    """
-    least = abs(value) / 60.0
-    decade = 10.0 ** math.floor(math.log10(least))
-    return max(s * decade for s in STEPS if s * decade <= least * (1 + 1e-9))
 
 
 def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:

@@ -19,7 +19,7 @@ from graphkin.drawing.headings import number
 from graphkin.drawing.sums import divisions
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
-from graphkin.words.written import on_paper
+from graphkin.words.written import on_paper, true_minus
 
 __all__ = ["divided", "laid_off_by_rate", "tried", "tried_in_positions"]
 
@@ -74,11 +74,7 @@ def _value(value: float, unit: str) -> str:
 
 def _two(value: float) -> str:
     """With two digits behind the point, without the sign of a nought."""
-    return _signed(f"{round(value, 2) + 0.0:.2f}")
-
-
-def _signed(text: str) -> str:
-    return text.replace("-", "−")
+    return true_minus(f"{round(value, 2) + 0.0:.2f}")
 
 
 def tried(sheet: Sheet, step: Step, act: TrialDrawn) -> Phrase:
@@ -105,9 +101,9 @@ def divided(sheet: Sheet, step: Step, act: Superposed, lettered: Lettered) -> Ph
     """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
     opened = [_opened(step, act, i, lettered) for i in range(len(act.ways))]
     where = listed(opened)
-    rows = "; ".join(
+    rows = true_minus("; ".join(
         f"{_numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(act.apart, 1)
-    ).replace("-", "−") + " mm"  # fmt: skip
+    )) + " mm"  # fmt: skip
     found = _rates(sheet, act.found)
     sums = divisions(sheet, step, act)
     if len(sums) > 1:
@@ -128,7 +124,7 @@ def _opened(step: Step, act: Superposed, i: int, lettered: Lettered) -> Phrase:
         told = Phrase(f"open {across} guide", (a, b, "".join(way.names)))
     for one in (one for one in act.less[i] if abs(one.mm) >= SEEN):
         rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
-        told = Phrase("open less", (told, rule, _signed(on_paper(one.mm))))
+        told = Phrase("open less", (told, rule, true_minus(on_paper(one.mm))))
     return told
 
 
@@ -167,7 +163,7 @@ def laid_off_by_rate(sheet: Sheet, step: Step, act: ByRate, lettered: Lettered) 
 
 
 def _square(ends: tuple[str, str], span: complex) -> tuple[Phrase, complex]:
-    angle = _signed(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
+    angle = true_minus(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
     return Phrase("pointing", (Direction("square", ends), angle)), span
 
 
@@ -179,5 +175,5 @@ def _rates(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> object:
     """Rates with their units, in a list."""
     length = sheet.scene.units.rates.length
     units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{length}/s", "ar": f"{length}/s²"}
-    told = [Phrase("rate is", (s, _signed(number(value, 5)), units[s.kind])) for s, value in found]
+    told = [Phrase("rate is", (s, true_minus(number(value, 5)), units[s.kind])) for s, value in found]
     return listed(told)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -35,7 +34,7 @@ from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
-from graphkin.words.written import on_paper
+from graphkin.words.written import on_paper, pointing
 
 __all__ = ["LetteredSteps", "Markup"]
 
@@ -249,13 +248,9 @@ def _way(direction: Direction, span: complex) -> Direction | Phrase:
     """A direction with its sense, where that does not lie in its name."""
     if direction.relation == "towards":
         return direction
-    angle = _degrees(span)
+    angle = pointing(span)
     return Phrase("pointing", (direction, angle)) if direction.names else Phrase("pointing only", (angle,))
 
 
 def _joined(*letters: Markup | None) -> Markup:
     return Markup("".join(letter for letter in letters if letter))
-
-
-def _degrees(span: complex) -> str:
-    return f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")

@@ -29,7 +29,7 @@ from graphkin.papers.group_steps import tried_in_positions
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase
-from graphkin.words.written import on_paper
+from graphkin.words.written import on_paper, true_minus
 
 __all__ = ["PositionSteps"]
 
@@ -50,7 +50,7 @@ class PositionSteps:
             return self._fixed(act)
         if isinstance(act, LaidOffAngle):
             key = "lay off angle from link" if act.to else "lay off angle from x"
-            return Phrase(key, (act.link, _signed(f"{math.degrees(act.angle):.6g}"), act.hinge, act.to))
+            return Phrase(key, (act.link, true_minus(f"{math.degrees(act.angle):.6g}"), act.hinge, act.to))
         if isinstance(act, LinkPoints):
             return self._link(step, act)
         if isinstance(act, TrialPositions):
@@ -221,7 +221,7 @@ def _in_turn(one: Phrase, other: Phrase) -> Phrase:
 
 
 def _coordinates(z: complex) -> tuple[str, str]:
-    return _signed(on_paper(_clean(z.real))), _signed(on_paper(_clean(z.imag)))
+    return true_minus(on_paper(_clean(z.real))), true_minus(on_paper(_clean(z.imag)))
 
 
 def _clean(mm: float) -> float:
@@ -229,8 +229,4 @@ def _clean(mm: float) -> float:
 
 
 def _degrees(angle: float) -> str:
-    return _signed(number(round(angle, 2) + 0.0))
-
-
-def _signed(text: str) -> str:
-    return text.replace("-", "−")
+    return true_minus(number(round(angle, 2) + 0.0))

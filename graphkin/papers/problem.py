@@ -48,8 +48,9 @@ from graphkin.papers.pictures import (
 )
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
+from graphkin.words.written import in_markup
 
-__all__ = ["equation_words", "given", "paper_title", "problem", "reach", "scene_title"]
+__all__ = ["equation_words", "given", "labelled", "paper_title", "problem", "reach", "scene_title"]
 
 BOUND = "\u00a0"  # between a number and its unit no line ends
 RPM = 30.0 / math.pi
@@ -227,7 +228,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if guides:
         yield Paragraph(
             tuple(
-                (each, _line("guides", "; ".join(_guide(lesson, g, each) for g in guides), each))
+                (each, labelled("guides", "; ".join(_guide(lesson, g, each) for g in guides), each))
                 for each in languages(lesson.language)
             )
         )
@@ -246,7 +247,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))
     yield from reach(lesson)
     names = languages(lesson.language)
-    own = {each: scene.source_in(each).replace("$", "$$") for each in names}
+    own = {each: in_markup(scene.source_in(each)) for each in names}
     if len(set(own.values())) > 1:
         told = ((each, word("source", each) + word("colon", each) + text) for each, text in own.items() if text)
         yield Paragraph(tuple(told), small=True)
@@ -295,12 +296,13 @@ def _labelled(lesson: Lesson, key: str, items: Sequence[str], between: str) -> S
     names = languages(lesson.language)
     text = word(between, names[0]).join(items)
     if len(names) == 1:
-        return ((names[0], _line(key, text, names[0])),)
+        return ((names[0], labelled(key, text, names[0])),)
     label = " ".join(word(key, each) for each in names) + word("colon", names[0])
     return spoken(label + " " * (not label.endswith(" ")) + text + word("full stop", names[0]), lesson.language)
 
 
-def _line(key: str, text: str, language: str) -> str:
+def labelled(key: str, text: str, language: str) -> str:
+    """A text behind a word of the table and a colon, as a sentence."""
     return word(key, language) + word("colon", language) + text + word("full stop", language)
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Iterator, Mapping
 
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
@@ -15,6 +13,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 from graphkin.words import Phrase, languages, word
+from graphkin.words.written import pointing
 
 __all__ = ["reasons"]
 
@@ -158,7 +157,7 @@ def _coriolis(lesson: Lesson, term: Term) -> Iterator[Phrase]:
     if rate is None or not rate.value:
         return
     way = "counter-clockwise" if rate.value > 0 else "clockwise"
-    angles = [f"{math.degrees(cmath.phase(v.span)) + 0.0:.1f}".replace("-", "−") for v in (slip, drawn)]
+    angles = [pointing(v.span) for v in (slip, drawn)]
     first = next(s for s in sheet.vectors("acceleration") if s.kind == "ak")
     key = f"coriolis {'rule' if first == symbol else 'sense'} {way}"
     yield Phrase(key, (slip.symbol, guide.b, angles[0], angles[1], symbol))

@@ -4,7 +4,6 @@ step.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
@@ -13,7 +12,7 @@ from typing import Literal, TypeAlias
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
 from graphkin.construction.polygon_acts import OnPlan
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sheet import DiagramName, Scales, Sheet, next_of_series
 from graphkin.drawing.box import Box
 from graphkin.drawing.cam import cam_pictures, scaled_cam
 from graphkin.drawing.centre_marks import centre_marks, near_box
@@ -38,7 +37,6 @@ from graphkin.papers.lesson import Lesson, Stage, force_found, found_in, plain_w
 from graphkin.papers.pictures import ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import equation_words, given
 from graphkin.papers.solution import results_blocks, stage_title, step_items
-from graphkin.scene.model import AngleDriver
 from graphkin.words import languages
 
 __all__ = ["POSITIONS", "Progress", "View", "common_scales", "positions_data"]
@@ -47,7 +45,6 @@ Progress = Callable[[int, int], None]  # positions done, and all of them
 POSITIONS = 12
 MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
 WIDE = 96.0  # mm of the sketch of a group, its polygon below
-SERIES = (1.0, 2.0, 2.5, 5.0)
 POLYGONS: tuple[DiagramName, ...] = ("velocity", "acceleration")
 LISTED = ("figures", "steps")
 FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
@@ -90,8 +87,7 @@ def _coarser(scale: float, factor: float) -> float:
     """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
     if factor <= 1.0:
         return scale
-    power = 10.0 ** math.floor(math.log10(scale * factor))
-    return next(s * power for s in (*SERIES, 10.0) if s * power >= scale * factor * (1 - 1e-9))
+    return next_of_series(scale * factor)
 
 
 def positions_data(views: Sequence[View], progress: Progress | None = None) -> dict[str, object]:
@@ -299,8 +295,7 @@ def _caption(told: Said) -> str:
 def _at(sheet: Sheet) -> float:
     """The value of the first driver: degrees, or travel in scene units."""
     driver = sheet.scene.drivers[0]
-    value = sheet.drivers[driver.key]
-    return round(math.degrees(value) if isinstance(driver, AngleDriver) else value / sheet.scene.units.metres, 3)
+    return round(sheet.scene.in_file_units(driver, sheet.drivers[driver.key]), 3)
 
 
 def _title(lesson: Lesson, figure: FigureName) -> str:

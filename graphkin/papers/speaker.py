@@ -6,8 +6,6 @@ the same in every language.
 
 from __future__ import annotations
 
-import cmath
-import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -25,7 +23,7 @@ from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
-from graphkin.words.written import MOST, on_paper
+from graphkin.words.written import MOST, in_markup, on_paper, pointing
 
 __all__ = ["Speaker"]
 
@@ -79,7 +77,7 @@ class Speaker:
         names = text.split(", ")
         if all(map(_POINT_NAMES.fullmatch, names)):
             return ", ".join(self._marked(self.bar(name)) for name in names)
-        return text.replace("$", "$$")
+        return in_markup(text)
 
     def _marked(self, markup: str) -> str:
         return f"{_OPEN}{markup}{_CLOSE}"
@@ -127,7 +125,7 @@ class Speaker:
         spans = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
         for said, span in zip(by_rates(sheet, step, act, self.letters), filter(None, spans), strict=True):
             length = abs(span) / sheet.scales.of(step.diagram)
-            angle = f"{math.degrees(cmath.phase(span)) + 0.0:.1f}".replace("-", "−")
+            angle = pointing(span)
             yield said
             yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm,  {angle}°"
 

@@ -14,9 +14,8 @@ from graphkin.construction import Sheet, execute
 from graphkin.construction.strokes import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
-from graphkin.papers.fresh_numbers import round_step
 from graphkin.papers.paper import paper_plan
-from graphkin.papers.vary_rules import LEVELS, Bounds
+from graphkin.papers.vary_rules import LEVELS, Bounds, round_step
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Follower, Mechanism

@@ -11,8 +11,12 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
 from graphkin.scene.file_keys import KeyPath, path_of_key, put_at, value_at
 
-__all__ = ["LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "ruled", "ruled_keys", "rules_checked"]
+__all__ = [
+    "LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "round_step", "ruled", "ruled_keys", "rules_checked",
+]  # fmt: skip
 
+
+STEPS = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True)
@@ -105,9 +109,9 @@ def ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping
         path = _path_of_number(source, key)
         size = max(abs(low), abs(high), 1e-9)
         whole = "teeth" in path
-        step = 1.0 if whole else step_of.get(str(path[-1]), _round_step(size))
+        step = 1.0 if whole else step_of.get(str(path[-1]), round_step(size))
         if high - low < 2 * step and not whole:
-            step = _round_step(max(high - low, 1e-9)) * 10
+            step = round_step(max(high - low, 1e-9)) * 10
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
         value = dice.randint(first, last) * step if first <= last else low
         value = min(max(value, low), high)
@@ -128,6 +132,12 @@ def asked_now(source: Tables, dice: random.Random) -> list[str]:
     return [symbol for i, symbol in enumerate(pool) if i in taken]
 
 
-def _round_step(value: float) -> float:
-    decade = 10.0 ** math.floor(math.log10(abs(value) / 60.0))
-    return max(s * decade for s in (1.0, 2.0, 5.0) if s * decade <= abs(value) / 60.0 * (1 + 1e-9))
+def round_step(value: float) -> float:
+    """The step of the 1-2-5 series that is about a sixtieth of a value, so that its multiples look round beside it.
+
+    >>> round_step(580), round_step(90), round_step(0.34)
+    (5.0, 1.0, 0.005)
+    """
+    least = abs(value) / 60.0
+    decade = 10.0 ** math.floor(math.log10(least))
+    return max(s * decade for s in STEPS if s * decade <= least * (1 + 1e-9))

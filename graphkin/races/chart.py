@@ -13,6 +13,7 @@ from graphkin.races.run import Race
 from graphkin.races.timing import Entry
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say, word
+from graphkin.words.written import in_markup
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -64,8 +65,8 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
         add_words(
             figure,
             Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
-            Text(complex(LEFT - 12, 19.0), rich(name.replace("$", "$$"), 3.5)),
-            *_lines([facts.replace("$", "$$")], 24.0, LETTERS, 3.3),
+            Text(complex(LEFT - 12, 19.0), rich(in_markup(name), 3.5)),
+            *_lines([in_markup(facts)], 24.0, LETTERS, 3.3),
             *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
         )
         for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):

@@ -30,7 +30,7 @@ def _shelf() -> Traversable:
 
 def designs() -> tuple[str, ...]:
     """Names of the design files that come along, sorted."""
-    return tuple(sorted(f.name.removesuffix(".toml") for f in _shelf().iterdir() if f.name.endswith(".toml")))
+    return scenes.files_named(_shelf())
 
 
 def is_design(source: object) -> bool:

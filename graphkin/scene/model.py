@@ -353,6 +353,10 @@ class Mechanism:
         here = (own for own in self.stated if own.at is None)
         return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
 
+    def in_file_units(self, driver: AnyDriver, value: float) -> float:
+        """A value of a driver (rad, m) as a file gives it: in degrees, or in the scene's unit of length."""
+        return math.degrees(value) if isinstance(driver, AngleDriver) else value / self.units.metres
+
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
         return self.title_zh if language == "zh" and self.title_zh else self.title

@@ -19,6 +19,7 @@ from graphkin.scene.written import Scene, resolved
 __all__ = [
     "SceneLike",
     "file_text",
+    "files_named",
     "library",
     "library_text",
     "mechanism_of",
@@ -35,13 +36,18 @@ LARGEST_FILE = 1_000_000
 _AT_LINE = re.compile(r"^(.*?)\s*\(at (?:line (\d+), column (\d+)|(end of document))\)$", re.DOTALL)
 
 
+def files_named(folder: Traversable) -> tuple[str, ...]:
+    """Names of the TOML files of a folder without their ending, sorted."""
+    return tuple(sorted(f.name.removesuffix(".toml") for f in folder.iterdir() if f.name.endswith(".toml")))
+
+
 def _shelf() -> Traversable:
     return files("graphkin.scene") / "library"
 
 
 def library() -> tuple[str, ...]:
     """Names of the scenes that come along, sorted."""
-    return tuple(sorted(f.name.removesuffix(".toml") for f in _shelf().iterdir() if f.name.endswith(".toml")))
+    return files_named(_shelf())
 
 
 def library_text(name: str) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from graphkin.construction.sheet import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.labels import Label, place
@@ -21,9 +22,7 @@ from graphkin.study.driver_axis import (
     RIGHT,
     WIDTH,
     DriverAxis,
-    driver_number,
     heading,
-    next_step,
     number,
     title_of,
 )
@@ -70,9 +69,9 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     places = {p: complex(here.position(p)[0]) for p in scene.holders}
     world = Box.around([*path[np.isfinite(path)].tolist(), *places.values()])
     width, height, need = min(((w, h, _need(world, w, h)) for w, h in ((WIDTH, HEIGHT), (HEIGHT, WIDTH))),
-                              key=lambda page: next_step(page[2]))
+                              key=lambda page: next_of_series(page[2]))
     panel = _curve_panel(width, height)
-    mm = 1e3 / next_step(need)  # of paper for one metre
+    mm = 1e3 / next_of_series(need)  # of paper for one metre
     middle = world.centre
 
     def page(z: complex) -> complex:
@@ -82,7 +81,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     skeleton = _skeleton(turn, places, page)
     dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
     axis_unit = "°" if isinstance(reach.driver, AngleDriver) else ""
-    numbers = [driver_number(scene, float(reach.value(t))) for t in ticks]
+    numbers = [scene.in_file_units(scene.drivers[0], float(reach.value(t))) for t in ticks]
     numbers = [round(n, 9) + 0.0 for n in numbers]
     if reach.full:
         numbers = [n % (360 * reach.turns) for n in numbers]

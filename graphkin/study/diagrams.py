@@ -28,7 +28,6 @@ from graphkin.study.driver_axis import (
     WIDTH,
     DriverAxis,
     driver_axis,
-    driver_number,
     heading,
     number,
     title_of,
@@ -38,6 +37,7 @@ from graphkin.study.force_diagrams import force_page, polar_page
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
+from graphkin.words.written import in_markup
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -129,7 +129,7 @@ def _motion_page(
     tall = (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
 
     def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title.replace("$", "$$"), facts, language))
+        add_words(figure, *heading(scene, in_markup(title), facts, language))
         entries = signs_of(panels, language)
         if limits:
             entries.append((look(LIMIT), word("limit marks", language)))
@@ -211,7 +211,8 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     assert low is not None
     assert high is not None
     driver = "deg" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
-    places = [_with_unit(driver_number(scene, e.driver), driver) for e in sorted((low, high), key=lambda e: e.driver)]
+    both = sorted(scene.in_file_units(scene.drivers[0], e.driver) for e in (low, high))
+    places = [_with_unit(value, driver) for value in both]
     facts.append(say(Phrase("limits at", (", ".join(places),)), language))
     return facts
 

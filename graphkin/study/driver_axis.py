@@ -10,13 +10,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.sheet import SERIES
+from graphkin.construction.sheet import next_of_series
 from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver import DriverRange, Motion
 from graphkin.words import Phrase, say
+from graphkin.words.written import in_markup, true_minus
 
 __all__ = [
     "HEIGHT",
@@ -25,9 +26,7 @@ __all__ = [
     "WIDTH",
     "DriverAxis",
     "driver_axis",
-    "driver_number",
     "heading",
-    "next_step",
     "number",
     "title_of",
 ]
@@ -43,7 +42,7 @@ BESIDE = 1e-3
 
 def title_of(scene: Mechanism, language: str) -> str:
     """The scene's title as markup."""
-    return scene.title_in(language).replace("$", "$$")
+    return in_markup(scene.title_in(language))
 
 
 def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
@@ -57,22 +56,7 @@ def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -
 
 def number(value: float, digits: int = 5) -> str:
     """A number to so many digits, with a minus sign."""
-    return f"{value:.{digits}g}".replace("-", "−")
-
-
-def driver_number(scene: Mechanism, value: float) -> float:
-    """A value of the first driver in degrees or in the scene's unit."""
-    return math.degrees(value) if isinstance(scene.drivers[0], AngleDriver) else value / scene.units.metres
-
-
-def next_step(least: float) -> float:
-    """The next number of the series 1, 2, 2.5, 5 times a power of ten.
-
-    >>> next_step(0.21), next_step(60)
-    (0.25, 100.0)
-    """
-    power = 10.0 ** math.floor(math.log10(least))
-    return next(m * power for m in (*SERIES, 10.0) if m * power >= least * (1 - 1e-9))
+    return true_minus(f"{value:.{digits}g}")
 
 
 @dataclass(frozen=True)
@@ -148,8 +132,8 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     if reach.full:
         low, high = 0.0, 360.0 * reach.turns
     else:
-        low, high = sorted(driver_number(scene, float(reach.value(np.array(e)))) for e in reach.ends)
-    step = degree_step(high - low) if angle else next_step((high - low) / 12)
+        low, high = sorted(scene.in_file_units(scene.drivers[0], float(reach.value(np.array(e)))) for e in reach.ends)
+    step = degree_step(high - low) if angle else next_of_series((high - low) / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)
     return DriverAxis(reach, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))

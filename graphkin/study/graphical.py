@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
+from graphkin.construction.sheet import next_of_series
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion
-from graphkin.study.driver_axis import next_step
 from graphkin.study.quantities import Measure
 from graphkin.table import Column, Table
 
@@ -259,7 +259,7 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     values = _drawn(reach, given, at)
     if given.measure == "angle":
         values = np.unwrap(values)
-    per_y = next_step(float(np.max(np.abs(values), initial=1e-300)) / TALL / _per(given.measure, scene))
+    per_y = next_of_series(float(np.max(np.abs(values), initial=1e-300)) / TALL / _per(given.measure, scene))
     per_y *= _per(given.measure, scene)
     y = values / per_y
     widths = np.diff(x)

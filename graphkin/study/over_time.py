@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.construction.sheet import next_of_series
 from graphkin.drawing import Box, ChartPage
 from graphkin.drawing.chart import add_legend, add_panel, add_words
 from graphkin.files import Json
@@ -18,7 +19,7 @@ from graphkin.scene.over_time import time_span
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
 from graphkin.study.diagram_panels import MARGIN, DiagramPanel, draw_panel, quantity_title, signs_of
-from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, heading, next_step, number, title_of
+from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, heading, number, title_of
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.trace import Extreme
 from graphkin.study.turn import output_links, output_slides
@@ -99,7 +100,7 @@ class TimeStudy:
     def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
         panels = [self._panel(q) for q in quantities]
         low, high = time_span(self.scene)
-        axis = _TimeAxis(low, high, next_step((high - low) / 12))
+        axis = _TimeAxis(low, high, next_of_series((high - low) / 12))
         subject = quantities[0]
         key = {"theta": "motion of link", "s": "motion of slide"}.get(subject.kind, "diagram of")
         shown = quantity_title(self.scene, subject) if key == "diagram of" else subject.of.split("/")[0]

@@ -170,8 +170,8 @@ def row(turn: TurnStudy) -> dict[str, float | str | None]:
     degrees = isinstance(turn.reach.driver, AngleDriver)
     low, high = turn.ranges[0].low, turn.ranges[0].high
     unit = "deg" if degrees else length
-    cells[f"range_low ({unit})"] = _shown(scene, low)
-    cells[f"range_high ({unit})"] = _shown(scene, high)
+    cells[f"range_low ({unit})"] = scene.in_file_units(scene.drivers[0], low)
+    cells[f"range_high ({unit})"] = scene.in_file_units(scene.drivers[0], high)
     for output in turn.outputs:
         quantity, stroke = output.quantity, output.stroke
         name = quantity.of
@@ -184,8 +184,3 @@ def row(turn: TurnStudy) -> dict[str, float | str | None]:
         cells[f"least_transmission_{name} (deg)"] = least.angle * 57.29577951308232
     cells["mechanisms"] = "; ".join(loop.name for loop in turn.loops)
     return cells
-
-
-def _shown(scene: Mechanism, value: float) -> float:
-    first = scene.drivers[0]
-    return value * 57.29577951308232 if isinstance(first, AngleDriver) else value / scene.units.metres

@@ -6,11 +6,13 @@ what is written, so that whoever does the sum gets the same.
 
 from __future__ import annotations
 
+import cmath
+import math
 from decimal import Decimal, localcontext
 
 __all__ = [
-    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "increased", "is_quotient", "on_paper", "product",
-    "quotient", "to_lay_off",
+    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "in_markup", "increased", "is_quotient", "on_paper",
+    "pointing", "product", "quotient", "to_lay_off", "true_minus",
 ]  # fmt: skip
 
 MOST = 5  # figures of a computed number
@@ -110,6 +112,29 @@ def amount(value: float, carried: int = 6) -> str:
     ('0.3', '333333', '120')
     """
     return _plain(Decimal(f"{value:.{carried}g}"))
+
+
+def true_minus(text: str) -> str:
+    """Numbers with the minus sign of print in place of the hyphen of a keyboard.
+
+    >>> true_minus("-2.5")
+    '−2.5'
+    """
+    return text.replace("-", "−")
+
+
+def pointing(span: complex) -> str:
+    """The direction of a vector in degrees, to a tenth.
+
+    >>> pointing(2j), pointing(1 - 1j)
+    ('90.0', '−45.0')
+    """
+    return true_minus(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
+
+
+def in_markup(text: str) -> str:
+    """A text that stands in markup as it is: a dollar sign of its own begins no symbol."""
+    return text.replace("$", "$$")
 
 
 def _number(text: str) -> Decimal:

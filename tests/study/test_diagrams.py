@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from graphkin.construction.sheet import next_of_series
 from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import walk
@@ -16,7 +17,6 @@ from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.coupler import coupler_points
 from graphkin.study.diagrams import diagrams, measured
-from graphkin.study.driver_axis import next_step
 from graphkin.study.quantities import link_quantities, slide_quantities
 from graphkin.study.turn import TurnStudy, study_turn
 from tests import scenes
@@ -178,7 +178,7 @@ def test_a_change_point_at_the_end_of_the_axis_is_a_gap_in_the_curve_only(angle:
 
 @pytest.mark.parametrize(("least", "step"), [(0.2, 0.2), (0.21, 0.25), (0.3, 0.5), (60, 100)])
 def test_steps_are_of_the_series(least: float, step: float) -> None:
-    assert next_step(least) == pytest.approx(step)
+    assert next_of_series(least) == pytest.approx(step)
 
 
 def test_a_constant_has_an_axis() -> None:

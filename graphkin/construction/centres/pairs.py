@@ -152,8 +152,7 @@ class Links:
 
     def place(self, link: str, local: complex) -> complex:
         """A place given in a link's own axes (m), on paper (mm)."""
-        pose = self.poses[link]
-        return pose.origin + pose.axis * (local * self.mm)
+        return self.poses[link].place(local * self.mm)
 
     def point(self, name: str) -> complex:
         """A pin or a point of any link, or the point of a contact, on paper (mm)."""

@@ -14,7 +14,7 @@ from graphkin.construction.centres.speeds import SURE, Turning, by_centres, erro
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, written
-from graphkin.words.written import MOST, amount, on_paper
+from graphkin.words.written import MOST, amount, on_paper, true_minus
 
 __all__ = ["points_asked", "velocity_sentences"]
 
@@ -135,7 +135,7 @@ def _of_sliding(
     return Phrase(
         "centre sliding",
         (
-            symbol, pinned, guiding, centre.pair, PointRef(point), *(r.replace("-", "−") for r in (rates[0], *shown)),
+            symbol, pinned, guiding, centre.pair, PointRef(point), *(true_minus(r) for r in (rates[0], *shown)),
             length, f"{per_mm} {units.length}/mm",
             f"{written.product(apart, length, per_mm, carried=min(carried, written.figures(length)))} {units.length}/s",
         ),
@@ -167,7 +167,7 @@ def _of_link(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> 
     far, near = abs(common.point - its.point), abs(common.point - own.point)
     same = dot(its.point - common.point, own.point - common.point) >= 0.0
     key = "centre same sense" if same else "centre opposite sense"
-    omega = rates[name].written.replace("-", "−")
+    omega = true_minus(rates[name].written)
     return Phrase(key, (name, known, *pairs, _apart(far), _apart(near), omega))
 
 

@@ -29,7 +29,7 @@ class Images:
     def place(self, link: str, at: complex) -> complex:
         """A place of a link's own axes (m), on paper (mm)."""
         pose = self.sheet.poses[link]
-        return pose.origin + pose.axis * (at * self.mm)
+        return pose.place(at * self.mm)
 
     def point(self, link: str, point: str) -> complex:
         """A point of a link, where it was pricked (mm)."""

@@ -22,6 +22,7 @@ from graphkin.drawing.chart import (
 from graphkin.drawing.text import rich, wrapped
 from graphkin.study.stability.laws import ErrorLaw, Singularity
 from graphkin.words import say, word
+from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -153,6 +154,6 @@ def _words(law: ErrorLaw, language: str) -> str:
     name = word(law.key, language)
     if law.theory is None or math.isnan(law.slope):
         return name
-    slope = f"{law.slope + 0.0:.2f}".replace("-0.00", "0.00").replace("-", "−")
-    theory = {-0.5: "−1/2"}.get(law.theory, f"{law.theory:g}".replace("-", "−"))
+    slope = true_minus(f"{law.slope + 0.0:.2f}".replace("-0.00", "0.00"))
+    theory = {-0.5: "−1/2"}.get(law.theory, true_minus(f"{law.theory:g}"))
     return f"{name}  {slope} ({theory})"

@@ -31,6 +31,7 @@ from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import reference, refined
 from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
+from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpf
@@ -177,7 +178,7 @@ def dead_point(kind: DyadKind, mp: MPContext, samples: int = 4) -> Singularity:
 
 
 def _power(x: float) -> str:
-    return f"$10^{{{str(round(math.log10(x))).replace('-', '−')}}}$"
+    return f"$10^{{{true_minus(str(round(math.log10(x))))}}}$"
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid
 from graphkin.words import Phrase
+from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc, mpf
@@ -111,7 +112,7 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
         sizes.append((float(abs(right.coriolis / (a * rate**2))), float(abs(right.alpha / rate**2))))
     laws = _laws(("place bar", "acceleration Coriolis", "acceleration bar"), x, rows, (-1.0,) * 3, samples)
     growth = _laws(("size Coriolis", "size bar"), x, sizes, (-1.0, -2.0), samples, math.inf, (1e-12, 0.03))
-    grown = Phrase("grows", tuple(f"{law.slope:.2f}".replace("-", "−") for law in growth))
+    grown = Phrase("grows", tuple(true_minus(f"{law.slope:.2f}") for law in growth))
     fates = grown, Phrase("fate near ground")
     return Singularity("near ground", "crank from ground", tuple(laws), fates, tuple(growth))
 
