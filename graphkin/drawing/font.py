@@ -28,6 +28,7 @@ FOLDER = Path(__file__).parent / "fonts"
 EM = 1000
 Style = Literal["regular", "italic", "bold"]
 _SAMPLE = "0123456789ABCDEFOVabcdefghilmnoprstuvy()[]=,.-ω"
+_CHINESE_SAMPLE = _SAMPLE[:24] + "，：一上与作例值加单取向垂大尺度心所指机架构比求法点由的绝瞬科线解读过运逆速量长顺"
 _NAME = struct.pack(">9H", 0, 1, 18, 3, 1, 0x409, 1, 2, 0) + b"\0G"  # of a part: a family, as programs ask for one
 
 
@@ -122,14 +123,14 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
 @lru_cache(maxsize=256)
 def part(style: Style, characters: str) -> bytes:
     """A WOFF2 file of a face with only these characters; the same bytes every time."""
-    return woff2(_streams(style, characters), _codes())
+    return woff2(_streams(style, characters), _codes(any(ord(c) > 0x2E7F for c in characters)))
 
 
 @cache
-def _codes() -> tuple[PrefixCode, ...]:
+def _codes(chinese: bool) -> tuple[PrefixCode, ...]:
     """The codes in which parts are packed: made for letters as figures have them, since one of its own would take
     each part longer than it saves."""
-    return tuple(map(code_for, _streams("regular", _SAMPLE).parts))
+    return tuple(map(code_for, _streams("regular", _CHINESE_SAMPLE if chinese else _SAMPLE).parts))
 
 
 def _streams(style: Style, characters: str) -> Streams:

@@ -15,6 +15,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from heapq import heapify, heappop, heappush
+from itertools import groupby
 
 __all__ = ["PrefixCode", "Streams", "as_brotli", "code_for", "streams", "woff2"]
 
@@ -168,6 +169,7 @@ def _triplet(dx: int, dy: int) -> tuple[int, bytes]:
 _MOST = 1 << 16  # bytes of a block
 _LONGEST, _LONGEST_OF_LENGTHS = 15, 5  # bits in a code of bytes, and in the code that tells how long those are
 _LENGTHS = (1, 2, 3, 4, 0, 5, 17, 6, 16, 7, 8, 9, 10, 11, 12, 13, 14, 15)  # in the order of the format
+_AGAIN = 16  # among lengths: the one before again, three times at least
 _LENGTHS_OF_LENGTHS = ("00", "1110", "110", "01", "10", "1111")
 # Of a command its least number of bytes, and in how many bits it says how many more.
 _INSERTED = (
@@ -223,7 +225,8 @@ def _block(data: bytes, code: PrefixCode) -> list[str]:
 
 def _lengths_told(lengths: Mapping[int, int]) -> str:
     """Which byte has a code of which length."""
-    of_lengths = _lengths(Counter(lengths.values()), _LONGEST_OF_LENGTHS)
+    told = [one for length, run in groupby(lengths[byte] for byte in range(256)) for one in _run(length, len([*run]))]
+    of_lengths = _lengths(Counter(symbol for symbol, _ in told), _LONGEST_OF_LENGTHS)
     bits, room = ["00"], 32
     for length in _LENGTHS:
         own = of_lengths.get(length, 0)
@@ -232,7 +235,23 @@ def _lengths_told(lengths: Mapping[int, int]) -> str:
         if not room:
             break
     codes = _codes(of_lengths) if len(of_lengths) > 1 else dict.fromkeys(of_lengths, "")
-    return "".join(bits) + "".join(codes[lengths[byte]] for byte in range(256))
+    return "".join(bits) + "".join(codes[symbol] + more for symbol, more in told)
+
+
+def _run(length: int, times: int) -> list[tuple[int, str]]:
+    """A length so many times, each sign with the bits behind it: itself, then how often again, in digits to base 4."""
+    left = times - 1
+    if left < 3:
+        return [(length, "")] * times
+    digits = []
+    left -= 3
+    while True:
+        digits.append((_AGAIN, _number(left & 3, 2)))
+        left >>= 2
+        if not left:
+            break
+        left -= 1
+    return [(length, ""), *reversed(digits)]
 
 
 def _lengths(counts: Mapping[int, int], longest: int) -> dict[int, int]:

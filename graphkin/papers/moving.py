@@ -173,7 +173,10 @@ def _vectors(
     if diagram == "acceleration":  # components hide between two ends that are joined
         pairs = [(s.to, s.of) for s in sheet.vectors(diagram) if s.to is not None]
         vectors += [[ends[a], ends[b]] for a, b in dict.fromkeys(pairs) if a in ends and b in ends]
-    named: list[list[Json]] = [[place, plain_words(f"${letters.end(diagram, ref)}$")] for ref, place in ends.items()]
+    named: list[list[Json]] = [
+        [place, plain_words(f"${letters.end(diagram, ref) or letters.vector(Symbol(kind, ref))}$")]
+        for ref, place in ends.items()
+    ]
     return {"vectors": [list(v) for v in dict.fromkeys(map(tuple, vectors))], "ends": named}
 
 

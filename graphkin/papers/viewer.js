@@ -271,6 +271,8 @@
   let frame = 0;
   let playing = 0;
   const draws = [];
+  const names = new Map();
+  const SIDES = [[1, -1], [-1, -1], [1, 1], [-1, 1], [0, -1], [0, 1], [1, 0], [-1, 0]];
   const at = (track, k) => (track < 0 ? [0, 0] : [m.tracks[track][2 * k], m.tracks[track][2 * k + 1]]);
 
   function shape(parent, name, attributes) {
@@ -310,13 +312,42 @@
   function dot(svg, track, name, kind, size) {
     const group = shape(svg, "g", { class: kind });
     shape(group, "circle", { r: size });
-    const text = shape(group, "text", { x: 1.6 * size, y: -1.6 * size });
+    const text = shape(group, "text", {});
     text.textContent = name.replace(/[_{}]/g, "");
     draws.push((k) => {
       const p = at(track, k);
       group.classList.toggle("away", p[0] === null);
       if (p[0] !== null) group.setAttribute("transform", `translate(${p[0]} ${p[1]})`);
     });
+    const own = { text, place: () => at(track, frame), off: 1.6 * size, wide: 0, high: 0, side: 0, last: kind === "centre" };
+    const page = svg.ownerSVGElement ?? svg;
+    names.set(page, [...(names.get(page) ?? []), own].sort((one, other) => one.last - other.last));
+  }
+
+  // names beside their points, clear of each other and of the edge: where they were, else on another side; points
+  // before centres, and what finds no room waits
+  function placeNames(svg) {
+    const page = svg.viewBox.baseVal, taken = [];
+    for (const name of names.get(svg) ?? []) {
+      const [x, y] = name.place();
+      if (x === null || !name.wide) continue;
+      const boxes = SIDES.map(([right, down]) => {
+        const left = x + right * name.off - (1 - right) / 2 * name.wide;
+        const low = y + down * name.off + (0.225 + 0.475 * down) * name.high;
+        return [left, low - 0.7 * name.high, left + name.wide, low + 0.25 * name.high, low];
+      });
+      const free = boxes.map((_, i) => (name.side + i) % boxes.length).find((side) => {
+        const [a, b, c, d] = boxes[side];
+        return a >= page.x && b >= page.y && c <= page.x + page.width && d <= page.y + page.height
+          && !taken.some((o) => a < o[2] + 0.2 * name.high && o[0] < c + 0.2 * name.high && b < o[3] && o[1] < d);
+      });
+      name.text.classList.toggle("away", free === undefined);
+      if (free === undefined) continue;
+      name.side = free;
+      taken.push(boxes[free]);
+      name.text.setAttribute("x", boxes[free][0] - x);
+      name.text.setAttribute("y", boxes[free][4] - y);
+    }
   }
 
   function setUp() {
@@ -371,7 +402,12 @@
     for (const svg of byId("moving").querySelectorAll("svg")) {
       const scale = svg.getClientRects().length ? svg.getScreenCTM().a : 0;
       const size = scale ? 13 / scale : 4;
-      for (const text of svg.querySelectorAll("text")) text.setAttribute("font-size", size);
+      for (const name of names.get(svg) ?? []) {
+        name.text.classList.remove("away");
+        name.text.setAttribute("font-size", size);
+        [name.wide, name.high] = [scale ? name.text.getComputedTextLength() : 0, size];
+      }
+      placeNames(svg);
     }
   }
 
@@ -381,7 +417,10 @@
     byId("turn").value = k;
     const at = `${m.driver.replace(/[_{}]/g, "")} = ${m.at[k]}${m.unit}`;
     byId("turn-out").textContent = at;
-    for (const svg of byId("moving").querySelectorAll("svg")) svg.setAttribute("aria-label", `${svg.dataset.name}. ${at}`);
+    for (const svg of byId("moving").querySelectorAll("svg")) {
+      svg.setAttribute("aria-label", `${svg.dataset.name}. ${at}`);
+      placeNames(svg);
+    }
   }
 
   const apart = (a, b) => (m.unit === "°" ? Math.abs(((a - b) % 360 + 540) % 360 - 180) : Math.abs(a - b));
@@ -410,7 +449,10 @@
   byId("play").addEventListener("click", () => play(!playing));
   byId("turn").addEventListener("input", () => { if (playing) play(false); showFrame(Number(byId("turn").value)); settle(); });
   for (const [id, kind] of [["traces", "no-traces"], ["poles", "no-poles"], ["centre-paths", "no-centre-paths"]]) {
-    byId(id).addEventListener("change", (event) => byId("moving").classList.toggle(kind, !event.target.checked));
+    byId(id).addEventListener("change", (event) => {
+      byId("moving").classList.toggle(kind, !event.target.checked);
+      letters();
+    });
   }
 
   document.documentElement.classList.add("scripted");

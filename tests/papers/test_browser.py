@@ -216,6 +216,34 @@ def test_the_space_bar_plays_polygons_centres_and_traces_together(page):
     assert len(before) / 2 < sum(one != two for one, two in zip(before, after, strict=True))
 
 
+def test_names_of_what_moves_keep_clear_of_each_other_and_of_the_edge(page):
+    page.evaluate("document.getElementById('poles').checked || document.getElementById('poles').click()")
+    shown, wrong = page.evaluate("""() => {
+      const turn = document.getElementById("turn"), wrong = [];
+      let shown = 0;
+      for (let k = 0; k <= turn.max; k += 6) {
+        turn.value = k;
+        turn.dispatchEvent(new Event("input"));
+        for (const svg of document.querySelectorAll("#moving svg")) {
+          const page = svg.getBoundingClientRect();
+          const texts = [...svg.querySelectorAll("text")].filter((text) => text.getClientRects().length);
+          shown += texts.length;
+          const boxes = texts.map((text) => [text.textContent, text.getBoundingClientRect()]);
+          boxes.forEach(([name, a], i) => {
+            if (a.left < page.left - 1 || a.right > page.right + 1) wrong.push(name);
+            for (const [other, b] of boxes.slice(i + 1)) {  // a third of a line is blank
+              const beside = a.left >= b.right - 1 || b.left >= a.right - 1;
+              if (!beside && Math.abs(a.top - b.top) < 0.6 * a.height) wrong.push([name, other]);
+            }
+          });
+        }
+      }
+      return [shown, wrong];
+    }""")
+    assert shown > 200
+    assert [] == wrong
+
+
 def test_moving_the_driver_moves_results_and_the_printed_page(page):
     def texts():
         return [page.locator(f"#{name}").text_content() for name in ("results", "paper", "given")]

@@ -14,6 +14,7 @@ from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate
 from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.lettered_steps import LetteredSteps
+from graphkin.papers.moving import motion_data
 from graphkin.papers.reasons import reasons
 from graphkin.papers.speaker import Speaker
 from graphkin.scene import library, mechanism_of
@@ -82,6 +83,13 @@ def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_tw
     lettered = LetteredSteps(sheet, letters_of(sheet, "chinese"))
     tiny = next(s for s in sheet.steps if isinstance(s.act, LaidOff) and str(s.act.symbol) == "an_F/E")
     assert "lay off from" == lettered.phrase(tiny).key
+
+
+@pytest.mark.parametrize(("convention", "expected"), [("chinese", ["b", "c", "p_2"]), ("us", ["V_B", "V_C", "V_P"])])
+def test_ends_of_moving_vectors_are_named_in_every_convention(convention, expected):
+    sheet = draft(mechanism_of("four-bar-coupler-point"))
+    moving = motion_data(sheet, letters_of(sheet, convention), None, count=3)
+    assert expected == sorted(name for _, name in moving["velocity"]["ends"])
 
 
 def test_a_sentence_ends_and_begins_as_its_language_does():
