@@ -21,7 +21,7 @@ from graphkin.words import Phrase, say, word
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
-    from graphkin.study.trace import Extreme
+    from graphkin.study.extremes import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["contact_lines", "lever_lines", "reading_words", "report_text", "show", "turn_text"]

@@ -17,7 +17,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure, Turn
-from graphkin.structure.transmitting import TransmissionAngle, joint_of_dyad
+from graphkin.structure.transmission import TransmissionAngle, joint_of_dyad
 
 __all__ = ["sheets_beside", "shown_positions"]
 

@@ -141,7 +141,7 @@ class Swept(Result, OfScene):
     @cached_property
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin sweep --json`` prints."""
-        from graphkin.study.summary import to_json
+        from graphkin.study.turn_data import to_json
 
         data: dict[str, Json] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
         if self.time is not None:

@@ -14,8 +14,17 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.checking.loop_gaps import loop_gaps
+from graphkin.checking.slip_likelihood import (
+    CHANCE,
+    COMPUTED,
+    NEVER,
+    Suspect,
+    Suspects,
+    Weighing,
+    comparable,
+    likelihood,
+)
 from graphkin.checking.slips import NOTHING, Evidence
-from graphkin.checking.weighing import CHANCE, COMPUTED, NEVER, Suspect, Suspects, Weighing, comparable, likelihood
 from graphkin.scene.printed import Line, Printed
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.words import Phrase

@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.checking.weighing import Slipped
+from graphkin.checking.slip_likelihood import Slipped
 from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.checking.weighing import Slipped
+from graphkin.checking.slip_likelihood import Slipped
 from graphkin.errors import GraphkinError
 from graphkin.scene.contacts import PlacedGear
 from graphkin.scene.model import AngleDriver, Mechanism

@@ -16,8 +16,8 @@ from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.force_slips import slipped_forces
 from graphkin.checking.gear_slips import slipped_gears
 from graphkin.checking.readings import read_off
+from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.checking.weighing import Slipped, Suspect, Suspects
 from graphkin.construction import Plan, Sheet, Slip, execute
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError

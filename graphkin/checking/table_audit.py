@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.checking.audit import COMPUTED_SHARE, Judged, deviation, difference
-from graphkin.checking.weighing import comparable, transcription_errors
+from graphkin.checking.slip_likelihood import comparable, transcription_errors
 from graphkin.plane import unit
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value

@@ -5,7 +5,7 @@ analytic solver.
 """
 
 from graphkin.construction.board import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
-from graphkin.construction.carried_out import GoneOn, Redrawn
+from graphkin.construction.execution import GoneOn, Redrawn
 from graphkin.construction.plan import Plan, Room, draft, drawn_sizes, execute, plan
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.plot import Plot, letter
 from graphkin.construction.polygon_acts import (
     ByImage,
     ByRate,
@@ -27,6 +26,7 @@ from graphkin.construction.polygon_acts import (
     SeenFrom,
     Translated,
 )
+from graphkin.construction.polygon_pair import Plot, letter
 from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step, Term
 from graphkin.construction.sizes import OffCurves, RateTimes, Size, SquareOverRadius
 from graphkin.construction.steps import Act

@@ -8,8 +8,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.position import branches_at, place
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

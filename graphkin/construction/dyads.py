@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -21,7 +22,6 @@ from graphkin.construction.mechanism_acts import (
     PathsCross,
     SlidToMeet,
 )
-from graphkin.construction.rigid import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke

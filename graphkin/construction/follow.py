@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.dyads import drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
 from graphkin.construction.removed_constraint import RemovedConstraint
-from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Problem, Unsolvable

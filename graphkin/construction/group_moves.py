@@ -8,8 +8,8 @@ from dataclasses import replace
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
 from graphkin.construction.moves import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.net import Edge, Joined, Net, RollingPoint, TwoWays
-from graphkin.construction.plot import Order, letter
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, MeasuredRate
+from graphkin.construction.polygon_pair import Order, letter
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.sheet import Equation, Rate, Term
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray

@@ -10,14 +10,14 @@ from graphkin.construction.as_seen import equations_seen, seen, steps_seen
 from graphkin.construction.board import Board
 from graphkin.construction.contours import Joint, contours
 from graphkin.construction.group_plan import GroupPlan, plan_group
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.moves import Move, Special, paths_of
 from graphkin.construction.net import Edge, contacts_of
-from graphkin.construction.plot import Order, Plot
 from graphkin.construction.polygon_acts import SeenFrom
+from graphkin.construction.polygon_pair import Order, Plot
 from graphkin.construction.polygons import links_alike
 from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.remarks import ParallelLegs
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import DrawnGroup, Rate, Scales
 from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Slip

@@ -19,10 +19,10 @@ import numpy as np
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
 from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions, TrialTable
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
-from graphkin.construction.rigid import PlacedLinks, Poses, apart
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve

@@ -19,15 +19,15 @@ from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.dyads import meet
 from graphkin.construction.follow import Choices, best_reduced, found_near
 from graphkin.construction.group_position import GroupTrial
+from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.position import place
-from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import LimitPosition, Limits, Pose, Scales
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Slide, Structure, links_of
-from graphkin.structure.transmitting import sliding_pair
+from graphkin.structure.transmission import sliding_pair
 
 __all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
 

@@ -1,6 +1,6 @@
 """Positions measured on the drawn mechanism: lengths with a rule, angles with a protractor.
 
-Between which directions a transmission angle lies is said in `graphkin.structure.transmitting`.
+Between which directions a transmission angle lies is said in `graphkin.structure.transmission`.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.board import Instrument
-from graphkin.construction.residues import MOST_LOST
-from graphkin.construction.rigid import Poses
+from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.zero_vectors import MOST_LOST
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide
-from graphkin.structure.transmitting import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
+from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
 
 __all__ = ["Measured", "measured"]
 
@@ -108,7 +108,7 @@ def _travel(slide: Slide, poses: Poses, mm: float) -> float:
 
 
 def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
-    """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmitting`)."""
+    """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmission`)."""
 
     def of(spot: tuple[str, complex]) -> complex:
         pose = sheet.poses[spot[0]]

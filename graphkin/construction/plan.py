@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING
 from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.carried_out import carried_out, finished
 from graphkin.construction.dyads import meet
-from graphkin.construction.held_still import Inversion, inversions_of, opened_at_triangles, own_assembly
+from graphkin.construction.execution import carried_out, finished
+from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
+from graphkin.construction.links_on_paper import PlacedLinks, apart
 from graphkin.construction.net import contacts_of
-from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Asked
+from graphkin.construction.polygon_pair import Order
 from graphkin.construction.position import branches_at
-from graphkin.construction.rigid import PlacedLinks, apart
 from graphkin.construction.sheet import DIAGRAMS, DiagramName, Extent, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Aid, Vector

@@ -11,8 +11,8 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import Literal
 
 from graphkin.construction.board import Board
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.net import Edge, Joined, TwoWays, contacts_of, equation_of, joined_at_contacts, node
-from graphkin.construction.plot import Order, Plot, letter
 from graphkin.construction.polygon_acts import (
     Carried,
     DirectionLine,
@@ -22,8 +22,8 @@ from graphkin.construction.polygon_acts import (
     MeasuredRate,
     PutBack,
 )
+from graphkin.construction.polygon_pair import Order, Plot, letter
 from graphkin.construction.remarks import ZeroVector
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Equation, Rate, Scales, Term
 from graphkin.construction.sizes import Direction
 from graphkin.construction.slip import NO_SLIP, Component, Slip

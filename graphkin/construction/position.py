@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import Meeting, drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -21,7 +22,6 @@ from graphkin.construction.mechanism_acts import (
     PathsCross,
 )
 from graphkin.construction.remarks import SharpCrossing, ShortArm
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Cause, Placing
 from graphkin.construction.strokes import Mark

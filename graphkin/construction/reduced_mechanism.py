@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.removed_constraint import RemovedConstraint
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphkin.construction.rigid import Poses
+from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Pose
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver

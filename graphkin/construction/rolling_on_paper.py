@@ -7,8 +7,8 @@ import math
 from collections.abc import Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
 from graphkin.construction.position import choose, start_board
-from graphkin.construction.rigid import PlacedLinks, Poses, apart
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver

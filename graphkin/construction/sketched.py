@@ -13,7 +13,7 @@ from itertools import islice
 
 import numpy as np
 
-from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.sheet import Pose
 from graphkin.plane import cross
 from graphkin.scene.model import AngleDriver

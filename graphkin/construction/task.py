@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.construction.held_still import Inversion
+from graphkin.construction.inversion import Inversion
 from graphkin.construction.net import TwoWays
-from graphkin.construction.plot import Order
+from graphkin.construction.polygon_pair import Order
 from graphkin.construction.sheet import Limits, Sheet
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Structure, links_of, needed

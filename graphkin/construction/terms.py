@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from graphkin.construction.net import Edge
-from graphkin.construction.plot import Order, Plot, letter
+from graphkin.construction.polygon_pair import Order, Plot, letter
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
 from graphkin.construction.slip import Component

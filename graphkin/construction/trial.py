@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
+from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism
-from graphkin.construction.rigid import PlacedLinks, Poses
 from graphkin.construction.sheet import Pose
 from graphkin.construction.sketched import as_sketched
 from graphkin.construction.trial_fits import all_fits, fits_between

@@ -11,8 +11,8 @@ from itertools import pairwise, product
 
 from graphkin.construction.dyads import drive, meet
 from graphkin.construction.follow import fitted
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.reduced_mechanism import ReducedMechanism
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Pose
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad

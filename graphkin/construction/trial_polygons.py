@@ -17,8 +17,8 @@ from graphkin.construction.board import Board
 from graphkin.construction.group_moves import GroupMoves
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.net import Edge
-from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import Superposed, TakenOff, TrialDrawn
+from graphkin.construction.polygon_pair import Order
 from graphkin.construction.remarks import Magnified
 from graphkin.construction.sheet import Rate
 from graphkin.construction.sizes import Direction

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.centre_lines import CentreLine, centre_lines, trains
-from graphkin.construction.plot import Order
 from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.polygon_pair import Order
 from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
 from graphkin.structure import Structure, meshes_of

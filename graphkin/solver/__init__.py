@@ -14,10 +14,10 @@ from graphkin.solver.reach import driver_range
 from graphkin.solver.solve import as_drawn, solve, sweep_in_blocks
 
 if TYPE_CHECKING:
-    from graphkin.solver.acting import without_line
+    from graphkin.solver.external_forces import without_line
     from graphkin.solver.forces import Forces, forces_of
+    from graphkin.solver.motion_data import entries, head, json_text, listed_points, own_slides, to_json
     from graphkin.solver.prepared import PreparedMechanism, prepare
-    from graphkin.solver.table import entries, head, json_text, listed_points, own_slides, to_json
 
 __all__ = [
     "DriverRange",
@@ -45,10 +45,10 @@ __all__ = [
 ]
 
 _PLACES = {
-    "acting": ["without_line"],
+    "external_forces": ["without_line"],
     "forces": ["Forces", "forces_of"],
     "prepared": ["PreparedMechanism", "prepare"],
-    "table": ["entries", "head", "json_text", "listed_points", "own_slides", "to_json"],
+    "motion_data": ["entries", "head", "json_text", "listed_points", "own_slides", "to_json"],
 }
 
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.solver.motion import Motion
-from graphkin.solver.places import pole
 from graphkin.solver.pose import Array
+from graphkin.solver.position_values import pole
 
 __all__ = ["Centrode", "centrode", "instant_centre"]
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.solver.diagnosis import assembly_words, limit_why
 from graphkin.solver.driver_values import UniformGrid
-from graphkin.solver.findings import assembly_words, limit_why
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.motion_at import BLOCK, joined, motion_of
@@ -26,7 +26,7 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.solver.path import Path
+    from graphkin.solver.continuity import Path
 
 __all__ = ["DriverRange"]
 

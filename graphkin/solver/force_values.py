@@ -13,8 +13,8 @@ from graphkin.plane import dot
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.solver.acting import without_line
 from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.external_forces import without_line
 from graphkin.solver.forces import Forces, forces_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion

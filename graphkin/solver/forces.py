@@ -16,7 +16,7 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import opposite
-from graphkin.solver.acting import EDGE, Action, actions, spring_ends, without_line
+from graphkin.solver.external_forces import EDGE, Action, actions, spring_ends, without_line
 from graphkin.solver.linear_blocks import LinearBlocks
 from graphkin.solver.motion import Motion
 from graphkin.solver.pair_forces import PairForce, balances, pair_forces

@@ -31,7 +31,7 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
     if symbol.scope == "force":
         raise CallError(Problem(str(symbol), "is no motion", "forces stand in `solve` of a scene with masses or loads"))
     if symbol.scope != "motion":
-        from graphkin.solver.places import position
+        from graphkin.solver.position_values import position
 
         return position(motion.structure, motion.poses, symbol)
     assert symbol.of is not None

@@ -13,8 +13,8 @@ import numpy as np
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.solver.assemblies import own_values
+from graphkin.solver.diagnosis import singular, without_singular
 from graphkin.solver.engine import positions
-from graphkin.solver.findings import singular, without_singular
 from graphkin.solver.joints import Drive
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import FIELDS, Array, Pose, rest

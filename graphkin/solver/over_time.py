@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import at_time
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.findings import assembly_words, limit_why
+from graphkin.solver.diagnosis import assembly_words, limit_why
 from graphkin.solver.joints import Drive
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion
@@ -71,7 +71,7 @@ def _one_driver(structure: Structure, value: Array, fine: bool) -> At:
 
 def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
-    from graphkin.solver.path import follow_path
+    from graphkin.solver.continuity import follow_path
 
     forms = choose_forms(structure)
     assembly = assembly_words(structure, forms)

@@ -13,12 +13,12 @@ from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
+from graphkin.solver.diagnosis import singular
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
 from graphkin.solver.expressions import Name, Real
-from graphkin.solver.findings import singular
 from graphkin.solver.force_values import force_heads, force_rows
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.mobility import structure_of

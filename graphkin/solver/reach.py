@@ -12,9 +12,9 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.diagnosis import limit_why
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.engine import positions
-from graphkin.solver.findings import limit_why
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion_at import goal_values
 from graphkin.solver.pose import Array
@@ -22,7 +22,7 @@ from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ways
 
 if TYPE_CHECKING:
-    from graphkin.solver.path import Path
+    from graphkin.solver.continuity import Path
 
 __all__ = ["driver_range", "range_from", "stopped_why", "way_to"]
 
@@ -89,7 +89,7 @@ range in which the motion runs asks for the same."""
 
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
-    from graphkin.solver.path import FAR, follow_path
+    from graphkin.solver.continuity import FAR, follow_path
 
     driver = structure.scene.drivers[which]
     turning = isinstance(driver, AngleDriver)
@@ -148,7 +148,7 @@ def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
     """The way from the scene's own position to other driver values: straight, whole turns included, else the other way
     round for drivers that turn; the straight one if none gets there."""
-    from graphkin.solver.path import Path, follow_path
+    from graphkin.solver.continuity import Path, follow_path
 
     start, ended = own_values(structure.scene), list[tuple[Mapping[int, Array], Path]]()
     for end in ways(structure.scene.drivers, start.tolist(), goal.tolist(), structure.rolls):

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.findings import assembly_words
+from graphkin.solver.diagnosis import assembly_words
 from graphkin.solver.joints import Drive
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion

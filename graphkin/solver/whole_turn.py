@@ -15,7 +15,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.followers import beginning
 from graphkin.solver.pose import Array
-from graphkin.structure.transmitting import sliding_pair
+from graphkin.structure.transmission import sliding_pair
 
 __all__ = ["Extremes", "extremes", "where_true"]
 

@@ -14,8 +14,8 @@ from graphkin.drawing.chart import BEHIND, SOLID_AND_DASHED, add_labels, count_s
 from graphkin.drawing.primitives import Stroke
 from graphkin.scene.model import Mechanism
 from graphkin.study.driver_axis import DriverAxis, number
+from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.quantities import Quantity
-from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import TurnStudy
 from graphkin.words import Phrase, say, word
 

@@ -30,7 +30,7 @@ from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
-from graphkin.solver.acting import load_edges
+from graphkin.solver.external_forces import load_edges
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
 from graphkin.study.quantities import Quantity, force_quantity
 from graphkin.words import Phrase, say, word

@@ -20,8 +20,8 @@ from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
 from graphkin.study.diagram_panels import MARGIN, DiagramPanel, draw_panel, quantity_title, signs_of
 from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, heading, number, title_of
+from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
-from graphkin.study.trace import Extreme
 from graphkin.study.turn import output_links, output_slides
 from graphkin.words import Phrase, say, word
 

@@ -39,7 +39,7 @@ class Outcome:
 
     design : its number from 0
     status, why : "ok"; "partly" (some positions have no values, with the reason of the first); or why none has
-    cells : range, strokes, K, least transmission angles (see `graphkin.study.summary.row`)
+    cells : range, strokes, K, least transmission angles (see `graphkin.study.turn_data.row`)
     good : positions that are ok
     """
 
@@ -260,8 +260,8 @@ def _rows(
         good = len(table) - len(bad)
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
         if keys and piece.first == 0:
-            from graphkin.study.summary import row
             from graphkin.study.turn import study_turn
+            from graphkin.study.turn_data import row
 
             cells = row(study_turn(design.reach, everything=False))
     shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]

@@ -16,16 +16,16 @@ from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, Motion, own_slides
+from graphkin.solver.continuity import FAR
 from graphkin.solver.engine import positions
 from graphkin.solver.flywheel import FlywheelStudy, flywheel_of
 from graphkin.solver.joints import Drive
-from graphkin.solver.path import FAR
 from graphkin.solver.whole_turn import extremes
 from graphkin.structure import Cluster, Dyad
 from graphkin.structure.assembly import last_true
+from graphkin.study.extremes import Extreme, Least, Traced, trace
 from graphkin.study.grashof import BasicLoop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
-from graphkin.study.trace import Extreme, Least, Traced, trace
 
 __all__ = ["Output", "TurnStudy", "study_turn"]
 

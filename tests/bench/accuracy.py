@@ -22,10 +22,10 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import engine, extended_precision
 from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
 from graphkin.solver.expressions import Vec
 from graphkin.solver.joints import Drive
-from graphkin.solver.path import follow_path
 from graphkin.solver.program import FIELDS
 from graphkin.structure import Structure, analyse
 

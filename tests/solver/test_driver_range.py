@@ -60,10 +60,10 @@ def test_a_start_that_the_motion_does_not_reach_is_refused() -> None:
 
 
 def test_a_larger_group_comes_to_both_its_dead_points_in_few_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    from graphkin.solver import path
+    from graphkin.solver import continuity
 
     steps: list[float] = []
-    monkeypatch.setattr(path, "group_at", lambda *given: steps.append(0.0) or group_at(*given))
+    monkeypatch.setattr(continuity, "group_at", lambda *given: steps.append(0.0) or group_at(*given))
     reach = driver_range(mechanism_of_text(library_text("triad-slider"), ""))
     assert (True, True) == reach.limited
     assert len(steps) < 150

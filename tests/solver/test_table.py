@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import entries, head, json_text, solve, to_json
-from graphkin.solver import table as table_room
+from graphkin.solver import entries, head, json_text, motion_data, solve, to_json
 from tests import scenes
 
 
@@ -26,7 +25,7 @@ def test_a_sweep_of_any_scene_is_json(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"])
 def test_what_is_written_as_it_goes_is_the_object(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(table_room, "BLOCK", 5)
+    monkeypatch.setattr(motion_data, "BLOCK", 5)
     motion = solve(mechanism_of(name), sweep=12)
     whole = json.dumps(to_json(motion), ensure_ascii=False, allow_nan=False) + "\n"
     assert whole == "".join(json_text(head(motion), entries(motion)))

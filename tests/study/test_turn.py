@@ -13,8 +13,8 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
-from graphkin.study.summary import to_json
 from graphkin.study.turn import Output, TurnStudy, study_turn
+from graphkin.study.turn_data import to_json
 from tests import scenes
 
 TRUTH = json.loads((Path(__file__).parents[1] / "validation" / "limits.json").read_text())

@@ -21,8 +21,8 @@ from graphkin.construction.centres.pairs import (
     normals,
     permanent,
 )
+from graphkin.construction.links_on_paper import LinkMotion
 from graphkin.construction.plan import Room, draft, scales_for
-from graphkin.construction.rigid import LinkMotion
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol

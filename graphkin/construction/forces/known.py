@@ -15,7 +15,7 @@ from dataclasses import replace
 from graphkin.construction.board import Instrument
 from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
 from graphkin.construction.forces.images import Images
-from graphkin.construction.rigid import Poses
+from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit

@@ -1,4 +1,4 @@
-"""Positions by their symbols: coordinates, angles, distances, travels, transmission and pressure angles."""
+"""Position values by their symbols: coordinates, angles, distances, travels, transmission and pressure angles."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.solver.cam_profile import cam_at
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import Dyad, Structure
-from graphkin.structure.transmitting import (
+from graphkin.structure.transmission import (
     TransmissionAngle,
     joint_between,
     joint_of_dyad,
@@ -105,7 +105,7 @@ class Crossing:
 
 
 def transmission(structure: Structure, dyad: Dyad, poses: Poses) -> Crossing:
-    """The transmission angle of a group of two links (`graphkin.structure.transmitting`); the pressure angle is what it
+    """The transmission angle of a group of two links (`graphkin.structure.transmission`); the pressure angle is what it
     lacks to 90 degrees."""
     return _crossing(poses, joint_of_dyad(structure, dyad))
 

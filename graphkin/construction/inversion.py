@@ -14,11 +14,11 @@ from itertools import product
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.mechanism_acts import HeldStill
-from graphkin.construction.plot import Order
+from graphkin.construction.polygon_pair import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import Branches, branches_at, choose, draw_position, place, start_board
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import DiagramName, Pose, Scales, Step
 from graphkin.construction.steps import Cause
 from graphkin.errors import Problem, Unsolvable

@@ -8,18 +8,18 @@ from dataclasses import dataclass
 
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.group_polygons import GroupPolygons
-from graphkin.construction.held_still import TriangleDrawn
+from graphkin.construction.inversion import TriangleDrawn
 from graphkin.construction.net import node
-from graphkin.construction.plot import Order, Plot
 from graphkin.construction.polygon_acts import Asked
+from graphkin.construction.polygon_pair import Order, Plot
 from graphkin.construction.polygons import RATE
 from graphkin.construction.position import draw_position, place
-from graphkin.construction.residues import without_residues
 from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Vector
 from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
+from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol, Value

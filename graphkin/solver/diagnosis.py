@@ -26,7 +26,7 @@ from graphkin.structure import (
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.solver.path import Path
+    from graphkin.solver.continuity import Path
 
 __all__ = ["assembly_words", "limit_why", "singular", "without_singular"]
 

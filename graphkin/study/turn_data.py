@@ -9,8 +9,8 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.force_diagrams import force_extremes
-from graphkin.study.trace import Extreme, Traced
 from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["row", "to_json"]

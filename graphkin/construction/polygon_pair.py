@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from typing import Literal, Self
 
 from graphkin.construction.board import Board, Instrument
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.net import node
 from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
-from graphkin.construction.rigid import PlacedLinks
 from graphkin.construction.sheet import Rate, Scales
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Act
