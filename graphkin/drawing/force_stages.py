@@ -24,7 +24,7 @@ from graphkin.drawing.force_words import (
 from graphkin.drawing.given_loads import spring_lines
 from graphkin.drawing.lever import lever_on_page
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, languages, listed, say, word
+from graphkin.words import Phrase, about, languages, listed, say, word
 
 __all__ = ["ForceStage", "ForceStep", "force_stages"]
 
@@ -167,7 +167,7 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
         frame = sheet.scene.frame.name
         closed = tuple(
             (each, word("between sentences", each).join((why, closed_by(group, letters, frame, each))).strip())
-            for each, why in writer.said("force polygon closes", links)
+            for each, why in writer.said(about("force polygon closes", group.links), links)
         )
         steps.append(writer.step(closed, [read.pop(s) for s in own], own))
     closing = steps[-1].number

@@ -24,7 +24,7 @@ from graphkin.drawing.equations import SumTerm
 from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, listed, say
+from graphkin.words import Phrase, about, listed, say
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
@@ -39,7 +39,7 @@ ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 def group_caption(sheet: Sheet, group: ForceGroup, count: int, language: str) -> str:
     """``1. Links 5, 6 (RRP) cut free``."""
     kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}.get(group.way, group.kind)
-    return say(Phrase("force group", (str(count), listed(group.links), kind)), language)
+    return say(Phrase(about("force group", group.links), (str(count), listed(group.links), kind)), language)
 
 
 def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) -> str:

@@ -29,7 +29,7 @@ from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
-from graphkin.words import Phrase, languages, listed, say
+from graphkin.words import Phrase, about, languages, listed, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]
 
@@ -266,7 +266,7 @@ def _below(
         if group.way == "drawn system":
             said.append(say(Phrase("force reason system", (listed(group.links),)), each))
         elif len(group.equation) > 1 and group.way == "polygon":
-            said.append(say(Phrase("force reason polygon", (listed(group.links),)), each))
+            said.append(say(Phrase(about("force reason polygon", group.links), (listed(group.links),)), each))
         lists.append(said)
     if any(lists):
         blocks.append(_words([(text, False) for text in all_in_both(lists)], width))

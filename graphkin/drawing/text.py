@@ -131,8 +131,9 @@ def _pieces(markup: str) -> list[str]:
     pieces: list[str] = []
     word, inside = "", False
     for character in markup:
-        wide = ord(character) > 0x2E7F
-        if not inside and (character == " " or (wide and character not in "，。；：、）")):
+        # no line begins with a mark that closes or ends with one that opens
+        wide = ord(character) > 0x2E7F and character not in "，。；：、）》”" and word[-1:] not in ("（", "《", "“")
+        if not inside and (character == " " or wide):
             if word:
                 pieces.append(word)
             word = ""

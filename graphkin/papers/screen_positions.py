@@ -37,7 +37,7 @@ from graphkin.papers.lesson import Lesson, Stage, force_found, found_in, plain_w
 from graphkin.papers.pictures import ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import equation_words, given
 from graphkin.papers.solution import results_blocks, stage_title, step_items
-from graphkin.words import languages
+from graphkin.words import about, languages
 
 __all__ = ["POSITIONS", "Progress", "View", "common_scales", "positions_data"]
 
@@ -187,7 +187,7 @@ class _Frames:
                 drawn = group_picture(
                     sheet, forces, stage, stage.group, lesson.letters, lesson.language, WIDE, f"-{turn}"
                 )  # fmt: skip
-                links = said("force on links", lesson.language, ", ".join(stage.group.links))
+                links = said(about("force on links", stage.group.links), lesson.language, ", ".join(stage.group.links))
                 caption = f'{said_html(links)} <span class="scale">{scale}</span>'
                 figures.append({"name": name, "svg": figure_svg(drawn, named=True), "caption": caption})
                 equation = group_equation(sheet, stage.group, lesson.letters, lesson.language, WIDE)

@@ -38,7 +38,7 @@ from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, bare_picture, equation_picture, parts, stage_picture
 from graphkin.papers.problem import equation_words, given, paper_title, scene_title
 from graphkin.papers.reasons import reasons
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, about, languages, say, word
 
 __all__ = ["beginning", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
 
@@ -147,7 +147,8 @@ def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str, 
     if equation is not None:
         yield Picture(equation, joined=True)
     drawn = group_picture(scaled, forces, stage, group, lesson.letters, language, width, tag)
-    yield Picture(drawn, numbered(count, said("figure of forces", language, ", ".join(group.links))))
+    told = said(about("figure of forces", group.links), language, ", ".join(group.links))
+    yield Picture(drawn, numbered(count, told))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:

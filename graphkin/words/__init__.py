@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cache, reduce
 from pathlib import Path
 
-__all__ = ["BOTH", "LANGUAGES", "Phrase", "area", "class_of", "languages", "listed", "say", "word"]
+__all__ = ["BOTH", "LANGUAGES", "Phrase", "about", "area", "class_of", "languages", "listed", "say", "word"]
 
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -55,6 +55,11 @@ def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = st
     """
     parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
     return _table(language)[phrase.key].format(*parts)
+
+
+def about(key: str, names: Sequence[object]) -> str:
+    """The key of a sentence about several things, or of the one about a single one."""
+    return key if len(names) > 1 else f"{key} one"
 
 
 def listed(names: Sequence[object]) -> object:

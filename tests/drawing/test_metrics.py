@@ -5,6 +5,7 @@ import string
 import pytest
 
 from graphkin.drawing.font_widths import width
+from graphkin.drawing.text import wrapped
 
 SIGNS = string.ascii_letters + string.digits + " .,:;?!()[]/*'ωαμπτεφψθβγδλρ√′·°≈≤≥±→"
 STYLES = {"": {}, "Italic": {"italic": True}, "Bol": {"bold": True}}
@@ -24,3 +25,11 @@ def test_a_sentence_is_measured_to_three_percent(true_width, style):
 
 def test_chinese_is_one_em_a_sign():
     assert width("速度多边形", 3.5) == pytest.approx(5 * 3.5)
+
+
+def test_no_chinese_line_ends_with_an_opening_bracket_or_begins_with_a_closing_one():
+    said = "装载机构：连杆、摇杆（含油缸）支承一板"
+    for wide in range(10, 40):
+        lines = ["".join(run.text for run in runs) for runs in wrapped(said, 3.0, float(wide))]
+        assert said == "".join(lines)
+        assert not [line for line in lines if line[-1] == "（" or line[0] in "）：、"]
