@@ -18,7 +18,8 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
-from graphkin.drawing.obstacles import Flags, Floats, Indices, Obstacles, Points, meets
+from graphkin.drawing.meeting import Flags, Floats, Indices, Points, meets
+from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import plain

@@ -95,12 +95,12 @@ def start_runs(text: Text) -> tuple[Run, ...]:
 
 def text_box(text: Text) -> Box:
     """Box of a text on the page (mm).  Raises ValueError for a text without runs."""
-    return _box_about(text.runs, text.anchor).moved(text.at)
+    return box_about(text.runs, text.anchor).moved(text.at)
 
 
 @lru_cache(maxsize=4096)
-def _box_about(runs: tuple[Run, ...], anchor: str) -> Box:
-    """Box of a text about its own point."""
+def box_about(runs: tuple[Run, ...], anchor: str = "start") -> Box:
+    """Box of the text of some runs about its own point (mm)."""
     boxes = [run_box(run) for run in start_runs(Text(0j, runs, anchor))]
     return Box(
         min(b.left for b in boxes),

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from graphkin.drawing.obstacles import Flags, Floats, Indices, Points
+from graphkin.drawing.meeting import Flags, Floats, Indices, Points
 from graphkin.drawing.primitives import Segment, page_direction
 
 __all__ = [
@@ -139,49 +139,52 @@ def _off_points(
     requests: LabelRequests, who: Indices, some: Indices, points: Points, gaps: tuple[float, ...]
 ) -> Columns:
     """Columns of places all round some points, at an angle each."""
-    rings, angles = _around(gaps)
+    rings, angles, away, hold_x, hold_y = _around(gaps)
     half, at = requests.half[who[some]][:, None], points[:, None]
-    centres = at + rings * _WAYS[angles] + _HOLDS[0][angles] * half.real + 1j * (_HOLDS[1][angles] * half.imag)
-    costs = rings + requests.dislikes[who[some]][:, angles]
-    return _columns(centres, costs, np.broadcast_to(at, centres.shape), rings, some)
+    centres = at + away + hold_x * half.real + 1j * (hold_y * half.imag)
+    costs = rings + requests.dislikes[who[some]].take(angles, axis=1)
+    return centres.ravel(), costs.ravel(), points.repeat(len(rings)), *_rings_of(rings, some)
 
 
 def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> Columns:
     """Columns of places on both sides of some segments, square to them."""
-    rings, side, share = _along(gaps)
-    start, end, half = (column[who[some]] for column in (requests.start, requests.end, requests.half))
+    rings, side, share, dear = _along(gaps)
+    start, end, half, liked = (
+        column[who[some]] for column in (requests.start, requests.end, requests.half, requests.liked)
+    )
     way = end - start
     normal = 1j * way / np.abs(way)
     sides = normal[:, None] * _SIDES
-    disliked = 0.4 * (1.0 - (sides * requests.liked[who[some]].conj()[:, None]).real)
+    disliked = 0.4 * (1.0 - (sides * liked.conj()[:, None]).real)
     reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
-    feet = (start[:, None] + _SHARES * way[:, None])[:, share]
-    centres = feet + (rings + reach[:, None]) * sides[:, side]
-    costs = rings + disliked[:, side] + 2.0 * np.abs(_SHARES - 0.5)[share]
-    return _columns(centres, costs, feet, rings, some)
+    feet = (start[:, None] + _SHARES * way[:, None]).take(share, axis=1)
+    centres = feet + (rings + reach[:, None]) * sides.take(side, axis=1)
+    costs = rings + disliked.take(side, axis=1) + dear
+    return centres.ravel(), costs.ravel(), feet.ravel(), *_rings_of(rings, some)
 
 
-def _columns(centres: Points, costs: Floats, feet: Points, rings: Floats, some: Indices) -> Columns:
-    """Arrays of one length."""
-    return centres.ravel(), costs.ravel(), feet.ravel(), np.tile(rings, len(some)), np.repeat(some, len(rings))
+def _rings_of(rings: Floats, some: Indices) -> tuple[Floats, Indices]:
+    """The ring of each place, and who asked for it."""
+    return np.broadcast_to(rings, (len(some), len(rings))).ravel(), some.repeat(len(rings))
 
 
 @lru_cache(maxsize=64)
-def _around(gaps: tuple[float, ...]) -> tuple[Floats, Indices]:
-    """Ring and angle of each place around a point; far from it only every second, in turn."""
+def _around(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Points, Floats, Floats]:
+    """Ring and angle of each place around a point, far from it only every second, in turn; how far off it is, and where
+    the box is held."""
     rings = np.array(gaps)
     sparse = _SOME[0] ^ (np.arange(len(gaps)) % 2 == 1)[:, None]
     ring, angle = np.nonzero((rings < LEADER_FROM)[:, None] | sparse)
-    return rings[ring], angle
+    return rings[ring], angle, rings[ring] * _WAYS[angle], _HOLDS[0][angle], _HOLDS[1][angle]
 
 
 @lru_cache(maxsize=64)
-def _along(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Indices]:
-    """Ring, side and share of each place beside a segment."""
+def _along(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Indices, Floats]:
+    """Ring, side and share of each place beside a segment, and what the share costs."""
     rings = np.array(gaps)
     near = (rings < LEADER_FROM)[:, None, None] | _SOME[1]
     ring, side, share = np.nonzero(np.broadcast_to(near, (len(gaps), 2, len(_SHARES))))
-    return rings[ring], side, share
+    return rings[ring], side, share, 2.0 * np.abs(_SHARES - 0.5)[share]
 
 
 @lru_cache(maxsize=512)

@@ -7,10 +7,12 @@ segment what touches.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 
 from graphkin.drawing.box import Box
+from graphkin.drawing.ink_raster import InkRaster
 from graphkin.drawing.label_candidates import (
     LEADER_FROM,
     LEADER_LEAST,
@@ -23,20 +25,21 @@ from graphkin.drawing.label_candidates import (
     ends,
     led_candidates,
 )
-from graphkin.drawing.label_positions import LEADER_SPACE, LabelPosition, LabelPositions
-from graphkin.drawing.obstacles import (
+from graphkin.drawing.label_positions import LEADER_SPACE, Columns, LabelPosition, LabelPositions
+from graphkin.drawing.meeting import (
     Flags,
     Floats,
     Indices,
-    Obstacles,
     Points,
     crosses,
+    joined,
     near,
     separated,
     sides,
     sides_around,
-    touches,
+    touching,
 )
+from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Segment
 
 __all__ = ["FORBIDDEN", "TANGLED", "LabelPanel", "least_cost"]
@@ -53,6 +56,7 @@ TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at lea
 OUTSIDE = 100  # faults that leaving the panel counts for
 FOOT_REACH = 0.45  # mm: what lies nearer to the foot of a leader is the mark itself
 NEAR_END = 2.0
+MANY = 1 << 15  # pairs of a box and an obstacle from which a raster of what is drawn is worth its making
 
 
 def least_cost(ring: int) -> float:
@@ -68,7 +72,7 @@ class LabelPanel:
         self.over: dict[Segment, bool] = {}  # which leaders cross what they are to go round
         writing = set(obstacles.writing)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
-        diagonals = tuple((area.corners[0], area.corners[2]) for area in areas)
+        diagonals = tuple((complex(area.left, area.top), complex(area.right, area.bottom)) for area in areas)
         things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
         self.start, self.end = things.T.copy()
         self.reach = sides_around(self.start, self.end)
@@ -99,15 +103,18 @@ class LabelPanel:
         self._know()
         return first
 
-    def free(self, some: Sequence[int], first: int, last: int) -> list[LabelPositions]:
-        """Places without a fault in the rings from ``first`` up to ``last`` for each of some requests."""
+    def free(
+        self, some: Sequence[int], first: int, last: int, known: Sequence[LabelPositions] = ()
+    ) -> list[LabelPositions]:
+        """Places without a fault in the rings from ``first`` up to ``last`` for each of some requests, with those that
+        are known of each."""
         who = np.array(some)
-        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]))
+        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]), known)
 
-    def further(self, some: Sequence[int]) -> list[LabelPositions]:
-        """Further places without a fault for each of some requests, with leaders."""
+    def further(self, some: Sequence[int], known: Sequence[LabelPositions]) -> list[LabelPositions]:
+        """Further places without a fault for each of some requests, with leaders, and those that are known of each."""
         who = np.array(some)
-        return self._without_fault(who, led_candidates(self.requests, who))
+        return self._without_fault(who, led_candidates(self.requests, who), known)
 
     def everywhere_free(self, some: Sequence[int]) -> list[LabelPositions]:
         """Places without a fault in all rings, and further ones, for each of some requests."""
@@ -124,112 +131,118 @@ class LabelPanel:
             self.over[place.leader] = bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
         return self.over[place.leader]
 
-    def _without_fault(self, who: Indices, places: Candidates) -> list[LabelPositions]:
+    def _without_fault(
+        self, who: Indices, places: Candidates, known: Sequence[LabelPositions] = ()
+    ) -> list[LabelPositions]:
         half = self.requests.half[who][places.owners]
         clear = half + complex(CLEARANCE, CLEARANCE)
-        kept = np.flatnonzero(~self._outside(places.centres, half))
-        # the few areas first: lines are looked at only where these leave room
-        for first, last in ((0, self.areas), (self.areas, self.solid)):
-            free = np.ones(len(kept), dtype=bool)
-            free[self._touched(places.centres[kept], clear[kept], first, last)] = False
-            kept = kept[free]
+        free = ~self._outside(places.centres, half)
+        if len(half) * self.solid > MANY:
+            free &= ~self.ink.meets(places.centres - clear, places.centres + clear)
+        kept = free.nonzero()[0]
         places, half, clear = places.at(kept), half[kept], clear[kept]
-        if len(self.start) > self.solid:
-            dashed = self._touched(places.centres, clear, self.solid, len(self.start))
-            np.add.at(places.costs, dashed, DASHED_COST)
+        which, what = self._touched(places.centres, clear, len(self.start))
+        np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
         led = self._led(who, places, half)
-        kept = np.flatnonzero(~led | (places.gaps >= LEADER_LEAST))
-        if len(kept) < len(led):
-            places, led = places.at(kept), led[kept]
-        return self._positions(who, places, led, None)
+        free = ~led | (places.gaps >= LEADER_LEAST)
+        free[which[what < self.solid]] = False
+        kept = free.nonzero()[0]
+        places, led = places.at(kept), led[kept]
+        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
+        owners = places.owners
+        if known:
+            columns = Columns(*map(np.concatenate, zip(*(one.columns for one in known), columns, strict=True)))
+            owners = np.concatenate((np.repeat(np.arange(len(known)), [len(one) for one in known]), owners))
+        order = np.lexsort((columns.costs, owners))
+        order = order[columns.costs[order] < FORBIDDEN]
+        columns, owners = columns.at(order), owners[order]
+        bounds = np.searchsorted(owners, np.arange(len(who) + 1)).tolist()
+        return [
+            LabelPositions(half, columns.at(slice(first, last)))
+            for half, first, last in zip(self.requests.half[who].tolist(), bounds[:-1], bounds[1:], strict=True)
+        ]
 
-    def everywhere(self, request: int) -> LabelPositions:
-        """All places of all rings for one request, with the number of their faults."""
+    def everywhere(self, request: int) -> tuple[LabelPositions, Indices]:
+        """All places of all rings for one request, and the number of faults of each."""
         who = np.array([request])
         places = candidates(self.requests, who, RINGS)
         half = self.requests.half[who][places.owners]
         faults = OUTSIDE * self._outside(places.centres, half).astype(int)
-        np.add.at(faults, self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE), 0, self.solid), 1)
-        return self._positions(who, places, self._led(who, places, half), faults)[0]
+        np.add.at(faults, self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE), self.solid)[0], 1)
+        led = self._led(who, places, half)
+        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
+        order = np.argsort(columns.costs, kind="stable")
+        return LabelPositions(complex(half[0]), columns.at(order)), faults[order]
 
-    def _positions(self, who: Indices, places: Candidates, led: Flags, faults: Indices | None) -> list[LabelPositions]:
-        """The places of each request, cheapest first."""
+    def _tips(self, who: Indices, places: Candidates, led: Flags) -> Points:
+        """The tips of the leaders of places that need one, which then cost more; of other places their feet."""
         tips = places.feet.copy()
-        if led.any():
-            tips[led] = self._with_leaders(who, places, led)
-        order = np.lexsort((places.costs, places.owners))
-        if faults is None:
-            order = order[places.costs[order] < FORBIDDEN]
-        wrong = np.zeros(len(led), dtype=np.intp) if faults is None else faults
-        places, tips, led, wrong = places.at(order), tips[order], led[order], wrong[order]
-        bounds = np.searchsorted(places.owners, np.arange(len(who) + 1)).tolist()
-        return [
-            LabelPositions(
-                half, places.centres[a:z], places.costs[a:z], places.feet[a:z], tips[a:z], led[a:z], wrong[a:z]
-            )
-            for half, a, z in zip(self.requests.half[who].tolist(), bounds[:-1], bounds[1:], strict=True)
-        ]
-
-    def _with_leaders(self, who: Indices, places: Candidates, led: Flags) -> Points:
-        """The tips of the leaders of some places, which then cost more."""
-        centres, feet, owners = places.centres[led], places.feet[led], who[places.owners[led]]
+        some = led.nonzero()[0]
+        if not some.size:
+            return tips
+        centres, feet, owners = places.centres[some], places.feet[some], who[places.owners[some]]
         off, half = centres - feet, self.requests.half[owners]
         way = _held(off.real, half.real) + 1j * _held(off.imag, half.imag)
         length = np.maximum(np.abs(way), 1e-9)
-        tips: Points = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        tips[some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         start = feet + way / length * FOOT_REACH
-        places.costs[led] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, tips, self.weights)
         nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
-        places.costs[led] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
+        places.costs[some] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, to, self.weights)
+        places.costs[some] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
         return tips
 
     def _outside(self, centres: Points, half: Points) -> Flags:
         low, high, panel = centres - half, centres + half, self.panel
         return (low.real < panel.left) | (high.real > panel.right) | (low.imag < panel.top) | (high.imag > panel.bottom)
 
-    def _touched(self, centres: Points, half: Points, first: int, last: int) -> Indices:
-        """The boxes that meet some of the obstacles, each as often as it meets one; obstacles count areas, solid,
-        dashed in turn."""
-        left, top, right, bottom = (side[first:last] for side in self.reach)
-        which, what = near(sides(centres - half, centres + half), (left, top, right, bottom))
-        if last <= self.areas:  # for what lies around an area its box will do
-            return which
-        what += first
-        lines = np.flatnonzero(what >= self.areas)
-        i, j = which[lines], what[lines]
-        meeting = np.ones(len(what), dtype=bool)
-        meeting[lines] = ~separated(centres[i], half[i], self.start[j], self.end[j])
-        return which[meeting]
+    @cached_property
+    def ink(self) -> InkRaster:
+        """All areas and solid lines."""
+        return InkRaster(self.panel.grown(CLEARANCE), self.start[: self.solid], self.end[: self.solid], self.areas)
+
+    def _touched(self, centres: Points, half: Points, count: int) -> tuple[Indices, Indices]:
+        """Pairs of a box and one of the first obstacles that it meets; obstacles count areas, solid, dashed in turn."""
+        found = []
+        left, top, right, bottom = (side[:count] for side in self.reach)
+        for which, what in near(sides(centres - half, centres + half), (left, top, right, bottom)):
+            lines = (what >= self.areas).nonzero()[0]  # for what lies around an area its box will do
+            i, j = which.take(lines), what.take(lines)
+            meeting = np.ones(len(what), dtype=bool)
+            meeting[lines] = ~separated(centres.take(i), half.take(i), self.start.take(j), self.end.take(j))
+            found.append((which[meeting], what[meeting]))
+        return joined(found)
 
     def _led(self, who: Indices, places: Candidates, half: Points) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
         own."""
         led: Flags = places.gaps > LEADER_FROM
-        close = np.flatnonzero(~led)
+        close = (~led).nonzero()[0]
         centres, own = places.centres[close], self.own_mark[who[places.owners[close]]]
         reach = half[close] + (places.gaps[close] + NEARER) * (1 + 1j)
-        which, what = near(sides(centres - reach, centres + reach), self.mark_reach)
-        others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
-        which, what = which[others], what[others]
-        hit = ~separated(centres[which], reach[which], self.mark_start[what], self.mark_end[what])
-        led[close[which[hit]]] = True
+        for which, what in near(sides(centres - reach, centres + reach), self.mark_reach):
+            others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
+            i, j = which[others], what[others]
+            hit = ~separated(centres[i], reach[i], self.mark_start[j], self.mark_end[j])
+            led[close[i[hit]]] = True
         return led
 
-    def _crossed(self, feet: Points, start: Points, to: Points, weights: Floats) -> Floats | Indices:
+    def _crossed(self, feet: Points, start: Points, to: Points, weights: Floats) -> Floats:
         """What each leader runs over, by weights: areas are joints and arrowheads, or writing."""
-        count = len(start)
-        which, what = near(sides_around(start, to), self.reach)
-        start, to = start[which], to[which]
-        a, b = self.start[what], self.end[what]
-        over = touches(start, to, a, b).astype(float)
-        areas = what < self.areas  # a leader over an area crosses one of its diagonals
-        a, b = a[areas], b[areas]
-        other = a.real + 1j * b.imag, b.real + 1j * a.imag
-        foot = feet[which[areas]]
-        own = (a.real <= foot.real) & (foot.real <= b.real) & (a.imag <= foot.imag) & (foot.imag <= b.imag)
-        written = weights[what[areas]] >= FORBIDDEN  # a foot under writing is no place for it
-        over[areas] = np.where(own, written, over[areas] + crosses(start[areas], to[areas], *other))
-        return np.bincount(which, over * weights[what], minlength=count)
+        found = np.zeros(len(feet))
+        for which, what in near(sides_around(start, to), self.reach):
+            a, b, c, d = start.take(which), to.take(which), self.start.take(what), self.end.take(what)
+            over = np.zeros(len(what))
+            over[touching(a, b, c, d)] = 1.0
+            areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
+            a, b, c, d = a.take(areas), b.take(areas), c.take(areas), d.take(areas)
+            foot = feet.take(which.take(areas))
+            own = (c.real <= foot.real) & (foot.real <= d.real) & (c.imag <= foot.imag) & (foot.imag <= d.imag)
+            written = weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
+            other = c.real + 1j * d.imag, d.real + 1j * c.imag
+            over[areas] = np.where(own, written, over.take(areas) + crosses(a, b, *other))
+            some = over.nonzero()[0]
+            found += np.bincount(which.take(some), over.take(some) * weights.take(what.take(some)), len(feet))
+        return found
 
 
 def _held(off: Floats, half: Floats) -> Floats:

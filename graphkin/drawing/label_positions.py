@@ -4,28 +4,27 @@ way.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.obstacles import Flags, Floats, Indices, Points, crosses, near, separated, sides, sides_around
+from graphkin.drawing.meeting import Flags, Floats, Indices, Points, crosses, near, separated, sides, sides_around
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["LEADER_SPACE", "HeldPositions", "LabelPosition", "LabelPositions"]
+__all__ = ["LEADER_SPACE", "Columns", "HeldPositions", "LabelPosition", "LabelPositions"]
 
-FEW = 4
-"""Places that a label tries one by one, before more of them are judged together."""
 LOTS = (0, 48, 240)
 """First places of the lots in which places are judged, the cheapest first."""
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
 class LabelPosition(NamedTuple):
-    """A place for a label: its box (mm), what it costs in looks (mm), and its leader from mark to box."""
+    """A place for a label: its box (mm), what it costs in looks (mm), its leader from mark to box, and left, top, right
+    and bottom of what both take."""
 
     left: float
     top: float
@@ -33,6 +32,7 @@ class LabelPosition(NamedTuple):
     bottom: float
     cost: float
     leader: Segment | None
+    reach: tuple[float, float, float, float]
 
     @property
     def box(self) -> Box:
@@ -41,20 +41,27 @@ class LabelPosition(NamedTuple):
     def meets(self, other: LabelPosition, space: complex) -> bool:
         """Whether two labels come nearer than a space (mm, across and down), or one's leader crosses the other or its
         leader."""
+        left, top, right, bottom, _, leader, reach = self
+        its_left, its_top, its_right, its_bottom, _, its_leader, its_reach = other
         if (
-            self.left - space.real < other.right
-            and other.left < self.right + space.real
-            and self.top - space.imag < other.bottom
-            and other.top < self.bottom + space.imag
-        ):
+            left - space.real < its_right and its_left < right + space.real and top - space.imag < its_bottom
+            and its_top < bottom + space.imag
+        ):  # fmt: skip
             return True
-        if self.leader is None and other.leader is None:
+        if leader is None and its_leader is None:
             return False
-        if self.leader is not None and other.lies_under(self.leader):
+        left, top, right, bottom = reach
+        its_left, its_top, its_right, its_bottom = its_reach
+        if (
+            left > its_right + LEADER_SPACE or its_left > right + LEADER_SPACE or top > its_bottom + LEADER_SPACE
+            or its_top > bottom + LEADER_SPACE
+        ):  # fmt: skip
+            return False
+        if leader is not None and other.lies_under(leader):
             return True
-        if other.leader is None:
+        if its_leader is None:
             return False
-        return self.lies_under(other.leader) or (self.leader is not None and _crosses(self.leader, other.leader))
+        return self.lies_under(its_leader) or (leader is not None and _crosses(leader, its_leader))
 
     def lies_under(self, leader: Segment) -> bool:
         """Whether a leader runs over the box, or nearly."""
@@ -70,124 +77,177 @@ class LabelPosition(NamedTuple):
         return off <= (right - left) / 2 * abs(dy) + (bottom - top) / 2 * abs(dx)
 
 
-@dataclass(frozen=True)
-class LabelPositions:
-    """Places of one label, cheapest first, as arrays: centres, costs, feet and tips of leaders, whether there is one,
-    number of faults."""
+class Columns(NamedTuple):
+    """Places, of one label or of several, as arrays: centres, costs, feet and tips of leaders, whether there is one."""
 
-    half: complex
     centres: Points
     costs: Floats
     feet: Points
     tips: Points
     led: Flags
-    faults: Indices
+
+    def at(self, some: Flags | Indices | slice) -> Columns:
+        """Some of the places."""
+        return Columns(self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some])
+
+
+class LabelPositions:
+    """Places of one label, whose box has a half size, cheapest first."""
+
+    def __init__(self, half: complex, columns: Columns) -> None:
+        self.half, self.columns = half, columns
+        self.centres, self.costs, self.feet, self.tips, self.led = columns
+        self._made: dict[int, LabelPosition] = {}
+        self._parts: dict[tuple[int, int], LabelPositions] = {}
 
     def __len__(self) -> int:
         return len(self.costs)
 
     def position(self, index: int) -> LabelPosition:
         """The place of an index."""
-        centre, half = complex(self.centres[index]), self.half
-        leader = (complex(self.feet[index]), complex(self.tips[index])) if self.led[index] else None
-        return LabelPosition(
-            centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag,
-            float(self.costs[index]), leader,
-        )  # fmt: skip
+        made = self._made.get(index)
+        if made is None:
+            centre, half, leader = self.centres[index].item(), self.half, None
+            left, top, right, bottom = reach = (
+                centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag
+            )  # fmt: skip
+            if self.led[index]:
+                leader = foot, _ = self.feet[index].item(), self.tips[index].item()
+                x, y = foot.real, foot.imag
+                reach = min(left, x), min(top, y), max(right, x), max(bottom, y)
+            made = LabelPosition(left, top, right, bottom, self.costs[index].item(), leader, reach)
+            self._made[index] = made
+        return made
 
     def cheaper(self, cost: float) -> int:
         """How many cost less."""
         return int(np.searchsorted(self.costs, cost))
 
     def lots(self, count: int) -> Iterator[tuple[int, LabelPositions]]:
-        """The first of them in lots, each with the number of its first place."""
-        for first, last in zip(LOTS, (*LOTS[1:], count), strict=True):
+        """Lots of them that hold the first ``count``, each with the number of its first place."""
+        for first, last in zip(LOTS, (*LOTS[1:], len(self)), strict=True):
             if first < count:
-                yield first, self.part(first, min(last, count))
+                yield first, self.part(first, last)
 
     def part(self, first: int, last: int) -> LabelPositions:
         """Those of some indices."""
-        some = slice(first, last)
-        return LabelPositions(
-            self.half, self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some],
-            self.faults[some],
-        )  # fmt: skip
+        part = self._parts.get((first, last))
+        if part is None:
+            part = self._parts[first, last] = LabelPositions(self.half, self.columns.at(slice(first, last)))
+        return part
 
-    def joined(self, other: LabelPositions) -> LabelPositions:
-        """These and others, cheapest first."""
-        if not len(other):
-            return self
-        columns = [
-            np.concatenate((getattr(self, key), getattr(other, key)))
-            for key in ("centres", "costs", "feet", "tips", "led", "faults")
-        ]
-        order = np.argsort(columns[1], kind="stable")
-        return LabelPositions(self.half, *(column[order] for column in columns))
+
+@dataclass
+class _Known:
+    """Which of some places meet which labels, as it was at a time."""
+
+    over: Flags
+    at: int
 
 
 class HeldPositions:
-    """The positions that labels hold, also as arrays by label: middles and half sizes of boxes (nan of a label that
-    holds none), feet and tips of leaders."""
+    """The positions that labels hold, also as arrays by label: middles and half sizes of boxes, feet and tips of
+    leaders (nan of a label that has held none)."""
 
     def __init__(self, count: int) -> None:
         self.middles, self.halves, self.feet, self.tips = np.full((4, count), complex(np.nan, np.nan))
+        self.stands = np.zeros(count, dtype=bool)
         self.standing: dict[int, LabelPosition] = {}
         self.leaders: dict[int, LabelPosition] = {}  # those of them that have one
+        self.last: dict[int, LabelPosition] = {}  # those that labels hold or have held
+        self.time, self.since = 0, np.zeros(count, dtype=np.intp)  # when they took it
+        self.known: dict[tuple[LabelPositions, complex], _Known] = {}
 
     def take(self, label: int, position: LabelPosition) -> None:
+        self.standing[label] = position
+        self.stands[label] = True
+        self.leaders.pop(label, None)
+        if position.leader is not None:
+            self.leaders[label] = position
+        if self.last.get(label) is position:
+            return
+        self.last[label] = position
+        self.time += 1
+        self.since[label] = self.time
         low, high = complex(position.left, position.top), complex(position.right, position.bottom)
         self.middles[label], self.halves[label] = (low + high) / 2, (high - low) / 2
-        self.standing[label] = position
         if position.leader is not None:
             self.feet[label], self.tips[label] = position.leader
-            self.leaders[label] = position
 
     def leave(self, label: int) -> None:
-        self.middles[label] = complex(np.nan, np.nan)
         del self.standing[label]
+        self.stands[label] = False
         self.leaders.pop(label, None)
+
+    def put_back(self, standing: Mapping[int, LabelPosition]) -> None:
+        """Let the labels hold positions that they have held at a time."""
+        for label in tuple(self.standing):
+            self.leave(label)
+        for label, position in standing.items():
+            self.take(label, position)
 
     def met(self, places: LabelPositions, space: complex) -> Flags:
         """Which of some places (rows) meet the positions of which labels (columns), as `LabelPosition.meets` says."""
-        room = self.halves + places.half + space
-        over: Flags = np.abs(places.centres.real[:, None] - self.middles.real) < room.real
-        over &= np.abs(places.centres.imag[:, None] - self.middles.imag) < room.imag
-        theirs = np.array(list(self.leaders), dtype=np.intp)
+        known = self.known.get((places, space))
+        if known is None:
+            over = np.zeros((len(places), len(self.since)), dtype=bool)
+            known = self.known[places, space] = _Known(over, 0)
+        some = (self.since > known.at).nonzero()[0]
+        if some.size:
+            known.over[:, some] = self._met(places, space, some)
+            known.at = self.time
+        return known.over & self.stands
+
+    def _met(self, places: LabelPositions, space: complex, labels: Indices) -> Flags:
+        """Which of some places meet the last positions of some labels."""
+        middles, halves = self.middles[labels], self.halves[labels]
+        over = self._overlapped(places, space, labels)
+        theirs = np.array([k for k, j in enumerate(labels.tolist()) if self.last[j].leader is not None], dtype=np.intp)
         if theirs.size:
-            start, end = self.feet[theirs], self.tips[theirs]
+            start, end = self.feet[labels[theirs]], self.tips[labels[theirs]]
             around = sides_around(start, end)
             reach = places.half + complex(LEADER_SPACE, LEADER_SPACE)
-            i, j = near(sides(places.centres - reach, places.centres + reach), around)
-            hit = ~separated(places.centres[i], reach, start[j], end[j])
-            over[i[hit], theirs[j[hit]]] = True
+            for i, j in near(sides(places.centres - reach, places.centres + reach), around):
+                hit = ~separated(places.centres[i], reach, start[j], end[j])
+                over[i[hit], theirs[j[hit]]] = True
         own = places.led.nonzero()[0]
         if own.size:
             feet, tips = places.feet[own], places.tips[own]
-            along, spaces = sides_around(feet, tips), self.halves + complex(LEADER_SPACE, LEADER_SPACE)
-            i, j = near(along, sides(self.middles - spaces, self.middles + spaces))
-            hit = ~separated(self.middles[j], spaces[j], feet[i], tips[i])
-            over[own[i[hit]], j[hit]] = True
+            along, spaces = sides_around(feet, tips), halves + complex(LEADER_SPACE, LEADER_SPACE)
+            for i, j in near(along, sides(middles - spaces, middles + spaces)):
+                hit = ~separated(middles[j], spaces[j], feet[i], tips[i])
+                over[own[i[hit]], j[hit]] = True
             if theirs.size:
-                i, j = near(along, around)
-                hit = crosses(feet[i], tips[i], start[j], end[j])
-                over[own[i[hit]], theirs[j[hit]]] = True
+                for i, j in near(along, around):
+                    hit = crosses(feet[i], tips[i], start[j], end[j])
+                    over[own[i[hit]], theirs[j[hit]]] = True
+        return over
+
+    def _overlapped(self, places: LabelPositions, space: complex, labels: Indices | slice) -> Flags:
+        """Which of some places come nearer than a space (mm, across and down) to the last positions of some labels."""
+        middles, room = self.middles[labels], self.halves[labels] + places.half + space
+        over: Flags = np.abs(places.centres.real[:, None] - middles.real) < room.real
+        over &= np.abs(places.centres.imag[:, None] - middles.imag) < room.imag
         return over
 
     def first_free(self, places: LabelPositions, count: int, space: complex) -> int | None:
         """The index of the cheapest of the first ``count`` places that meets no label; None where all do."""
-        others = tuple(self.standing.values())
-        for k in range(min(count, FEW)):
+        for k in self._promising(places, count, space):
             position = places.position(k)
-            for other in others:
+            for other in (self.standing if k == 0 or position.leader is not None else self.leaders).values():
                 if position.meets(other, space):
                     break
             else:
                 return k
-        for first, lot in places.lots(count):
-            free = np.flatnonzero(~self.met(lot, space).any(axis=1))
-            if free.size:
-                return first + int(free[0])
         return None
+
+    def _promising(self, places: LabelPositions, count: int, space: complex) -> Iterator[int]:
+        """The cheapest of some places, which is mostly free, and those of them whose boxes overlap none."""
+        if count:
+            yield 0
+        for first, lot in places.lots(count):
+            over = self._overlapped(lot, space, slice(None)) & self.stands
+            yield from (k for k in (first + np.flatnonzero(~over.any(axis=1))).tolist() if 0 < k < count)
 
 
 def _crosses(one: Segment, other: Segment) -> bool:

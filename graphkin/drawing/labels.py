@@ -9,7 +9,7 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -17,11 +17,12 @@ import numpy as np
 
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.font_widths import box_about
 from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
 from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
-from graphkin.drawing.obstacles import Flags, Obstacles
+from graphkin.drawing.meeting import Flags
+from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
 
 __all__ = ["Label", "Mark", "Placed", "Placement", "place"]
@@ -100,15 +101,18 @@ class Placement:
         self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
     ) -> None:
         self.labels, self.ranks = labels, [label.rank for label in labels]
-        self.texts = [_moved(label.text, 0j) for label in labels]
-        requests = [_request(label, text) for label, text in zip(labels, self.texts, strict=True)]
-        self.panel = LabelPanel(panel, obstacles, marks, requests)
+        self.texts = [label.text for label in labels]  # by request: those of the labels, then their keys
+        self.boxes = [box_about(text.runs) for text in self.texts]
+        self.panel = LabelPanel(panel, obstacles, marks, list(map(_request, labels, self.boxes)))
         self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
         self.seen = [0] * len(labels)  # rings looked at
         self.held = HeldPositions(len(labels))
         self.clear = [True] * len(labels)
         self.keys: dict[int, int] = {}  # the request for the key of a label
         self.keyed: set[int] = set()  # labels for which their keys stand
+        self.moves = 0  # how often room has been made
+        # Labels for which none could be made: after how many moves, with how many keys, and who was in the way.
+        self.stuck: dict[int, tuple[int, int, set[int]]] = {}
         if labels:
             self._settle()
 
@@ -121,11 +125,12 @@ class Placement:
         )  # fmt: skip
 
     def _placed(self, i: int, position: LabelPosition) -> Placed:
-        text = self.texts[self.keys[i] if i in self.keyed else i]
-        box = text_box(text)
+        request = self.keys[i] if i in self.keyed else i
+        text, box = self.texts[request], self.boxes[request]
         leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
         at = complex(position.left - box.left, position.top - box.top)
-        return Placed(_moved(text, at), position.box, leader, self.clear[i], i in self.keyed)
+        text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)
+        return Placed(text, position.box, leader, self.clear[i], i in self.keyed)
 
     @property
     def crowded(self) -> list[int]:
@@ -157,8 +162,9 @@ class Placement:
         """Look for places in the rings up to ``last`` that some labels have not yet seen."""
         for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
             some = [i for i in who if self.seen[i] == first]
-            for i, positions in zip(some, self.panel.free(some, first, last), strict=True):
-                self.found[i] = self.found[i].joined(positions) if first else positions
+            known = [self.found[i] for i in some] if first else ()
+            self.found |= zip(some, self.panel.free(some, first, last, known), strict=True)
+            for i in some:
                 self.seen[i] = last
 
     def _stand(self, i: int) -> bool:
@@ -201,9 +207,7 @@ class Placement:
             if missing < best:
                 best, state = missing, (sorted(queue + hopeless), dict(self.held.standing))
         lacking, standing = state
-        self.held = HeldPositions(len(self.ranks))
-        for i, position in standing.items():
-            self.held.take(i, position)
+        self.held.put_back(standing)
         return lacking
 
     def _ease(self, freed: bool) -> None:
@@ -228,8 +232,8 @@ class Placement:
         if not tangled:
             return
         tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
-        for i, positions in zip(tangled, self.panel.further(tangled), strict=True):
-            self.found[i] = self.found[i].joined(positions)
+        further = self.panel.further(tangled, [self.found[i] for i in tangled])
+        self.found |= zip(tangled, further, strict=True)
         for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
             for i in tangled:
                 if i in self.held.standing and self._tangled(i):
@@ -244,31 +248,37 @@ class Placement:
         """Put keys in place of names in a crowd: of those that stand badly, and of those in the way of such."""
         having = [i for i, label in enumerate(self.labels) if label.key is not None]
         crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
-        self._ask_for_keys([i for i in having if i in crowded], self.panel.everywhere_free)
+        asked = self._ask_for_keys([i for i in having if i in crowded])
+        if asked:
+            self.found |= zip(asked, self.panel.everywhere_free(asked), strict=True)
         for i in crowded:
             self._make_room(i)
         crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
         if crowded:
-            rest = [i for i in having if i not in self.keys]
-            self._ask_for_keys(rest, lambda asked: self.panel.free(asked, 0, len(RINGS)))
+            self._ask_for_keys([i for i in having if i not in self.keys])
             for i in crowded:
                 self._make_room(i)
 
-    def _ask_for_keys(self, some: Sequence[int], find: Callable[[Sequence[int]], list[LabelPositions]]) -> None:
-        """Look for places of the keys of some labels."""
-        if not some:
-            return
+    def _ask_for_keys(self, some: Sequence[int]) -> range:
+        """Let keys of some labels want places too; returns their requests."""
         requests = []
         for i in some:
             label = self.labels[i]
             assert label.key is not None
             classes = ("label", *label.key.classes)
-            self.texts.append(_moved(replace(label.key, id=label.text.id, classes=classes), 0j))
-            requests.append(_request(label, self.texts[-1]))
+            self.texts.append(replace(label.key, id=label.text.id, classes=classes))
+            self.boxes.append(box_about(label.key.runs))
+            requests.append(_request(label, self.boxes[-1]))
         first = self.panel.ask(requests)
         asked = range(first, first + len(some))
-        self.keys |= dict(zip(some, asked, strict=True))
-        self.found |= dict(zip(asked, find(asked), strict=True))
+        self.keys |= zip(some, asked, strict=True)
+        return asked
+
+    def _places(self, request: int) -> LabelPositions:
+        """Those of a request; of a key, which may never be in question, they are looked for here."""
+        if request not in self.found:
+            (self.found[request],) = self.panel.free([request], 0, len(RINGS))
+        return self.found[request]
 
     def _cost(self, i: int) -> float:
         """What it costs that a label stands where it stands, or nowhere."""
@@ -284,13 +294,15 @@ class Placement:
 
     def _make_room(self, i: int) -> None:
         """Move a label, and those in its way, to where they cost less together."""
+        if self._is_stuck(i):
+            return
         here, best = self.held.standing.get(i), self._cost(i)
         if here is not None:
             self.held.leave(i)
         chosen: dict[int, tuple[int, LabelPosition]] = {}
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
-            positions = self.found[form]
+            positions = self._places(form)
             free = self.held.first_free(positions, positions.cheaper(best - extra), _SPACE)
             if free is not None:
                 chosen = {i: (form, positions.position(free))}
@@ -300,8 +312,8 @@ class Placement:
                 cost = position.cost + extra
                 if cost >= best:
                     break
-                moved = {i: (form, position)}
-                for j in np.flatnonzero(meeting).tolist():
+                moved, taken = {i: (form, position)}, [position]
+                for j in meeting.nonzero()[0].tolist():
                     if j not in others:
                         others[j] = self._others(j)
                     rest = best - cost + self._cost(j)
@@ -309,8 +321,12 @@ class Placement:
                         if dear >= rest:
                             break
                         its = self.found[own].position(k)
-                        if not any(its.meets(one, _SPACE) for _, one in moved.values()):
+                        for one in taken:
+                            if its.meets(one, _SPACE):
+                                break
+                        else:
                             moved[j] = own, its
+                            taken.append(its)
                             cost += dear - self._cost(j)
                             break
                     if j not in moved:
@@ -318,8 +334,12 @@ class Placement:
                 else:
                     if cost < best:
                         best, chosen = cost, moved
-        if not chosen and here is not None:
-            self.held.take(i, here)
+        if chosen:
+            self.moves += 1
+        else:
+            self.stuck[i] = self.moves, len(self.keys), {i, *others}
+            if here is not None:
+                self.held.take(i, here)
         for label, (form, position) in chosen.items():
             self.held.take(label, position)
             self.clear[label] = True
@@ -352,15 +372,19 @@ class Placement:
         cost = sum(position.cost - before[j].cost for j, position in after.items() if position is not before[j])
         cost += sum(_DROPPED - before[j].cost for j in queue)
         if cost >= 0 or any(self.ranks[j] < _DISPENSABLE for j in queue):
-            self.held = HeldPositions(len(self.ranks))
-            for j, position in before.items():
-                self.held.take(j, position)
+            self.held.put_back(before)
+        self.moves += 1
+
+    def _is_stuck(self, i: int) -> bool:
+        """Whether no room could be made for a label, and nothing has changed since for it and those in its way."""
+        moves, keys, concerned = self.stuck.get(i, (-1, 0, set()))
+        return moves == self.moves and concerned.isdisjoint(list(self.keys)[keys:])
 
     def _others(self, j: int) -> list[tuple[float, int, int]]:
         """Places of a label that no other is in the way of: what they cost, their request and index."""
         found = []
         for form, extra in self._forms(j):
-            positions = self.found[form].part(0, _LOOKED_AT)
+            positions = self._places(form).part(0, _LOOKED_AT)
             met = self.held.met(positions, _SPACE)
             free = np.flatnonzero(met.sum(axis=1) == met[:, j])
             costs = (positions.costs[free] + extra).tolist()
@@ -371,14 +395,14 @@ class Placement:
         """Of the first places those that meet few other labels, cheapest first, with what they meet."""
         for first, lot in positions.lots(count):
             met = self.held.met(lot, _SPACE)
-            for k in np.flatnonzero(met.sum(axis=1) <= _MOVED):
-                yield positions.position(first + int(k)), met[k]
+            for k in (met.sum(axis=1) <= _MOVED)[: count - first].nonzero()[0].tolist():
+                yield positions.position(first + k), met[k]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
-        positions, important = self.panel.everywhere(i), np.array(self.ranks) == 0
+        (positions, faults), important = self.panel.everywhere(i), np.array(self.ranks) == 0
         met = self.held.met(positions, 0.0)
-        faults = positions.faults + met[:, important].sum(axis=1)
+        faults = faults + met[:, important].sum(axis=1)
         chosen = int(np.lexsort((positions.costs, met.sum(axis=1), faults))[0])
         for j in np.flatnonzero(met[chosen] & ~important):
             self.held.leave(int(j))
@@ -386,10 +410,5 @@ class Placement:
         self.held.take(i, positions.position(chosen))
 
 
-def _request(label: Label, text: Text) -> LabelRequest:
-    box = text_box(text)
+def _request(label: Label, box: Box) -> LabelRequest:
     return LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)
-
-
-def _moved(text: Text, at: complex) -> Text:
-    return Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)

@@ -1,8 +1,5 @@
 """What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover; and room
 along the edges of a panel that nothing drawn or written takes.
-
-Below, what tells whether lines and boxes meet, for many at once: arrays of complex numbers, boxes by their middle and
-half size, segments with their two ends in the last dimension.
 """
 
 from __future__ import annotations
@@ -11,10 +8,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TypeAlias
-
-import numpy as np
-from numpy.typing import NDArray
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
@@ -30,22 +23,8 @@ from graphkin.drawing.primitives import (
     page_direction,
     walk,
 )
-from graphkin.plane import cross
 
-__all__ = [
-    "Flags", "Floats", "Indices", "Obstacles", "Points", "Sides", "crosses", "free_boxes", "meets",
-    "near", "obstacles_of", "separated", "sides", "sides_around",
-]  # fmt: skip
-
-Points: TypeAlias = NDArray[np.complex128]
-Floats: TypeAlias = NDArray[np.float64]
-Flags: TypeAlias = NDArray[np.bool_]
-Indices: TypeAlias = NDArray[np.intp]
-Sides: TypeAlias = tuple[Floats, Floats, Floats, Floats]
-"""Left, top, right, bottom of upright boxes."""
-
-ON_LINE = 1e-9  # mm⁴: so near to a line, but for rounding, lies on it
-MOST_PAIRS = 1 << 17  # of boxes compared at a time: what a processor holds near
+__all__ = ["Obstacles", "free_boxes", "obstacles_of"]
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -128,68 +107,6 @@ def _round(circle: Circle) -> tuple[complex, ...]:
 def _size(polygon: Polygon) -> float:
     box = Box.around(polygon.points)
     return max(box.width, box.height)
-
-
-def sides(low: Points, high: Points) -> Sides:
-    """Of boxes with these corners."""
-    return low.real.copy(), low.imag.copy(), high.real.copy(), high.imag.copy()
-
-
-def sides_around(start: Points, end: Points) -> Sides:
-    """Of the boxes around segments."""
-    left, right, top, bottom = start.real, end.real, start.imag, end.imag
-    return np.minimum(left, right), np.minimum(top, bottom), np.maximum(left, right), np.maximum(top, bottom)
-
-
-def near(boxes: Sides, others: Sides) -> tuple[Indices, Indices]:
-    """Pairs of upright boxes that meet, by their indices; a box of nan meets none."""
-    left, top, right, bottom = others
-    if not (len(boxes[0]) and len(left)):
-        return np.empty(0, dtype=np.intp), np.empty(0, dtype=np.intp)
-    rows = max(1, MOST_PAIRS // len(left))
-    found = []
-    for first in range(0, len(boxes[0]), rows):
-        own_left, own_top, own_right, own_bottom = (side[first : first + rows, None] for side in boxes)
-        meeting = left <= own_right
-        meeting &= right >= own_left
-        meeting &= top <= own_bottom
-        meeting &= bottom >= own_top
-        found.append(meeting.ravel().nonzero()[0] + first * len(left))
-    pairs = found[0] if len(found) == 1 else np.concatenate(found)
-    which = pairs // len(left)
-    return which, pairs - which * len(left)
-
-
-def separated(centres: Points, half: Points | complex, start: Points, end: Points) -> Flags:
-    """Whether the normal of a segment separates it from a box (of centre and half size); the axes of the box are the
-    caller's to check."""
-    along = end - start
-    distance = np.abs(cross(along, centres - start))
-    return distance > half.real * np.abs(along.imag) + half.imag * np.abs(along.real)
-
-
-def meets(segments: Points, centres: Points, half: Points) -> Flags:
-    """Whether segments (their ends in the last dimension) and boxes meet."""
-    start, end = segments[..., 0], segments[..., 1]
-    middle, reach = (start + end) / 2 - centres, (end - start) / 2
-    close = (np.abs(middle.real) <= np.abs(reach.real) + half.real) & (
-        np.abs(middle.imag) <= np.abs(reach.imag) + half.imag
-    )
-    return close & ~separated(centres, half, start, end) if close.any() else close
-
-
-def crosses(a: Points, b: Points, c: Points, d: Points) -> Flags:
-    """Whether lines from a to b cross lines from c to d between their ends."""
-    apart = cross(b - a, c - a) * cross(b - a, d - a)
-    across = cross(d - c, a - c) * cross(d - c, b - c)
-    return (apart < 0) & (across < 0)
-
-
-def touches(a: Points, b: Points, c: Points, d: Points) -> Flags:
-    """As `crosses`, or one ends on the other."""
-    apart = cross(b - a, c - a) * cross(b - a, d - a)
-    across = cross(d - c, a - c) * cross(d - c, b - c)
-    return (apart <= ON_LINE) & (across <= ON_LINE)
 
 
 STEP = 6.0  # mm from one place tried to the next along the edge of the panel

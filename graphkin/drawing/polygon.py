@@ -17,7 +17,8 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.group_aids import aids_in_polygon
 from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.labels import Label
-from graphkin.drawing.obstacles import Flags, Obstacles, Points, meets
+from graphkin.drawing.meeting import Flags, Points, meets
+from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
 from graphkin.drawing.polygon_points import points

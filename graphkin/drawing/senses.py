@@ -15,7 +15,7 @@ import numpy as np
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, page
-from graphkin.drawing.obstacles import Floats, Points
+from graphkin.drawing.meeting import Floats, Points
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.primitives import Group, Line, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrowhead
