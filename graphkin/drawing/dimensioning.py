@@ -156,7 +156,8 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
                 guides[1].append(slider.at.conjugate())
             elif abs(slider.along.real) < 1e-9:
                 guides[0].append(slider.at.conjugate())
-            ends = (sheet.points.get(PointRef(p), slider.at) for p in scene.by_name[slider.slide.a].points)
+            sliding = scene.by_name.get(slider.slide.a)  # none is the block of a pin, which has no other points
+            ends = (sheet.points.get(PointRef(p), slider.at) for p in (sliding.points if sliding else ()))
             on_guides += [z.conjugate() for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
         places = [_Spot(z) for z in spots.values()]

@@ -120,3 +120,14 @@ def test_distances_in_the_frame_stand_on_the_mechanism_of_the_sheet(name, length
     page = walk(draw(name, figures=("sheet",)).figures["sheet"].children)
     dimensions = next(thing for thing in page if isinstance(thing, Group) and thing.id == "dimensions")
     assert lengths <= {thing.string for thing in walk(dimensions.children) if isinstance(thing, Text)}
+
+
+def test_a_pin_in_a_named_slot_of_the_frame_leaves_its_distance_dimensioned():
+    scene = {
+        "units": {"length": "mm"},
+        "frame": {"name": "0", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 20], "angle": 0}}},
+        "links": {"1": {"points": ["A", "B"], "length": 40}, "2": {"points": ["B", "C"], "length": 120}},
+        "pins": {"C": {"of": "2", "in": "0.h"}},
+        "driver": {"link": "1", "angle": 40, "rpm": 100},
+    }
+    assert "20" in words(draw(scene).figures["mechanism"])
