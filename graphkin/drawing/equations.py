@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property, partial
 
 from graphkin.construction.polygon_acts import LaidOff
 from graphkin.construction.sheet import Equation, Sheet, Term
@@ -19,7 +19,10 @@ from graphkin.drawing.sums import bound, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.words.written import MOST, product
 
-__all__ = ["LEAST_LETTERS", "SumTerm", "Written", "equations_in_room", "rule_alone", "write_equation", "write_sum"]
+__all__ = [
+    "LEAST_LETTERS", "LineToSet", "SumTerm", "Written", "WrittenLine", "equations_in_room", "line_to_set", "rule_alone",
+    "write_equation", "write_sum",
+]  # fmt: skip
 
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
 WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
@@ -57,12 +60,18 @@ class _Cell:
 
 WrittenLine = Equation | str
 """A vector equation, or a rule on one line as words with symbols."""
+LineToSet = Callable[[float, float], Written]
+"""A line as it is set: at most so wide, in letters of a size (mm)."""
+
+
+def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str) -> LineToSet:
+    """A line that is set once for each width and size, however many places are tried for it."""
+    return cache(partial(_write_line, line, sheet, letters, language))
 
 
 def equations_in_room(
-    lines: Sequence[WrittenLine], sheet: Sheet, letters: Letters, language: str, width: float, height: float,
-    most: float = WAYS[0][0],
-) -> tuple[tuple[Primitive, ...], int]:  # fmt: skip
+    lines: Sequence[LineToSet], width: float, height: float, most: float = WAYS[0][0]
+) -> tuple[tuple[Primitive, ...], int]:
     """Lines as large as they fit an area (mm), with letters of ``most`` mm, in one column or two, about its left upper
     corner; and how many of them, the first ones, fit."""
     fullest: list[tuple[Written, complex]] = []
@@ -71,7 +80,7 @@ def equations_in_room(
             continue
         wide = (width - (columns - 1) * COLUMN_GAP) / columns
         # lines are set as they are placed, since those after one that has no room are not wanted
-        blocks = (_write_line(line, sheet, letters, language, wide, size) for line in lines)
+        blocks = (line(wide, size) for line in lines)
         placed = _in_columns(blocks, wide, height, columns)
         fullest = max(fullest, placed, key=len)
         if len(placed) == len(lines):

@@ -12,7 +12,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import LEAST_LETTERS, WrittenLine, equations_in_room
+from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, per_row
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved
@@ -36,7 +36,7 @@ TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one 
 class Remainder:
     """What is left to be shown, in the order of its parts."""
 
-    equations: Sequence[WrittenLine] = ()
+    equations: Sequence[LineToSet] = ()
     senses: Sequence[CoriolisTerm] = ()
     given: Sequence[tuple[Run, ...]] = ()
     readings: Sequence[TableRow] = ()
@@ -137,7 +137,7 @@ def _equations(
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
     most = {"most": LEAST_LETTERS} if begun else {}
-    blocks, count = equations_in_room(rest.equations, sheet, letters, language, box.width, box.height, **most)
+    blocks, count = equations_in_room(rest.equations, box.width, box.height, **most)
     if not count:
         return Piece(), rest, room
     written = moved(blocks, complex(box.left, box.top))

@@ -3,6 +3,7 @@ under them the photograph or scan, with the lines that were read off it."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import islice, product
 
@@ -15,7 +16,7 @@ from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import WrittenLine, equations_in_room
+from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
     describe,
@@ -74,10 +75,11 @@ def sheet_page(
         drawn.append("acceleration")
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
-    writing, rest = _writing(sheet, report, letters, spoken, plan, homeless, GIVEN[0])
+    lines = [line_to_set(line, sheet, letters, spoken) for line in written_lines(sheet, letters, spoken)]
+    writing, rest = _writing(sheet, report, letters, spoken, plan, lines, homeless, GIVEN[0])
     closer = product((plan, *with_less_mechanism(plan, sheet)), GIVEN) if rest and plan.equations else ()
     for each, size in islice(closer, 1, None):
-        there, left = _writing(sheet, report, letters, spoken, each, homeless, size)
+        there, left = _writing(sheet, report, letters, spoken, each, lines, homeless, size)
         if not left:
             plan, writing, rest = each, there, left
             break
@@ -112,22 +114,21 @@ def sheet_page(
 
 
 def _writing(
-    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, senses: list[CoriolisTerm],
-    size: float,
+    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, lines: Sequence[LineToSet],
+    senses: list[CoriolisTerm], size: float,
 ) -> tuple[list[Piece], Remainder]:  # fmt: skip
     """Equations, given data in letters of at most a size, and readings, with the insets of Coriolis terms that found no
     room in their panel; and what is left of them for further pages."""
     rows = table_rows(sheet, report)
     if plan.equations is None or plan.given is None or plan.readings is None:
-        lines = given_lines(sheet, letters, language, plan.page.width, GIVEN[0])
-        return [], Remainder(written_lines(sheet, letters, language), senses, lines, rows)
+        return [], Remainder(lines, senses, given_lines(sheet, letters, language, plan.page.width, GIVEN[0]), rows)
     given, given_rest = given_data(sheet, letters, language, plan.given, size)
     data = captioned(plan.given, term("given", language), "labels", given)
     spare = _spare(plan.given, given)
     if spare is not None and not given_rest:
         data = joined((data, coriolis_row(sheet, senses[:1], letters, spare)))
         senses = senses[1:]
-    equations, lines_left, senses = _equations(sheet, letters, language, plan.equations, senses)
+    equations, lines_left, senses = _equations(sheet, letters, language, plan.equations, lines, senses)
     table, count = readings_table(sheet, rows, letters, language, plan.readings)
     readings = captioned(plan.readings, term("readings", language), "answers", table)
     rest = Remainder(lines_left, senses, given_rest, rows[count:])
@@ -193,18 +194,17 @@ def _polygon(
 
 
 def _equations(
-    sheet: Sheet, letters: Letters, language: str, box: Box, senses: list[CoriolisTerm]
-) -> tuple[Piece, list[WrittenLine], list[CoriolisTerm]]:
+    sheet: Sheet, letters: Letters, language: str, box: Box, lines: Sequence[LineToSet], senses: list[CoriolisTerm]
+) -> tuple[Piece, Sequence[LineToSet], list[CoriolisTerm]]:
     """The equations, and below them the insets of Coriolis terms that found no room in their panel; and what of both
     is left for another page."""
-    lines = written_lines(sheet, letters, language)
     count = 0
     insets = INSET[1] + GUTTER if senses else 0.0
     if senses and box.height >= insets + EQUATIONS_ROOM:
-        blocks, count = equations_in_room(lines, sheet, letters, language, box.width, box.height - insets)
+        blocks, count = equations_in_room(lines, box.width, box.height - insets)
     shown = senses[: per_row(box.width)] if count == len(lines) else []  # the equations come first
     if not shown:
-        blocks, count = equations_in_room(lines, sheet, letters, language, box.width, box.height)
+        blocks, count = equations_in_room(lines, box.width, box.height)
     written = Group(moved(blocks, complex(box.left, box.top)), id="equations")
     parts = [captioned(box, term("equations", language), "labels", (written,))]
     if shown:
