@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["Checked", "check", "checked", "drawn_symbols", "hand_of", "here", "solved_here", "with_elsewhere"]
+__all__ = ["Checked", "asked_here", "check", "checked", "drawn_symbols", "hand_of", "solved_here", "with_elsewhere"]
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -249,8 +249,8 @@ def check(
     given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, here(asked))
-    made = checked(plan(structure, values, here(asked)), motion, hand)
+    motion = solved_here(structure, values, asked_here(asked))
+    made = checked(plan(structure, values, asked_here(asked)), motion, hand)
     return with_elsewhere(made, asked, seed)
 
 
@@ -313,7 +313,7 @@ def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tupl
     return (*asked, *forces)
 
 
-def here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
+def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
     """What is asked of the position itself; where all is asked of others, the same quantities here."""
     return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
 

@@ -20,7 +20,7 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.course_schemes import dealt_out, read_at, scheme_name, scheme_of, tabled
+from graphkin.api.course_schemes import asked_in_tables, dealt_out, read_at, scheme_name, scheme_of
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import FilesOfScene
@@ -166,7 +166,7 @@ def course_design(
         if one.name not in shared:
             shared[one.name] = _figures(one.scene, spoken, letters)
         key = one.scene.drivers[0].key
-        asked = tabled(one.scene, find)
+        asked = asked_in_tables(one.scene, find)
         stands = lesson.sheet.drivers[key]
         place = one.places[who.place] if who.place in one.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
@@ -185,7 +185,7 @@ def course_design(
         if progress is not None:
             progress(k + 1, len(dealt))
     assert lesson is not None
-    asked = tabled(lesson.sheet.scene, find)
+    asked = asked_in_tables(lesson.sheet.scene, find)
     whole = class_document(lesson, lines, asked, _unit(given))
     if "html" in formats:
         content["class.html"] = document_page(whole).encode()

@@ -23,7 +23,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
 
-__all__ = ["Scheme", "dealt_out", "read_at", "scheme_name", "scheme_of", "tabled"]
+__all__ = ["Scheme", "asked_in_tables", "dealt_out", "read_at", "scheme_name", "scheme_of"]
 
 HEADS: Mapping[str, tuple[str, ...]] = {
     "name": ("name", "student", "姓名", "学生"),
@@ -57,7 +57,7 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
         drivers = dict(named.values)
     else:
         drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}
-    asked = tabled(scene, find)
+    asked = asked_in_tables(scene, find)
     places = {}
     for place, value in drivers.items():
         try:
@@ -138,7 +138,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         yield who
 
 
-def tabled(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+def asked_in_tables(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
     """What the tables show: what is asked of the position itself, else the motion of the last joint and the rates of
     what turns about fixed pivots, else every velocity and acceleration that is read off."""
     asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)

@@ -20,7 +20,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.cams import cam_table
-from graphkin.api.checked import Checked, checked, drawn_symbols, hand_of, here, solved_here, with_elsewhere
+from graphkin.api.checked import Checked, asked_here, checked, drawn_symbols, hand_of, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
@@ -382,8 +382,8 @@ def draw(
     given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, here(asked))
-    what = plan(structure, values, here(asked))
+    motion = solved_here(structure, values, asked_here(asked))
+    what = plan(structure, values, asked_here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
     places = tuple(as_list("beside", beside, 'give names of positions, or driver values: ["1", 75]'))
     drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places)

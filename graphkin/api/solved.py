@@ -62,23 +62,23 @@ class Solved(Result, OfScene):
     def __getitem__(self, name: str) -> Array:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
         name = as_text("name", name)
-        from graphkin.study.watched import watched_named, watched_symbol
+        from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
 
         scene = self.mechanism
         if self.forces is not None and (found := self.forces.value(str(name))) is not None:
             return np.asarray(found / scene.units.newtons)
-        watched = watched_named(scene, str(name))
+        watched = quantity_named(scene, str(name))
         if watched is None and str(name).startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
         if watched is None:
-            watched = watched_symbol(*asked_symbols(scene, [name]))
+            watched = quantity_of_symbol(*asked_symbols(scene, [name]))
         parts = watched.parts(None, self._moved)
         return np.array(parts[0]) if len(parts) == 1 else parts[0] + 1j * parts[1]
 
     @cached_property
     def table(self) -> Table:
         """A row for each position: the drivers' values, everything that moves, the status and the reason for it."""
-        from graphkin.study.watched import driver_columns, everything
+        from graphkin.study.sweep_quantities import all_that_moves, driver_columns
         from graphkin.table import Column, Table, text_column
 
         motion, scene = self.motion, self.mechanism
@@ -88,17 +88,17 @@ class Solved(Result, OfScene):
         if self.find:
             columns += [column for name in self.find for column in self.columns(name)]
         else:
-            for watched in everything(motion.structure):
+            for watched in all_that_moves(motion.structure):
                 columns += watched.columns(scene, watched.parts(None, self._moved))
         said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
         return Table((*columns, *said), ("position",))
 
     def columns(self, name: str) -> list[Column]:
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
-        from graphkin.study.watched import watched_named, watched_symbol
+        from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
 
         scene = self.mechanism
-        watched = watched_named(scene, name) or watched_symbol(*asked_symbols(scene, [name]))
+        watched = quantity_named(scene, name) or quantity_of_symbol(*asked_symbols(scene, [name]))
         return watched.columns(scene, watched.parts(None, self._moved))
 
     @property

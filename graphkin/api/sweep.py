@@ -31,7 +31,7 @@ from graphkin.table import have
 if TYPE_CHECKING:
     from graphkin.api.answers import AnswersLike
     from graphkin.study.graphical import Way
-    from graphkin.study.watched import Watched
+    from graphkin.study.sweep_quantities import SweepQuantity
 
 __all__ = ["sweep"]
 
@@ -194,22 +194,23 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
     )
 
 
-def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Watched, ...]:
+def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[SweepQuantity, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
-    from graphkin.study.watched import watched_named, watched_symbol
+    from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
 
     if find is None:
         shown = (s for s in scene.find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
-        return tuple((watched_named(scene, str(s)) if s.scope == "force" else None) or watched_symbol(s) for s in shown)
-    found: list[Watched] = []
+        forces = {s: quantity_named(scene, str(s)) for s in scene.find if s.scope == "force"}
+        return tuple(forces.get(s) or quantity_of_symbol(s) for s in shown)
+    found: list[SweepQuantity] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):
-        named = watched_named(scene, name) if isinstance(name, str) else None
+        named = quantity_named(scene, name) if isinstance(name, str) else None
         if isinstance(name, str) and name.startswith(OF_TURN):
             problems.append(Problem(f"find {name}", "is of the whole turn, no column", "it stands in the summary"))
             continue
         try:
-            found += [named] if named is not None else map(watched_symbol, asked_symbols(scene, [name]))
+            found += [named] if named is not None else map(quantity_of_symbol, asked_symbols(scene, [name]))
         except CallError as error:
             problems += error.problems
     if problems:

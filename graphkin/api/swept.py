@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
     from graphkin.study.quantities import Quantity
+    from graphkin.study.sweep_quantities import Arrays
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
-    from graphkin.study.watched import Arrays
     from graphkin.table import Array
 
 __all__ = ["Swept"]

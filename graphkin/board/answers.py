@@ -94,7 +94,7 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
     told: Answer = {"draft": building.draft(made), "form": made}
     trial = building.trial_driver(made)
     try:
-        made = pictures.beside(parsed(text), desk.shelf.folder)
+        made = pictures.with_own_files(parsed(text), desk.shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         count = 0 if trial else len(scene.drivers)
         spoken = language if language in LANGUAGES else scene.sheet.language
@@ -136,9 +136,9 @@ def _finite(value: object) -> bool:
 
 def _show(desk: Desk, message: Message) -> Answer:
     scene = _scene(desk, message)
-    wishes = pictures.Wishes.of(message)
+    options = pictures.FigureOptions.of(message)
     quick = message.get("quick") is True
-    told = pictures.shown(scene, _at(message), wishes, quick)
+    told = pictures.shown(scene, _at(message), options, quick)
     return told if quick else {**told, "form": parsed(_text(message))}
 
 
@@ -148,7 +148,7 @@ def _pull(desk: Desk, message: Message) -> Answer:
     if not _finite(x) or not _finite(y) or not isinstance(point, str):
         raise CallError(Problem("pull", f"found {point!r:.40} to {x!r:.20}, {y!r:.20}", "name a point and a place"))
     scene, at, text = _scene(desk, message), _at(message), _text(message)
-    wishes = pictures.Wishes.of(message)
+    options = pictures.FigureOptions.of(message)
     raw = parsed(text)
     to = complex(float(x), float(y)) * scene.units.metres  # type: ignore[arg-type]
     found = pulled(raw, pictures.motion_at(scene, at), point, to, message.get("lengths") is True)
@@ -159,8 +159,8 @@ def _pull(desk: Desk, message: Message) -> Answer:
     for key, value in found.changes.items():
         if problem := put(raw, key, value):
             raise CallError(problem)
-    there = resolved(pictures.beside(raw, desk.shelf.folder), "scene")[1] if found.changes else scene
-    return {**pictures.shown(there, now, wishes, quick=True), "changes": found.changes}
+    there = resolved(pictures.with_own_files(raw, desk.shelf.folder), "scene")[1] if found.changes else scene
+    return {**pictures.shown(there, now, options, quick=True), "changes": found.changes}
 
 
 def _change(desk: Desk, message: Message) -> Answer:
@@ -180,7 +180,7 @@ def _build(desk: Desk, message: Message) -> Answer:
 def _keep(desk: Desk, message: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
     scene, text = _scene(desk, message), _text(message)
-    told = pictures.shown(scene, _at(message), pictures.Wishes(("mechanism",)), quick=True)
+    told = pictures.shown(scene, _at(message), pictures.FigureOptions(("mechanism",)), quick=True)
     at, points = told["at"], told["points"]
     assert isinstance(at, dict)
     assert isinstance(points, dict)
@@ -248,14 +248,14 @@ def _diagrams(desk: Desk, message: Message) -> Answer:
 
     asked = message.get("find")
     find = [str(one) for one in asked] if isinstance(asked, list) and asked else None
-    swept = sweep(_scene(desk, message), find=find, language=pictures.Wishes.of(message).language)
+    swept = sweep(_scene(desk, message), find=find, language=pictures.FigureOptions.of(message).language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
 def _race(desk: Desk, message: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
-    found = speed_accuracy(_scene(desk, message), repeats=1, language=pictures.Wishes.of(message).language)
+    found = speed_accuracy(_scene(desk, message), repeats=1, language=pictures.FigureOptions.of(message).language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in found.figures.items()}}
 
 
@@ -266,11 +266,11 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
 def _export(desk: Desk, message: Message) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
     kind, scene = message.get("kind"), _scene(desk, message)
-    wishes = pictures.Wishes.of(message)
+    options = pictures.FigureOptions.of(message)
     if kind in ("svg", "pdf", "png", "dxf"):
         from graphkin import solver
 
-        drawn, _ = pictures.drawn_at(solver.structure_of(scene), _at(message), wishes)
+        drawn, _ = pictures.drawn_at(solver.structure_of(scene), _at(message), options)
         figures = drawn.figures
         if not figures:
             raise CallError(Problem("figure", "there is nothing to draw", "choose another figure"))
@@ -281,23 +281,23 @@ def _export(desk: Desk, message: Message) -> Answer:
     if kind not in ("papers", "variants"):
         raise CallError(Problem("kind", f'"{kind!s:.40}"', "known here: svg, pdf, png, dxf, papers, variants, scene"))
     with tempfile.TemporaryDirectory() as folder:
-        _papers(scene, message, wishes, Path(folder))
+        _papers(scene, message, options, Path(folder))
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
 
 
-def _papers(scene: Mechanism, message: Message, wishes: pictures.Wishes, folder: Path) -> None:
+def _papers(scene: Mechanism, message: Message, options: pictures.FigureOptions, folder: Path) -> None:
     from graphkin.api.handouts import handout, papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.table import have
 
     formats = ("html", "pdf") if have("typst") else ("html",)
     if message.get("kind") == "papers":
-        handout(scene, folder, _at(message), formats=formats, language=wishes.language, convention=wishes.convention)
+        handout(scene, folder, _at(message), formats=formats, language=options.language, convention=options.convention)
         return
     count, seed = message.get("count"), message.get("seed")
     if not isinstance(count, int) or not 1 <= count <= MOST_VARIANTS:
         raise CallError(Problem("variants", f"found {count!r:.20}", f"give a number from 1 to {MOST_VARIANTS}"))
-    render = papers_of(scene, formats, wishes.language, wishes.convention)
+    render = papers_of(scene, formats, options.language, options.convention)
     problem_set(scene, count, seed if isinstance(seed, int) else 0, out=folder, render=render)
 
 

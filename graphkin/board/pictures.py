@@ -12,7 +12,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.api.arguments import driver_values, known_words, own_unit, placed
-from graphkin.api.checked import checked, hand_of, here, solved_here
+from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
 from graphkin.api.report_text import reading_words, show
 from graphkin.board.moving import movable
@@ -35,7 +35,10 @@ from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import in_markup
 
-__all__ = ["Message", "Wishes", "beside", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail"]
+__all__ = [
+    "FigureOptions", "Message", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail",
+    "with_own_files",
+]  # fmt: skip
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
@@ -46,7 +49,7 @@ Message = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
-class Wishes:
+class FigureOptions:
     """How the page wants its figures."""
 
     figures: tuple[str, ...] = ("mechanism", "velocity", "acceleration")
@@ -57,8 +60,8 @@ class Wishes:
     scales: Scales | None = None
 
     @classmethod
-    def of(cls, message: Message) -> Wishes:
-        """The wishes of a message.  Raises CallError for words that mean nothing."""
+    def of(cls, message: Message) -> FigureOptions:
+        """What a message wants of them.  Raises CallError for words that mean nothing."""
         language, convention = message.get("language") or None, message.get("convention") or None
         instrument = message.get("instrument") or "exact"
         known_words(language=language, convention=convention, instrument=instrument)
@@ -84,10 +87,10 @@ def scene_of(text: str, name: str, folder: Path | None = None) -> Mechanism:
     ------
     SceneError : it is no scene, or names a file elsewhere
     """
-    return resolved(beside(parsed(text), folder), name)[1]
+    return resolved(with_own_files(parsed(text), folder), name)[1]
 
 
-def beside(made: OwnTables, folder: Path | None) -> OwnTables:
+def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
     """The mapping of a scene, with the files that it names looked for in one folder and nowhere else."""
     sheet = made.get("sheet")
     under = sheet.get("background") if isinstance(sheet, dict) else None
@@ -145,7 +148,7 @@ def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
     return solved_here(*placed(scene, at or None))
 
 
-def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishes) -> tuple[Drawn, Motion]:
+def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: FigureOptions) -> tuple[Drawn, Motion]:
     """A scene drawn at a position of its drivers, with its exact motion.
 
     Raises
@@ -155,16 +158,18 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, wishes: Wishe
     scene, values = placed(structure.scene, at or None)
     structure = structure if scene is structure.scene else solver.structure_of(scene)
     asked = tuple(scene.find)
-    motion = solved_here(structure, values, here(asked))
-    what = plan(structure, values, here(asked))
-    if wishes.scales is not None:
-        what = replace(what, scales=wishes.scales)
-    made = checked(what, motion, hand_of(scene, wishes.instrument, wishes.seed))
-    names = known_figures(scene, wishes.figures)
-    return Drawn(made, what, motion, names, wishes.seed, wishes.language, wishes.convention), motion
+    motion = solved_here(structure, values, asked_here(asked))
+    what = plan(structure, values, asked_here(asked))
+    if options.scales is not None:
+        what = replace(what, scales=options.scales)
+    made = checked(what, motion, hand_of(scene, options.instrument, options.seed))
+    names = known_figures(scene, options.figures)
+    return Drawn(made, what, motion, names, options.seed, options.language, options.convention), motion
 
 
-def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quick: bool = False) -> dict[str, Json]:
+def shown(
+    scene: Mechanism, at: Mapping[str, float] | None, options: FigureOptions, quick: bool = False
+) -> dict[str, Json]:
     """A scene at a position, as the page takes it; where it does not reach there, at the end of its range with the
     reason.
 
@@ -178,16 +183,16 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
     Unsolvable : not even the scene's own position can be had
     """
     structure = _moved(scene).structure
-    if quick and wishes.instrument == "exact":
-        return _in_motion(_moved(scene), at, wishes)
+    if quick and options.instrument == "exact":
+        return _in_motion(_moved(scene), at, options)
     said = ""
     try:
-        drawn, motion = drawn_at(structure, at, wishes)
+        drawn, motion = drawn_at(structure, at, options)
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1 or error.status not in ("not assembled", "dead point"):
             raise
         at, said = _last(scene, at), error.why
-        drawn, motion = drawn_at(structure, at, wishes)
+        drawn, motion = drawn_at(structure, at, options)
     answer: dict[str, Json] = {
         "figures": _figures(drawn),
         "points": _points(motion),
@@ -196,7 +201,7 @@ def shown(scene: Mechanism, at: Mapping[str, float] | None, wishes: Wishes, quic
         "perMm": drawn.plan.scales.length / scene.units.metres,
         "limit": said,
     }
-    return answer if quick else {**answer, **_whole(drawn, wishes)}
+    return answer if quick else {**answer, **_whole(drawn, options)}
 
 
 _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity", "acceleration")}
@@ -211,7 +216,7 @@ class _Moved:
 
     def plan(self, values: Mapping[str, float] | None) -> Plan:
         """What to draw at values of the drivers.  Raises Unsolvable for a position that cannot be had."""
-        asked = here(tuple(self.structure.scene.find))
+        asked = asked_here(tuple(self.structure.scene.find))
         try:
             return plan(self.structure, values, asked, follows=self.last)
         except Unsolvable:  # the way from there may be barred
@@ -223,26 +228,26 @@ def _moved(scene: Mechanism) -> _Moved:
     return _Moved(solver.structure_of(scene))
 
 
-def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) -> dict[str, Json]:
+def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOptions) -> dict[str, Json]:
     """The same while a hand moves: nothing is checked, and names stand where there may be others."""
-    rest = tuple(name for name in wishes.figures if name not in _IN_MOTION)
-    others = moved.structure, at, replace(wishes, figures=rest)
+    rest = tuple(name for name in options.figures if name not in _IN_MOTION)
+    others = moved.structure, at, replace(options, figures=rest)
     scene, values = placed(moved.structure.scene, at or None)
     moved = moved if scene is moved.structure.scene else _moved(scene)
     said = ""
     try:
         what = moved.plan(values)
         if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
-            solved_here(moved.structure, values, here(tuple(scene.find)))
+            solved_here(moved.structure, values, asked_here(tuple(scene.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
         said = _why(moved.structure, values, error)
         what = moved.plan(driver_values(scene, _last(scene, at)))
     moved.last = what
-    sheet = execute(replace(what, scales=wishes.scales or what.scales))
-    words = {"language": wishes.language, "convention": wishes.convention}
-    there = [name for name in wishes.figures if name in _IN_MOTION and _is_there(sheet, name)]
+    sheet = execute(replace(what, scales=options.scales or what.scales))
+    words = {"language": options.language, "convention": options.convention}
+    there = [name for name in options.figures if name in _IN_MOTION and _is_there(sheet, name)]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
     figures = {name: figure_svg(figure, named=True) for name, figure in drawn.items()}
     unit = sheet.scales.length / scene.units.metres
@@ -261,7 +266,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, wishes: Wishes) ->
 def _why(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> str:
     """Why a position cannot be had, in the words of the solver, which tells it in fifty digits, if it finds so too."""
     try:
-        solved_here(structure, values, here(tuple(structure.scene.find)))
+        solved_here(structure, values, asked_here(tuple(structure.scene.find)))
     except Unsolvable as exact:
         return exact.why
     return stop.why
@@ -316,10 +321,10 @@ def _points(motion: Motion) -> dict[str, Json]:
     return places
 
 
-def _whole(drawn: Drawn, wishes: Wishes) -> dict[str, Json]:
+def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
-    spoken = languages(wishes.language or scene.sheet.language)[0]
-    speaker = Speaker(sheet, letters_of(sheet, wishes.convention or scene.sheet.convention))  # type: ignore[arg-type]
+    spoken = languages(options.language or scene.sheet.language)[0]
+    speaker = Speaker(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
         limits: dict[str, Json] = reach(scene)._asdict()
     except GraphkinError as error:
@@ -359,7 +364,7 @@ def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, 
 
 def thumbnail(scene: Mechanism, language: str | None) -> str:
     """The mechanism figure of a scene at its own position."""
-    drawn, _ = drawn_at(solver.structure_of(scene), None, Wishes(("mechanism",), language))
+    drawn, _ = drawn_at(solver.structure_of(scene), None, FigureOptions(("mechanism",), language))
     return next(iter(_figures(drawn).values()))
 
 

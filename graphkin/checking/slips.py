@@ -28,7 +28,7 @@ from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["NOTHING", "Evidence", "Held", "ValuesElsewhere"]
+__all__ = ["NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere"]
 
 
 def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -77,7 +77,7 @@ NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 
 
 @dataclass(frozen=True)
-class Held:
+class ExpectedValue:
     """What stated values of one symbol are held against (SI): the right value, without what is left where it cancels;
     the greatest exact value of its sort that is drawn; what a pencil keeps within (0 where nothing is predicted,
     infinite where it tells nothing); the unit vector of its positive sense, None where nothing gives it one."""
@@ -143,10 +143,10 @@ class Evidence:
         return tuple(found)
 
     @cached_property
-    def _held(self) -> dict[Symbol, Held]:
+    def _held(self) -> dict[Symbol, ExpectedValue]:
         return {}
 
-    def held(self, symbol: Symbol) -> Held:
+    def held(self, symbol: Symbol) -> ExpectedValue:
         """What stated values of a symbol are held against; worked out once."""
         if symbol not in self._held:
             exact = self.exact(symbol)
@@ -156,7 +156,8 @@ class Evidence:
             uncertainty = self.predicted.get(symbol)
             bound = uncertainty.bound if uncertainty else 0.0
             bound = math.inf if symbol.scope == "motion" and bound > largest else bound
-            self._held[symbol] = Held(0.0 * exact if residue else exact, largest, bound, _line_of(self.sheet, symbol))
+            right = 0.0 * exact if residue else exact
+            self._held[symbol] = ExpectedValue(right, largest, bound, _line_of(self.sheet, symbol))
         return self._held[symbol]
 
     @cached_property

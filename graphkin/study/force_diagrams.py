@@ -38,7 +38,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure
 
-__all__ = ["ForceRun", "course", "force_extremes", "force_page", "polar_page", "whole_turn"]
+__all__ = ["ForceRun", "force_extremes", "force_over_turn", "force_page", "polar_page", "whole_turn"]
 
 Array = NDArray[np.float64]
 
@@ -79,7 +79,7 @@ def whole_turn(axis: DriverAxis) -> Array:
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 
-def course(axis: DriverAxis, name: str) -> ForceRun:
+def force_over_turn(axis: DriverAxis, name: str) -> ForceRun:
     """A force or a moment by its name over the way of the driver."""
     reach, offsets = axis.reach, whole_turn(axis)
     value = forces_of(reach.motion(offsets)).value(name)
@@ -99,7 +99,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     """A moment, or the size of a force, over the driver, with its greatest and its least value."""
     scene = reach.scene
     axis = driver_axis(reach, language)
-    found = course(axis, quantity.of)
+    found = force_over_turn(axis, quantity.of)
     values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
     unit = quantity.unit(scene).replace(" m", "·m")
     name = _written(scene, quantity.of)
@@ -220,7 +220,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
     scene = reach.scene
     axis = driver_axis(reach, language)
-    found = course(axis, quantity.of)
+    found = force_over_turn(axis, quantity.of)
     vector = np.asarray(found.values, dtype=complex)
     sizes = np.abs(vector)
     jumps = _jumps(found, vector.real) + [k for k in _jumps(found, vector.imag) if k not in _jumps(found, vector.real)]

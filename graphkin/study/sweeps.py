@@ -22,7 +22,7 @@ from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimens
 from graphkin.scene.model import Mechanism
 from graphkin.solver.designs import PreparedMechanisms
 from graphkin.study.designs import Designs, Value, applied
-from graphkin.study.watched import BLOCK, Arrays, FollowedDesign, Watched, word_column
+from graphkin.study.sweep_quantities import BLOCK, Arrays, FollowedDesign, SweepQuantity, word_column
 from graphkin.table import Column, Table
 
 __all__ = ["Found", "Outcome", "PieceResult", "Sweep", "make"]
@@ -76,7 +76,7 @@ class Sweep:
     name: str
     designs: Designs
     positions: int
-    asked: tuple[Watched, ...] = ()
+    asked: tuple[SweepQuantity, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
     def __getstate__(self) -> dict[str, object]:
@@ -261,9 +261,9 @@ def _rows(
         status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
         if keys and piece.first == 0:
             from graphkin.study.turn import study_turn
-            from graphkin.study.turn_data import row
+            from graphkin.study.turn_data import design_row
 
-            cells = row(study_turn(design.reach, everything=False))
+            cells = design_row(study_turn(design.reach, everything=False))
     shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]
     return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)
 

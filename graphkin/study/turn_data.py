@@ -13,7 +13,7 @@ from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.force_diagrams import force_extremes
 from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["row", "to_json"]
+__all__ = ["design_row", "to_json"]
 
 UNBOUNDED = "it goes away without bound at an end of the motion"
 
@@ -162,7 +162,7 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     return data
 
 
-def row(turn: TurnStudy) -> dict[str, float | str | None]:
+def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     """One row of a table of designs: strokes and swings (deg), K, the least transmission angle (deg) and where."""
     scene = turn.scene
     length = scene.units.length

@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.board.answers import QUESTIONS, Desk, answer, scene_link, text_of_link
-from graphkin.board.pictures import Wishes, shown
+from graphkin.board.pictures import FigureOptions, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
@@ -325,6 +325,6 @@ def test_beside_a_limit_the_page_says_the_same_while_a_hand_moves_as_when_it_res
             "driver": {"link": "1", "angle": 20, "omega": 10},
         }
     )
-    moving, resting = (shown(scene, {"1": at}, Wishes(figures=("velocity",)), quick) for quick in (True, False))
+    moving, resting = (shown(scene, {"1": at}, FigureOptions(figures=("velocity",)), quick) for quick in (True, False))
     assert (resting["at"], resting["limit"]) == (moving["at"], moving["limit"])
     assert (at < 30) == (moving["limit"] == "")

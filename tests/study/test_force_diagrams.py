@@ -17,7 +17,7 @@ from graphkin.solver import driver_range
 from graphkin.solver.external_forces import load_edges
 from graphkin.solver.flywheel import flywheel_of, needed_moment
 from graphkin.study.driver_axis import driver_axis
-from graphkin.study.force_diagrams import course
+from graphkin.study.force_diagrams import force_over_turn
 
 FORCES = Path(__file__).parent.parent / "validation" / "forces"
 SHAPER, ENGINE = FORCES / "shaper-scheme-2.toml", FORCES / "engine.toml"
@@ -93,7 +93,7 @@ def test_forces_jump_where_the_cut_begins_and_ends():
 
 def test_both_values_stand_at_a_jump_of_the_diagram():
     axis = driver_axis(reach_of(crank(-100)), "en")
-    found = course(axis, "M_1")
+    found = force_over_turn(axis, "M_1")
     for place in (45, 135):
         near = np.flatnonzero(np.abs(found.x - place) < 1e-4)
         assert {0.0, 100.0} == set(found.values[near].round(6).tolist())

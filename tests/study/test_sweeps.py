@@ -24,9 +24,9 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
+from graphkin.study.sweep_quantities import SweepQuantity, quantity_of_symbol
 from graphkin.study.sweep_results import collect, write_tables
 from graphkin.study.sweeps import Sweep
-from graphkin.study.watched import Watched, watched_symbol
 
 
 @pytest.fixture
@@ -47,8 +47,8 @@ def run(
         write_tables(sweep, folder, workers, parquet, progress)
 
 
-def watched(name: str) -> Watched:
-    return watched_symbol(Symbol.parse(name))
+def watched(name: str) -> SweepQuantity:
+    return quantity_of_symbol(Symbol.parse(name))
 
 
 def new_plan() -> Sweep:

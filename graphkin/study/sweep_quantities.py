@@ -40,11 +40,11 @@ __all__ = [
     "MANY",
     "Arrays",
     "FollowedDesign",
-    "Watched",
+    "SweepQuantity",
+    "all_that_moves",
     "driver_columns",
-    "everything",
-    "watched_named",
-    "watched_symbol",
+    "quantity_named",
+    "quantity_of_symbol",
     "word_column",
 ]
 
@@ -58,7 +58,7 @@ MANY = 500_000
 
 
 @dataclass(frozen=True)
-class Watched:
+class SweepQuantity:
     """A quantity, or the place of a point, in one to three columns of the table.
 
     size : whether a vector's size stands before its components
@@ -119,45 +119,45 @@ class Watched:
         return [*size, *(Column(h, part, unit, self.name) for h, part in zip(heads, parts, strict=True))]
 
 
-def watched_symbol(symbol: Symbol) -> Watched:
+def quantity_of_symbol(symbol: Symbol) -> SweepQuantity:
     """What a symbol of ``find`` shows."""
-    return Watched(symbol_quantity(symbol), symbol.is_vector, symbol)
+    return SweepQuantity(symbol_quantity(symbol), symbol.is_vector, symbol)
 
 
-def watched_named(scene: Mechanism, name: str) -> Watched | None:
+def quantity_named(scene: Mechanism, name: str) -> SweepQuantity | None:
     """What a name shows that is no symbol of ``find``: the place of a point ("C", "B@3"), the angle of a link
     ("theta_3"), travel, velocity and acceleration of a sliding pair ("s_3/4", "v_3/4", "a_3/4"), a force or a moment
     ("F_5/6", "M_2"); None for others."""
     kind, mark, rest = name.partition("_")
     force = force_quantity(scene, name)
     if force is not None:
-        return Watched(force, force.is_size)
+        return SweepQuantity(force, force.is_size)
     if not mark:
         point, _, link = name.partition("@")
         here = point in scene.holders or any(c.name == point for c in scene.contacts)
         known = here and (not link or link in scene.by_name)
-        return Watched(PointRef(point, link)) if known else None
+        return SweepQuantity(PointRef(point, link)) if known else None
     if kind == "theta" and any(link.name == rest for link in scene.links):
-        return Watched(link_quantities(rest)[0])
+        return SweepQuantity(link_quantities(rest)[0])
     if kind in ("s", "v", "a") and any(s.key == rest for s in scene.slidings):
-        return Watched(slide_quantities(rest)["sva".index(kind)])
+        return SweepQuantity(slide_quantities(rest)["sva".index(kind)])
     return None
 
 
-def everything(structure: Structure) -> tuple[Watched, ...]:
+def all_that_moves(structure: Structure) -> tuple[SweepQuantity, ...]:
     """Everything that moves: each pin once, and each point under a sliding pin."""
     scene, slides = structure.scene, own_slides(structure.scene, all_slides(structure))
-    found = [Watched(q) for link in scene.links for q in link_quantities(link.name)]
+    found = [SweepQuantity(q) for link in scene.links for q in link_quantities(link.name)]
     seen: set[PointRef] = set()
     for point, link_name in listed_points(scene, slides):
         ref = PointRef(point) if point in scene.by_name[link_name].points else PointRef(point, link_name)
         if ref in seen or (not ref.link and point in scene.frame.points):
             continue
         seen.add(ref)
-        found += [Watched(ref)] if not ref.link else []
-        found += [Watched(symbol_quantity(Symbol(kind, ref))) for kind in ("v", "a")]
-    found += [Watched(q) for slide in slides for q in slide_quantities(slide.key)]
-    found += [Watched(Quantity(kind, name)) for name, kind in force_names(scene).items()]
+        found += [SweepQuantity(ref)] if not ref.link else []
+        found += [SweepQuantity(symbol_quantity(Symbol(kind, ref))) for kind in ("v", "a")]
+    found += [SweepQuantity(q) for slide in slides for q in slide_quantities(slide.key)]
+    found += [SweepQuantity(Quantity(kind, name)) for name, kind in force_names(scene).items()]
     return tuple(found)
 
 
@@ -202,7 +202,7 @@ class FollowedDesign:
     """
 
     scene: Mechanism
-    asked: tuple[Watched, ...]
+    asked: tuple[SweepQuantity, ...]
     at: tuple[tuple[str, float], ...]
 
     @cached_property
@@ -210,9 +210,9 @@ class FollowedDesign:
         return structure_of(self.scene)
 
     @cached_property
-    def watched(self) -> tuple[Watched, ...]:
+    def watched(self) -> tuple[SweepQuantity, ...]:
         """What the table shows."""
-        return self.asked or everything(self.structure)
+        return self.asked or all_that_moves(self.structure)
 
     @cached_property
     def start(self) -> dict[str, float]:
