@@ -113,20 +113,6 @@ def test_a_pulled_point_of_the_frame_moves() -> None:
     assert [0.42, -0.21] == tomllib.loads(found["text"])["frame"]["points"]["D"]
 
 
-@pytest.mark.parametrize("name", [
-    "four-bar-coupler-point", "shaper-scheme-2", "whitworth", "hydraulic-cylinder", "single-flier", "sixbar-AE70",
-    "elliptic-trammel", "cam-eccentric-flat-rocker", "double-butterfly",
-])  # fmt: skip
-def test_each_point_that_says_so_can_be_pulled_in_every_kind_of_mechanism(name: str) -> None:
-    desk, text = Desk(first=name), library_text(name)
-    start = answer(desk, {"do": "show", "text": text, "figures": ["mechanism"]})
-    for point, at in start["points"].items():
-        if at["pull"]:
-            there = {"x": at["x"] + 2e-3 * start["perMm"], "y": at["y"] + 1e-3 * start["perMm"]}
-            found = answer(desk, {"do": "pull", "text": text, "point": point, **there, "quick": True, "figures": []})
-            assert found["ok"], (point, found)
-
-
 def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_reason_said() -> None:
     text = library_text("sixbar-AE70")
     found = answer(Desk(), {"do": "show", "text": text, "at": {"1": 100.0}, "figures": ["mechanism"]})

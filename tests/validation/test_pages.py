@@ -12,8 +12,6 @@ from graphkin.scene import library, mechanism_of
 
 from .pages import PAGES, PROBLEMS, UNITS, Page, Value, answer
 
-pytestmark = pytest.mark.quick
-
 VALUES = [value for page in PAGES for value in page.values]
 PRINTED = [value for value in VALUES if value.printed]
 READINGS = [value for value in VALUES if value.asked.startswith("check ")]
@@ -21,6 +19,7 @@ DRAFTING = 0.012
 """What is left of a hand drawing's accuracy where graphkin has no prediction of it, relative."""
 
 
+@pytest.mark.quick
 @pytest.mark.parametrize("value", VALUES, ids=str)
 def test_value(value: Value) -> None:
     turn = 2 * math.pi if value.unit == "deg" else math.inf

@@ -1,0 +1,22 @@
+"""Points pulled by hand, in every kind of mechanism; what one pull does is in `test_answers`."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphkin.board.answers import Desk, answer
+from graphkin.scene.source import library_text
+
+
+@pytest.mark.parametrize("name", [
+    "four-bar-coupler-point", "shaper-scheme-2", "whitworth", "hydraulic-cylinder", "single-flier", "sixbar-AE70",
+    "elliptic-trammel", "cam-eccentric-flat-rocker", "double-butterfly",
+])  # fmt: skip
+def test_each_point_that_says_so_can_be_pulled_in_every_kind_of_mechanism(name: str) -> None:
+    desk, text = Desk(first=name), library_text(name)
+    start = answer(desk, {"do": "show", "text": text, "figures": ["mechanism"]})
+    for point, at in start["points"].items():
+        if at["pull"]:
+            there = {"x": at["x"] + 2e-3 * start["perMm"], "y": at["y"] + 1e-3 * start["perMm"]}
+            found = answer(desk, {"do": "pull", "text": text, "point": point, **there, "quick": True, "figures": []})
+            assert found["ok"], (point, found)

@@ -1,0 +1,60 @@
+"""What is said of a construction holds in every scene and convention; what is said of one is in `test_lesson`."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+
+import pytest
+
+from graphkin.api.handouts import handout
+from graphkin.construction import draft
+from graphkin.construction.polygon_acts import ByRate
+from graphkin.drawing.conventions import letters_of
+from graphkin.papers.lesson import plain_words, stages
+from graphkin.papers.reasons import reasons
+from graphkin.papers.speaker import Speaker
+from graphkin.scene import library, mechanism_of
+
+
+def test_stages_hold_every_step_once_in_order():
+    for name in library():
+        sheet = draft(mechanism_of(name))
+        assert [s.number for s in sheet.steps] == [step.number for stage in stages(sheet) for step in stage.steps]
+
+
+def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
+    for name in library():
+        sheet = draft(mechanism_of(name))
+        for convention in ("chinese", "us", "british", "russian"):
+            speaker = Speaker(sheet, letters_of(sheet, convention))
+            for step in sheet.steps:
+                for markup in (
+                    speaker.sentence(step.phrase, "en"),
+                    speaker.sentence(step.phrase, "zh"),
+                    *speaker.work(step),
+                ):
+                    assert "$" not in plain_words(markup)
+                    assert not {"{", "}", "@", "\x02", "\x03"} & set(plain_words(markup)), (name, markup)
+
+
+@pytest.mark.parametrize("name", ["disc-on-disc", "scotch-yoke", "swinging-block", "triad-slider", "whitworth"])
+def test_every_term_that_an_equation_draws_has_a_reason(name):
+    lesson = handout(name, language="en", formats=("pdf",)).lesson
+    for equation in lesson.sheet.equations:
+        said = " ".join(words for p in reasons(lesson, equation) for _, words in p.words)
+        terms = {t.symbol for side in equation.sides for t in side if t.direction_known} - {equation.sides[0][0].symbol}
+        named = [lesson.speaker.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
+        assert [] == [name for name in named if name not in said]
+
+
+def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead():
+    lesson = handout("contour-four-bars", formats=("html",), positions=1).lesson
+    steps = [step for step in lesson.sheet.steps if isinstance(step.act, ByRate)]
+    assert ["velocity", "acceleration"] == [step.diagram for step in steps]
+    for step in steps:
+        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.speaker.work(step)))
+        laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
+        drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors(step.diagram).items() if s.of and s.to is None}
+        assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1
