@@ -9,6 +9,7 @@ with an arrow over its letter.  ``$$`` is a dollar sign.
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -24,6 +25,7 @@ LETTER, INDEX, SMALLEST = 3.5, 2.5, 2.0  # mm
 _DROP, _DROP_STACKED, _RISE = 0.24, 0.30, 0.40  # of the size of the letter, after the usual practice of typesetting
 _GAP_SUB, _GAP_SUPER = 0.02, 0.06
 _LEADING = 1.4  # from line to line
+_UNBROKEN = re.compile("[顺逆]时针")  # Chinese words that stay whole, since they often stand last
 _BOLD, _ARROWED = r"\mathbf", r"\vec"
 _ARROW = "→"
 _ARROW_SIZE, _ARROW_GAP, _SLANT = 0.57, 0.05, 0.04  # of the size of the letter under it
@@ -130,10 +132,11 @@ def _pieces(markup: str) -> list[str]:
     """Words with the space before them; symbols between dollar signs stay whole."""
     pieces: list[str] = []
     word, inside = "", False
-    for character in markup:
+    inner = {i for found in _UNBROKEN.finditer(markup) for i in range(found.start() + 1, found.end())}
+    for i, character in enumerate(markup):
         # no line begins with a mark that closes or ends with one that opens
         wide = ord(character) > 0x2E7F and character not in "，。；：、）》”" and word[-1:] not in ("（", "《", "“")
-        if not inside and (character == " " or wide):
+        if not inside and i not in inner and (character == " " or wide):
             if word:
                 pieces.append(word)
             word = ""

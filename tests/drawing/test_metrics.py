@@ -28,8 +28,8 @@ def test_chinese_is_one_em_a_sign():
 
 
 def test_no_chinese_line_ends_with_an_opening_bracket_or_begins_with_a_closing_one():
-    said = "装载机构：连杆、摇杆（含油缸）支承一板"
+    said = "装载机构：连杆、摇杆（含油缸）支承一板，逆时针"
     for wide in range(10, 40):
         lines = ["".join(run.text for run in runs) for runs in wrapped(said, 3.0, float(wide))]
         assert said == "".join(lines)
-        assert not [line for line in lines if line[-1] == "（" or line[0] in "）：、"]
+        assert not [line for line in lines if line[-1] in "（逆时" or line[0] in "）：、时针"]
