@@ -24,16 +24,15 @@ from graphkin.structure.assembly import ChangePoint, Passage, follow
 
 __all__ = ["FAR", "Path", "follow_path"]
 
-FAR = 4.0
-"""A slide driver that nothing limits is followed this many sizes of the mechanism to either side."""
+FAR = 4.0  # sizes of the mechanism that a slide driver which nothing limits is followed to either side
 CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
 LEAST = 1e-13
 BEND = 0.2
+STEADY = 0.1  # part of the change of rates over a step by which they may lie off the straight line between
 AT_END = 1e-9
 BESIDE = 0.003
-TOWARD = 0.75
-"""Part of what is left to a dead point that is taken in one step."""
+TOWARD = 0.75  # part of what is left to a dead point that is taken in one step
 NARROW = 1e-6
 """A gap in the motion that is narrower than this (of the path) is a change point, as for groups of two links."""
 At = Callable[[float, Array], tuple[ClusterSolved, Array]]
@@ -92,7 +91,10 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
         off = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
         found = there.missed[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
-        good = found and off < min(0.03, 0.003 + 0.3 * moved) and _bend(slope / root, new_slope, weight) < BEND
+        good = found and off < min(0.03, 0.003 + 0.3 * moved) and (
+            _bend(slope / root, new_slope, weight) < BEND
+            or _turns_back(at, t, [places[-1], there.place[0]], slope, step, new_slope - slope, weight)
+        )
         if good and np.sign(there.determinant[0]) != sense:
             passed = _passed(at, t, places[-1], slope, step, there, new_slope, weight)
             if passed is not None:
@@ -129,6 +131,17 @@ def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
     """
     most = max(float(np.max(np.abs(slope / weight))), float(np.max(np.abs(new_slope / weight))))
     return float(np.max(np.abs((new_slope - slope) / weight))) / (most or 1.0)
+
+
+def _turns_back(at: At, t: float, places: list[Array], slope: Array, step: float, change: Array, weight: Array) -> bool:
+    """Whether a group stops within a step and goes on steadily, as where the link that moves it turns back: its rates
+    between are on the straight line from the one to the other, and do not leap as where it branches."""
+    for s in (0.25, 0.5, 0.75):
+        found, rate = at(t + s * step, (1 - s) * places[0] + s * places[1])
+        off = np.max(np.abs((rate - slope - s * change) / weight))
+        if not found.missed[0] < CLOSE or not off < STEADY * np.max(np.abs(change / weight)):
+            return False
+    return True
 
 
 def _passed(

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.construction.rigid import PlacedLinks
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.sketched import as_sketched
 from graphkin.structure import Cluster
 

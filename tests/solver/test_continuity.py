@@ -223,3 +223,30 @@ def test_a_report_says_which_branch_was_kept_and_how_to_ask_for_the_other() -> N
     said = "links 2, 3: at 1 = 180° their two assemblies meet; the motion was kept smooth through it."
     assert said in report_text(graphkin.check(_parallelogram(), at=200), "en")
     assert "在 1 = 180° 处两种装配形式重合" in report_text(graphkin.check(_parallelogram(), at=200), "zh")
+
+
+ON_A_ROCKER = {  # a plate on three legs, moved by the rocker of a four-bar
+    "frame": {"points": {"A": [0, 0], "D": [100, 0], "G": [330, -20], "H": [250, 220]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B", "C"], "length": 100},
+        "3": {"points": ["D", "C"], "length": 70, "at": {"E": [90, 20]}},
+        "4": {"points": ["E", "F"], "length": 97},
+        "5": {"points": ["F", "K"], "length": 85, "at": {"L": [40, 60]}},
+        "6": {"points": ["G", "K"], "length": 122},
+        "7": {"points": ["H", "L"], "length": 69},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 10},
+    "sketch": {"C": [104, 70], "E": [85, 91], "F": [180, 110], "K": [260, 80], "L": [238, 152]},
+}
+
+
+def test_a_larger_group_goes_on_where_the_rocker_that_moves_it_turns_back() -> None:
+    dead = math.degrees(math.acos((100**2 + 130**2 - 70**2) / (2 * 100 * 130)))  # crank and coupler in line
+    before = solve(mechanism_of(ON_A_ROCKER), at={"1": math.radians(dead - 20)})
+    # seen from the other side of the line from pivot to joint C the crank moves the rocker to the same place
+    other = 2 * float(np.angle(before.point("C").z[0])) - math.radians(dead - 20)
+    after = solve(mechanism_of(ON_A_ROCKER), at={"1": other})
+    assert dead < math.degrees(other) < 60
+    for link in "34567":
+        assert complex(before.poses[link].u[0]) == pytest.approx(complex(after.poses[link].u[0]), abs=1e-9)
