@@ -17,7 +17,7 @@ from graphkin.plane import cross
 
 __all__ = ["LEADER_SPACE", "Columns", "HeldPositions", "LabelPosition", "LabelPositions"]
 
-LOTS = (0, 48, 240)
+LOTS = (0, 48, 240, 720)
 """First places of the lots in which places are judged, the cheapest first."""
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
@@ -239,6 +239,15 @@ class HeldPositions:
                     break
             else:
                 return k
+        return None
+
+    def first_known_free(self, places: LabelPositions, count: int, space: complex) -> int | None:
+        """As `first_free`, for places of which is asked again what they meet."""
+        for first, lot in places.lots(count):
+            free = np.flatnonzero(~self.met(lot, space).any(axis=1))
+            if free.size:
+                found = first + int(free[0])
+                return found if found < count else None
         return None
 
     def _promising(self, places: LabelPositions, count: int, space: complex) -> Iterator[int]:

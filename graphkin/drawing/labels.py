@@ -303,7 +303,7 @@ class Placement:
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
             positions = self._places(form)
-            free = self.held.first_free(positions, positions.cheaper(best - extra), _SPACE)
+            free = self.held.first_known_free(positions, positions.cheaper(best - extra), _SPACE)
             if free is not None:
                 chosen = {i: (form, positions.position(free))}
                 best = chosen[i][1].cost + extra
