@@ -12,9 +12,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphkin.checking.computed_slips import slipped_forces, slipped_gears
 from graphkin.checking.consequential_errors import Consequences
-from graphkin.checking.force_slips import slipped_forces
-from graphkin.checking.gear_slips import slipped_gears
 from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty

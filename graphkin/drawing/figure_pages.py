@@ -20,9 +20,8 @@ from graphkin.drawing.headings import (
     term,
     titles,
 )
-from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.insets import mechanism_detail, polygon_with_insets, strip_height
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Primitive, Run, Text

@@ -27,11 +27,10 @@ from graphkin.drawing.headings import (
     term,
     titles,
 )
-from graphkin.drawing.insets import INSET, coriolis_row, per_row, polygon_with_insets
+from graphkin.drawing.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
 from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.mechanism_detail import mechanism_detail
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent

@@ -15,7 +15,7 @@ from graphkin.drawing import label_panel
 from graphkin.drawing import symbols as arrows
 from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.ink_raster import InkRaster
+from graphkin.drawing.label_panel import InkRaster
 from graphkin.drawing.labels import Label, Placement, place
 from graphkin.drawing.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Text
