@@ -17,7 +17,7 @@ from typing import Literal
 
 from graphkin.construction.moves import Closed, Crossed, Move, OneLine, Path, Special
 from graphkin.construction.net import Edge, Net, TwoWays
-from graphkin.construction.relative_points import FarPoint, best_relative_point
+from graphkin.construction.relative_points import FarPoint, RelativePoints
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster
@@ -270,7 +270,7 @@ class _Search:
     def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
         """The special point of two links that both move, which are drawn as if hinged there from now on."""
         without = {*left_out, *self.ties}
-        point, far = best_relative_point(self.net, self.known, self.nodes, without, self.along, self.turn)
+        point, far = RelativePoints(self.net, self.known, self.nodes, self.along, self.turn).best(without)
         self.far += far
         if point is None:
             return False

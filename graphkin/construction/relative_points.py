@@ -17,7 +17,7 @@ from graphkin.construction.net import Edge, Net
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["FarPoint", "RelativePoint", "best_relative_point"]
+__all__ = ["FarPoint", "RelativePoint", "RelativePoints"]
 
 LONGEST = 3  # edges of a leg
 OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
@@ -45,103 +45,94 @@ class FarPoint:
     crossing: float
 
 
-def best_relative_point(
-    net: Net,
-    known: Collection[str],
-    settled: Collection[PointRef],
-    left_out: Collection[tuple[str, str]],
-    along: Callable[[Edge, Mapping[str, complex]], complex],
-    turn: Mapping[str, str],
-) -> tuple[RelativePoint | None, list[FarPoint]]:
-    """The relative special point that gives the best crossing, None where there is none; and those that are no use.
+@dataclass(frozen=True)
+class RelativePoints:
+    """The special points of two moving links of a group, as far as its motion is known.
 
-    Parameters
-    ----------
     known : what is no longer unknown
     settled : nodes whose motion is known
-    left_out : pairs of links that are not looked at
     along : direction of the relative motion of an edge
     turn : for each link of the group the one link whose angular velocity it shares
     """
-    size = max((abs(z) for z in net.places.values()), default=1.0) or 1.0
-    best: tuple[float, RelativePoint] | None = None
-    far: list[FarPoint] = []
-    for links, legs in _legs(net, known, settled, left_out, along, turn).items():
-        for one, two in combinations(legs, 2):
-            (p, d), (q, e) = (_line(net, leg, along) for leg in (one, two))
-            at = cross_lines(p, d, q, e)
-            if at is None:
-                continue
-            sine, away = abs(cross(d, e)), abs(at - (p + q) / 2)
-            quality = sine / (1.0 + away / size)
-            if sine < OFF:  # parallel: nothing lies there
-                continue
-            if quality <= WORST:
-                far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
-            elif best is None or quality > best[0]:
-                best = quality, RelativePoint(links, at, (one, two))
-    return best[1] if best else None, far
 
+    net: Net
+    known: Collection[str]
+    settled: Collection[PointRef]
+    along: Callable[[Edge, Mapping[str, complex]], complex]
+    turn: Mapping[str, str]
 
-def _legs(
-    net: Net,
-    known: Collection[str],
-    settled: Collection[PointRef],
-    left_out: Collection[tuple[str, str]],
-    along: Callable[[Edge, Mapping[str, complex]], complex],
-    turn: Mapping[str, str],
-) -> Mapping[tuple[str, str], Sequence[Path]]:
-    """For each two links that are not hinged together the shortest way by each unknown that joins them."""
-    names = [name for name in net.inside if "/" not in name]
-    of = {name: [n for n in net.nodes if name in net.owners[n] and n not in settled] for name in names}
-    hinged = {frozenset(p) for n in net.nodes for p in combinations(net.owners[n], 2)}
-    found: dict[tuple[str, str], dict[str, Path]] = {}
-    for i, one in enumerate(names):
-        others = {n: [two for two in names[i + 1 :] if two in net.owners[n]] for n in net.nodes}
-        own = f"omega {turn.get(one, one)}"
-        for path in _ways(net, of[one], one, known, settled):
-            names_of = [e.unknown for e in path if e.unknown]
-            for two in others[path[-1].end]:
-                if (one, two) in left_out or frozenset((one, two)) in hinged or len(names_of) != 1:
+    def best(self, left_out: Collection[tuple[str, str]]) -> tuple[RelativePoint | None, list[FarPoint]]:
+        """The special point that gives the best crossing, None where there is none; and those that are no use.
+
+        Parameters
+        ----------
+        left_out : pairs of links that are not looked at
+        """
+        size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
+        best: tuple[float, RelativePoint] | None = None
+        far: list[FarPoint] = []
+        for links, legs in self._legs(left_out).items():
+            for one, two in combinations(legs, 2):
+                (p, d), (q, e) = (self._line(leg) for leg in (one, two))
+                at = cross_lines(p, d, q, e)
+                if at is None:
                     continue
-                (unknown,) = names_of
-                if unknown == own or unknown == f"omega {turn.get(two, two)}" or any(e.link == two for e in path):
+                sine, away = abs(cross(d, e)), abs(at - (p + q) / 2)
+                quality = sine / (1.0 + away / size)
+                if sine < OFF:  # parallel: nothing lies there
                     continue
-                old = found.setdefault((one, two), {}).get(unknown)
-                if (old is None or len(path) < len(old)) and _straight(net, path, along):
-                    found[one, two][unknown] = path
-    return {links: list(legs.values()) for links, legs in found.items() if len(legs) > 1}
+                if quality <= WORST:
+                    far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
+                elif best is None or quality > best[0]:
+                    best = quality, RelativePoint(links, at, (one, two))
+        return best[1] if best else None, far
 
+    def _legs(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
+        """For each two links that are not hinged together the shortest way by each unknown that joins them."""
+        owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
+        of = {name: [n for n in self.net.nodes if name in owners[n] and n not in self.settled] for name in names}
+        hinged = {frozenset(p) for n in self.net.nodes for p in combinations(self.net.owners[n], 2)}
+        found: dict[tuple[str, str], dict[str, Path]] = {}
+        for i, one in enumerate(names):
+            others = {n: [two for two in names[i + 1 :] if two in self.net.owners[n]] for n in self.net.nodes}
+            own = f"omega {self.turn.get(one, one)}"
+            for path in self._ways(of[one], one):
+                names_of = [e.unknown for e in path if e.unknown]
+                for two in others[path[-1].end]:
+                    if (one, two) in left_out or frozenset((one, two)) in hinged or len(names_of) != 1:
+                        continue
+                    (unknown,) = names_of
+                    turned = (own, f"omega {self.turn.get(two, two)}")
+                    if unknown in turned or any(e.link == two for e in path):
+                        continue
+                    old = found.setdefault((one, two), {}).get(unknown)
+                    if (old is None or len(path) < len(old)) and self._straight(path):
+                        found[one, two][unknown] = path
+        return {links: list(legs.values()) for links, legs in found.items() if len(legs) > 1}
 
-def _ways(
-    net: Net, starts: Sequence[PointRef], link: str, known: Collection[str], settled: Collection[PointRef]
-) -> Iterator[Path]:
-    """Ways that leave a link, with one unknown at most."""
-    stack: list[Path] = [()]
-    while stack:
-        path = stack.pop()
-        for start in (path[-1].end,) if path else starts:
-            for edge in net.edges[start]:
-                if edge.link == link or edge.end in settled or edge.end in {e.start for e in path}:
-                    continue
-                seen = replace(edge, unknown="") if edge.unknown in known else edge
-                if seen.unknown and any(e.unknown for e in path):
-                    continue
-                longer = (*path, seen)
-                yield longer
-                if len(longer) < LONGEST and link not in net.owners[edge.end]:
-                    stack.append(longer)
+    def _ways(self, starts: Sequence[PointRef], link: str) -> Iterator[Path]:
+        """Ways that leave a link, with one unknown at most."""
+        stack: list[Path] = [()]
+        while stack:
+            path = stack.pop()
+            for start in (path[-1].end,) if path else starts:
+                for edge in self.net.edges[start]:
+                    if edge.link == link or edge.end in self.settled or edge.end in {e.start for e in path}:
+                        continue
+                    seen = replace(edge, unknown="") if edge.unknown in self.known else edge
+                    if seen.unknown and any(e.unknown for e in path):
+                        continue
+                    longer = (*path, seen)
+                    yield longer
+                    if len(longer) < LONGEST and link not in self.net.owners[edge.end]:
+                        stack.append(longer)
 
+    def _line(self, leg: Path) -> tuple[complex, complex]:
+        free = next(e for e in leg if e.unknown)
+        return self.net.places[leg[-1].end.point], 1j * self.along(free, self.net.places)
 
-def _line(
-    net: Net, leg: Path, along: Callable[[Edge, Mapping[str, complex]], complex]
-) -> tuple[complex, complex]:
-    free = next(e for e in leg if e.unknown)
-    return net.places[leg[-1].end.point], 1j * along(free, net.places)
-
-
-def _straight(net: Net, leg: Path, along: Callable[[Edge, Mapping[str, complex]], complex]) -> bool:
-    """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
-    end, way = _line(net, leg, along)
-    arm = end - net.places[leg[0].start.point]
-    return abs(arm) <= net.tiny or abs(cross(unit(arm), way)) < OFF
+    def _straight(self, leg: Path) -> bool:
+        """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
+        end, way = self._line(leg)
+        arm = end - self.net.places[leg[0].start.point]
+        return abs(arm) <= self.net.tiny or abs(cross(unit(arm), way)) < OFF
