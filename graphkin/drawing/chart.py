@@ -22,6 +22,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.drawing import Kept
 from graphkin.drawing.embedded import face_rules, families
 from graphkin.drawing.font import FAMILY, Style, holds
+from graphkin.drawing.font_widths import width
 from graphkin.drawing.labels import Label, Mark, place
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.page import (
@@ -108,6 +109,7 @@ _SETTINGS = {
 _FAMILY = re.compile(f"; font-family: '(?:{FAMILY}|STIXGeneral)'(?:, '[^']*')*")
 _TEXT = re.compile("<text([^>]*)>(.*?)</text>", re.DOTALL)
 _TAG = re.compile("<[^>]*>")
+_SIZE = re.compile(r"font-size: ([\d.]+)px")
 
 
 @dataclass(frozen=True)
@@ -172,6 +174,7 @@ class ChartPage(Kept):
             FigureCanvasSVG(self._painted(self.width, self.height)).print_svg(buffer, metadata=nothing)
         text = _FAMILY.sub("", buffer.getvalue().decode())
         start, rest = text[text.index("<svg ") :].split(">", 1)
+        rest = _TEXT.sub(_with_length, rest)
         name, rules = face_rules(_used(rest))
         facing = f'role="img" lang="{self.lang}" xml:lang="{self.lang}" font-family="{families(name)}"'
         facts = json.dumps(self.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
@@ -181,6 +184,21 @@ class ChartPage(Kept):
         return f'<?xml version="1.0" encoding="utf-8"?>\n{start} {facing}>{head}{rest}'.encode()
 
 
+def _with_length(text: re.Match[str]) -> str:
+    """A text of an SVG of matplotlib with the length that its glyphs have: readers that round each of them to whole
+    pixels keep to it."""
+    look, inner = text.groups()
+    size = _SIZE.search(look)
+    if size is None or "<" in inner or not inner:
+        return text[0]
+    long = width(unescape(inner), float(size[1]), "italic" in look, _is_bold(look))
+    return f'<text{look} textLength="{long:.4f}">{inner}</text>'
+
+
+def _is_bold(look: str) -> bool:
+    return "font-weight: 700" in look or "font-weight: bold" in look
+
+
 def _used(svg: str) -> dict[Style, set[str]]:
     """The characters of each face in the texts of an SVG of matplotlib."""
     used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
@@ -188,7 +206,7 @@ def _used(svg: str) -> dict[Style, set[str]]:
         characters = set(unescape(_TAG.sub("", inner)))
         used["regular"] |= characters
         for style in ("italic", "bold"):
-            if style in look + inner or (style == "bold" and "700" in look):
+            if style in look + inner or (style == "bold" and _is_bold(look)):
                 used[style] |= characters
     return used
 

@@ -25,6 +25,7 @@ from graphkin.drawing.chart import (
     marker,
 )
 from graphkin.drawing.embedded import FALLBACK
+from graphkin.drawing.font_widths import width
 from graphkin.drawing.page import MissingFont
 from graphkin.drawing.primitives import Text
 from graphkin.drawing.text import rich
@@ -218,3 +219,14 @@ def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None
 def test_dollar_signs_of_words_are_words() -> None:
     page = ChartPage(140.0, 100.0, lambda figure: add_words(figure, Text(20 + 20j, rich("5 $$ and $$"))))
     assert "5 $ and $" in page.content("svg").decode()
+
+
+def test_every_text_of_a_chart_states_the_length_that_its_glyphs_have():
+    page = chart(lambda a: a.text(0.5, 0.5, "Newton never meets", fontsize=10, fontweight="bold"))
+    text = page.content("svg").decode()
+    spans = re.findall(r'<text style="([^"]*)"[^>]*? textLength="([\d.]+)">([^<]*)</text>', text)
+    assert len(re.findall("<text ", text)) == len(spans) > 5
+    for style, long, words in spans:
+        size = float(re.search(r"font-size: ([\d.]+)px", style)[1])
+        expected = width(words, size, "italic" in style, "font-weight" in style)
+        assert expected == pytest.approx(float(long), abs=1e-3), words
