@@ -127,7 +127,8 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
             table = _table(so_far, reduced, tried) if tried else None
         rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
         left_out = tuple(name for name in reduced.left_out if name not in rolling)
-        told = TrialPositions(reduced.cluster.links, driven, left_out, point, POINTS, rolling, table)
+        links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
+        told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
         story.append((told, strokes))
     board = reduced.opened(so_far, [float(v) for v in values])
     board = replace(board, instrument=EXACT)

@@ -175,7 +175,8 @@ class TrialPositions:
     """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
     fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
     ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions, ``table`` what is
-    measured in them."""
+    measured in them.  ``instead`` are driven blocks left out, each with the link that is driven in its stead and by how
+    much the block is turned from it (rad)."""
 
     links: tuple[str, ...]
     driven: tuple[str, ...]
@@ -184,6 +185,7 @@ class TrialPositions:
     count: int
     rolling: tuple[str, ...] = ()
     table: TrialTable | None = None
+    instead: tuple[tuple[str, str, float], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -268,4 +270,7 @@ def mechanism_phrase(act: OnMechanism) -> Phrase:
             if rolling:
                 key = "trial positions rolling and others" if left_out else "trial positions rolling"
             args = (links, driven, left_out, rolling)
-            return Phrase(key, (*(", ".join(names) for names in args[:3]), point, count, ", ".join(rolling)))
+            told = Phrase(key, (*(", ".join(names) for names in args[:3]), point, count, ", ".join(rolling)))
+            for block, link, turned in act.instead:
+                told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
+            return told

@@ -50,6 +50,13 @@ class ReducedMechanism:
         """Names of the links, of the drivers, or of what rolls, that are left out."""
         return tuple(r.name for r in self.removed)
 
+    def driven_instead(self) -> Iterator[tuple[str, str, float]]:
+        """Driven blocks left out, each with the link driven in its stead and by how much it is turned from it (rad)."""
+        angles = [d for d in self.structure.scene.drivers if isinstance(d, AngleDriver)]
+        for one in self.removed:
+            if one.left_out and one.slide is not None and any(one.left_out in (d.link, d.relative_to) for d in angles):
+                yield one.left_out, one.other_side, one.turned
+
     def rolled_from(self, poses: Mapping[str, Pose], mm: float) -> ReducedMechanism:
         """The same, what rolls counted from a position at which it fits."""
         since = {name: value for r in self.removed for name, value in r.coordinates(poses, mm).items()}

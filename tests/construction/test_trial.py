@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from typing import Any
 
 import pytest
 
+import graphkin
 from graphkin import solver
 from graphkin.construction.centres.find import Worked, work
+from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.structure import analyse
+from tests.construction.test_groups import HELD
 
 COUPLER_DRIVEN = {
     "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
@@ -83,3 +87,14 @@ def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
 def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
     sheet = work(mechanism_of("single-flier")).sheet
     assert {name for group in sheet.groups for name in group.kept} <= set(sheet.poses)
+
+
+def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> None:
+    sheet = graphkin.check(HELD).sheet
+    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    driven = [d for d in sheet.scene.drivers if isinstance(d, AngleDriver)]
+    assert act.instead
+    for block, link, turned in act.instead:
+        assert block in act.left_out
+        assert any(block in (d.link, d.relative_to) for d in driven)
+        assert sheet.poses[block].axis / sheet.poses[link].axis == pytest.approx(cmath.rect(1.0, turned), abs=1e-9)
