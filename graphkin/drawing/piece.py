@@ -94,12 +94,11 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:
     """The box around everything drawn, line widths left out; None where nothing is."""
-    box: Box | None = None
-    for thing in walk(tuple(children)):
-        own = _reach(thing)
-        if own is not None:
-            box = own if box is None else box.joined(own)
-    return box
+    boxes = [box for thing in walk(tuple(children)) if (box := _reach(thing)) is not None]
+    if not boxes:
+        return None
+    left, top, right, bottom = zip(*boxes, strict=True)
+    return Box(min(left), min(top), max(right), max(bottom))
 
 
 def _reach(thing: Primitive) -> Box | None:
