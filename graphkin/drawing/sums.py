@@ -19,6 +19,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.words.written import (
     FINER,
+    LEAST,
     MOST,
     amount,
     difference,
@@ -52,9 +53,15 @@ def _units(sheet: Sheet, diagram: DiagramName) -> Units:
     return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
 
 
-def _arm(sheet: Sheet, mm: float, most: int = MOST) -> str:
-    """A length (mm on paper) in the length unit of rates, with which it is multiplied or by which they are divided."""
-    return amount(mm * sheet.scales.length / sheet.scene.units.rates.metres, most)
+def _arm(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
+    """A length in the unit of rates, with which it is multiplied or by which they are divided: given where one link has
+    both ends, whatever a hand has made of it, else what so many mm on paper are."""
+    held = (link.points for link in sheet.structure.links.values())
+    given = (abs(p[bar[0]] - p[bar[1]]) for p in held if bar[0] in p and bar[1] in p and p[bar[0]] != p[bar[1]])
+    long = next(given, None)
+    if long is None and sheet.instrument != EXACT.name and abs(mm) >= LEAST:
+        return product(on_paper(mm), amount(sheet.scales.length / sheet.scene.units.rates.metres, 12))
+    return amount((mm * sheet.scales.length if long is None else long) / sheet.scene.units.rates.metres, most)
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
@@ -79,7 +86,8 @@ def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
     carried = figures(on_paper(rate.mm))
     shown = amount(abs(rate.value), min(MOST - 1, carried))
     tried = [
-        (_carried(sheet, diagram, rate.mm, carried, most), _arm(sheet, rate.arm_mm, most)) for most in FINER
+        (_carried(sheet, diagram, rate.mm, carried, most), _arm(sheet, act.bar, rate.arm_mm, most))
+        for most in FINER
     ]  # fmt: skip
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
     of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
@@ -208,7 +216,7 @@ def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
     ends = [sheet.points.get(PointRef(name)) for name in bar]
     if ends[0] is None or ends[1] is None:
         return None
-    return _arm(sheet, abs(ends[0] - ends[1]), most)
+    return _arm(sheet, bar, abs(ends[0] - ends[1]), most)
 
 
 def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:

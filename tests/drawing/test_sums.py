@@ -13,11 +13,13 @@ from graphkin import draw
 from graphkin.construction import draft, pencil
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed
+from graphkin.construction.sizes import RateTimes
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.sums import divisions, lengths_measured, plan_sum, rate_sum, rule_sum
+from graphkin.drawing.sums import divisions, factors_of, lengths_measured, plan_sum, rate_sum, rule_sum
 from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.symbol import Symbol
 from tests.drawn import drafted
 
 
@@ -105,3 +107,23 @@ def test_a_rate_read_off_the_plan_of_a_train_is_the_product_of_what_it_shows(ins
     assert sums
     for length, _, _, scale, _, _, value, *_ in sums:
         assert Decimal(value) == Decimal(length) * Decimal(scale)
+
+
+@pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
+def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
+    scene = mechanism_of(name)
+    sheet = draft(scene, instrument=pencil(Tools(), 3))
+    given = {
+        frozenset((p, q)): abs(z - w) / scene.units.rates.metres
+        for link in (scene.frame, *scene.links)
+        for p, z in link.points.items()
+        for q, w in link.points.items()
+    }
+    acts = [step.act for step in sheet.steps]
+    arms = [(act.bar, rate_sum(sheet, act, units=False).split(" = ")[0].split(" / ")[-1])
+            for act in acts if isinstance(act, MeasuredRate)]  # fmt: skip
+    sizes = [act.size for act in acts if isinstance(act, LaidOff) and isinstance(act.size, RateTimes)]
+    arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
+    told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
+    assert len(told) >= 5
+    assert [] == [(true, said) for true, said in told if said != pytest.approx(true, rel=1e-4)]
