@@ -46,6 +46,7 @@ NEAR = 0.5  # mm: so near to its given place a hand has drawn what is fixed
 SIZE = 2.8
 ANGLE_RADII = (10.0, 13.0, 16.0, 20.0, 25.0, 31.0)
 CLOSE_RADII = (8.0, 10.0, 13.0, 16.0, 20.0, 6.5)
+WIDEST_ROUND = 16.0  # mm, of an angle beyond 180 degrees
 SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, or the line, where its number may stand
 LEAST_ANGLE = math.radians(0.5)
 
@@ -295,7 +296,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             choices = (
                 (Line(at + 2.2 * way, at + (radius + 3.0) * way, strokes.DIMENSION),
                  *angle_dimension(at, radius, start, start + turn, runs, share))
-                for radius, share in product(radii, SHARES)
+                for radius, share in product(radii, SHARES) if radius <= WIDEST_ROUND or abs(turn) <= math.pi
             )  # fmt: skip
             found = found or room.take(choices, 1, over=True, ends_on_line=True, crossing=crossing)
         if found is not None:

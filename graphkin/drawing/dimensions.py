@@ -221,8 +221,8 @@ class DimensionClearance:
         if self.panel is not None:
             arcs = [[Box.around(course).grown(0.5) for course in one.courses()] for one in choices]
             choices = [one for one, each in zip(choices, arcs, strict=True) if all(map(self.panel.holds, each))]
-        if over_lines:
-            choices = _left(choices, self._on_areas([one.heads for one in choices]))
+        taken = _joined(self.areas, self.heads) if over_lines else self.numbers
+        choices = _left(choices, _stand_on([one.heads for one in choices], taken))
         if not choices:
             return []
         middles, halves = self.areas
@@ -255,14 +255,7 @@ class DimensionClearance:
         """Which of some dimensions with these boxes stand on anything."""
         middles, halves = _arrays([box for each in boxes for box in each])
         on_lines = meets(self.segments[None], middles[:, None], halves[:, None] + 0.5 * (1 + 1j))
-        return self._on_areas(boxes) | _any(boxes, on_lines.nonzero()[0])
-
-    def _on_areas(self, boxes: Sequence[Sequence[Box]]) -> Flags:
-        """Which of some dimensions with these boxes stand on symbols, numbers or arrowheads."""
-        middles, halves = _arrays([box for each in boxes for box in each])
-        taken, sizes = _joined(self.areas, self.heads)
-        off, reach = middles[:, None] - taken, halves[:, None] + 0.5 * (1 + 1j) + sizes
-        return _any(boxes, ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0])
+        return _stand_on(boxes, _joined(self.areas, self.heads)) | _any(boxes, on_lines.nonzero()[0])
 
     def _crossed(self, lines: Sequence[Sequence[Segment]]) -> Flags:
         """Which of some dimensions with these lines cross lines that are drawn."""
@@ -313,6 +306,13 @@ def _any(things: Sequence[Sequence[object]], found: Indices) -> Flags:
     some = np.zeros(len(things), dtype=bool)
     some[_owners(things)[found]] = True
     return some
+
+
+def _stand_on(boxes: Sequence[Sequence[Box]], taken: tuple[Points, Points]) -> Flags:
+    """Which of some dimensions with these boxes stand on boxes that are taken."""
+    middles, halves = _arrays([box for each in boxes for box in each])
+    off, reach = middles[:, None] - taken[0], halves[:, None] + 0.5 * (1 + 1j) + taken[1]
+    return _any(boxes, ((np.abs(off.real) < reach.real) & (np.abs(off.imag) < reach.imag)).nonzero()[0])
 
 
 def _over(lines: Sequence[Sequence[Segment]], boxes: tuple[Points, Points], space: float) -> Flags:
