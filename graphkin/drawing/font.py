@@ -115,7 +115,7 @@ def glyph(character: str, style: Style = "regular") -> Glyph | None:
     if own is None and style != "regular":
         own = _face("regular").glyph(ord(character))
     if own is None and ord(character) > 0x2E7F:
-        found = machine_glyph(character, EM)
+        found = machine_glyph(character)
         return Glyph(*found) if found is not None else None
     return own
 
@@ -173,9 +173,9 @@ EPS = 1.0  # thousandths of the size by which an outline may be moved as it beco
 
 
 @lru_cache(maxsize=4096)
-def machine_glyph(character: str, em: int) -> tuple[int, bytes] | None:
-    """Advance and simple TrueType outline of a glyph at so many units an em; None where no known face is installed or
-    none has it."""
+def machine_glyph(character: str) -> tuple[int, bytes] | None:
+    """Advance and simple TrueType outline of a glyph in thousandths of the size; None where no known face is
+    installed or none has it."""
     font = _font()
     name = font.getBestCmap().get(ord(character)) if font is not None else None
     if font is None or name is None:
@@ -189,7 +189,7 @@ def machine_glyph(character: str, em: int) -> tuple[int, bytes] | None:
     drawn = font.getGlyphSet()
     path = DecomposingRecordingPen(drawn)
     drawn[name].draw(path)
-    times = em / font["head"].unitsPerEm
+    times = EM / font["head"].unitsPerEm
     pen = TTGlyphPen(None)
     path.replay(TransformPen(Cu2QuPen(pen, EPS, reverse_direction="glyf" not in font), Scale(times)))
     outline = pen.glyph(round=round)

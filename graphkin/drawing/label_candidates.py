@@ -1,4 +1,4 @@
-"""The places around a mark where its label could stand, ring by ring, and what each costs in looks.
+"""What a label is, the places around its mark where it could stand, ring by ring, and what each costs in looks.
 
 The places of all labels are made together, as arrays.
 """
@@ -13,12 +13,13 @@ from typing import TypeAlias
 
 import numpy as np
 
+from graphkin.drawing.box import Box
 from graphkin.drawing.meeting import Flags, Floats, Indices, Points
-from graphkin.drawing.primitives import Segment, page_direction
+from graphkin.drawing.primitives import Segment, Text, page_direction
 
 __all__ = [
-    "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "LabelRequest", "LabelRequests", "Mark", "candidates",
-    "ends", "led_candidates",
+    "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "Label", "LabelRequest", "LabelRequests", "Mark",
+    "candidates", "ends", "led_candidates",
 ]  # fmt: skip
 
 Mark: TypeAlias = complex | Segment
@@ -60,6 +61,31 @@ class LabelRequest:
     @property
     def is_point(self) -> bool:
         return self.start == self.end
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text that wants a place.
+
+    Parameters
+    ----------
+    text : what to write; its ``at`` is not used
+    mark : a point, or the two ends of a segment, that it names
+    toward : directions (rad, counter-clockwise) from a point in the order of liking; for a segment the side whose
+        normal is nearest to the first of them is liked
+    rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
+    key : what may stand in its place in a crowd, the text being listed elsewhere
+    """
+
+    text: Text
+    mark: Mark
+    toward: tuple[float, ...] = ()
+    rank: int = 0
+    key: Text | None = None
+
+    def request(self, box: Box) -> LabelRequest:
+        """What it asks for with a box of this size."""
+        return LabelRequest(*ends(self.mark), complex(box.width, box.height) / 2, self.toward)
 
 
 class LabelRequests:

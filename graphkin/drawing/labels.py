@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import box_about
-from graphkin.drawing.label_candidates import RINGS, LabelRequest, Mark, ends
+from graphkin.drawing.label_candidates import RINGS, Label, Mark
 from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
 from graphkin.drawing.meeting import Flags
@@ -42,27 +42,6 @@ _DISPENSABLE = 4  # the rank from which labels may be missing
 # What it costs, beside what places cost, that a key stands for a name, and that a label stands nowhere.
 _KEY_COST, _MISSING_COST = 10.0, TANGLED
 _NOTHING = Obstacles()
-
-
-@dataclass(frozen=True)
-class Label:
-    """A text that wants a place.
-
-    Parameters
-    ----------
-    text : what to write; its ``at`` is not used
-    mark : a point, or the two ends of a segment, that it names
-    toward : directions (rad, counter-clockwise) from a point in the order of liking; for a segment the side whose
-        normal is nearest to the first of them is liked
-    rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
-    key : what may stand in its place in a crowd, the text being listed elsewhere
-    """
-
-    text: Text
-    mark: Mark
-    toward: tuple[float, ...] = ()
-    rank: int = 0
-    key: Text | None = None
 
 
 @dataclass(frozen=True)
@@ -103,7 +82,7 @@ class Placement:
         self.labels, self.ranks = labels, [label.rank for label in labels]
         self.texts = [label.text for label in labels]  # by request: those of the labels, then their keys
         self.boxes = [box_about(text.runs) for text in self.texts]
-        self.panel = LabelPanel(panel, obstacles, marks, list(map(_request, labels, self.boxes)))
+        self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
         self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
         self.seen = [0] * len(labels)  # rings looked at
         self.held = HeldPositions(len(labels))
@@ -268,7 +247,7 @@ class Placement:
             classes = ("label", *label.key.classes)
             self.texts.append(replace(label.key, id=label.text.id, classes=classes))
             self.boxes.append(box_about(label.key.runs))
-            requests.append(_request(label, self.boxes[-1]))
+            requests.append(label.request(self.boxes[-1]))
         first = self.panel.ask(requests)
         asked = range(first, first + len(some))
         self.keys |= zip(some, asked, strict=True)
@@ -408,7 +387,3 @@ class Placement:
             self.held.leave(int(j))
         self.clear[i] = bool(faults[chosen] == 0)
         self.held.take(i, positions.position(chosen))
-
-
-def _request(label: Label, box: Box) -> LabelRequest:
-    return LabelRequest(*ends(label.mark), complex(box.width, box.height) / 2, label.toward)

@@ -5,7 +5,6 @@ along the edges of a panel that nothing drawn or written takes.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -113,16 +112,14 @@ STEP = 6.0  # mm from one place tried to the next along the edge of the panel
 CLEAR = 2.0  # mm between an inset and what is drawn
 
 
-def free_boxes(
-    count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, taken: Sequence[Box] = ()
-) -> list[Box]:
+def free_boxes(count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles) -> list[Box]:
     """Up to ``count`` boxes of a size (mm) along the edges of a panel that hold nothing, those in corners first."""
     found: list[Box] = []
     for box in _places(size, panel):
         if len(found) == count:
             break
         wide = box.grown(CLEAR)
-        if any(wide.overlaps(other) for other in (*taken, *found, *obstacles.areas)):
+        if any(wide.overlaps(other) for other in (*found, *obstacles.areas)):
             continue
         if any(wide.clip(*segment) for segment in (*obstacles.solid, *obstacles.dashed)):
             continue
