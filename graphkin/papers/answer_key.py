@@ -57,6 +57,8 @@ def _row(lesson: Lesson, row: Compared) -> KeyRow:
     size = abs(row.true) if symbol.is_vector else float(row.true.real)
     angle = round(math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)), 3) + 0.0
     mm = row.reading.on_paper
+    if mm is not None and row.measured == 0.0:  # what a residue has on paper is no length
+        mm = 0.0
     has_way = symbol.is_vector and size > 0.0
     return KeyRow(
         symbol=str(symbol),

@@ -238,3 +238,10 @@ def test_a_problem_does_not_show_how_a_larger_group_is_placed():
     ids = {thing.id for d in drawn for thing in walk(d.children) if hasattr(thing, "id")}
     assert "point-B" in ids
     assert set() == {"point-S", "special-S", "label-point-S", "label-trial-B-1"} & ids
+
+
+def test_a_force_that_is_zero_has_no_residue_on_paper():
+    key = key_rows(handout("boom-lifted", at=180, language="en", formats=("html",), positions=1).lesson)
+    zero = {row.symbol: row.on_paper for row in key if row.exact == 0.0 and row.on_paper is not None}
+    assert "F_3/2" in zero
+    assert {0.0} == set(zero.values())
