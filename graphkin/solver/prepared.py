@@ -31,8 +31,7 @@ from graphkin.structure import Cluster, Structure, in_stages
 
 __all__ = ["PreparedMechanism", "prepare"]
 
-CHUNK = 16384
-"""Positions in a piece, so that all columns of one stay in the cache."""
+CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
 _PER: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
