@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from graphkin.errors import as_text
+from graphkin.errors import CallError, as_text
 from graphkin.files import Json
 
 if TYPE_CHECKING:
@@ -61,6 +61,20 @@ class Tabled(ABC):
         """A column of the table by its name.  Raises CallError for an unknown one."""
         name = as_text("name", name)
         return self.table[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Whether ``tabled[name]`` is there."""
+        if not isinstance(name, str):
+            return False
+        try:
+            self[name]
+        except CallError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        """There is nothing to go through but by name: Python would ask for 0, 1, 2 ...  Raises TypeError."""
+        raise TypeError(f"a {type(self).__name__} is asked by name, and has its rows in .table: it is not gone through")
 
     def to_pandas(self) -> pandas.DataFrame:
         """The table as a frame of pandas.  Raises CallError where that is not installed."""

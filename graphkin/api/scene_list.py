@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -42,6 +43,13 @@ class Listed(Result):
         if name not in names:
             raise CallError(Problem(f'"{name}"', "no scene of this name comes along", did_you_mean(str(name), names)))
         return read(name)
+
+    def __iter__(self) -> Iterator[str]:
+        """Their names."""
+        return (row[0] for row in self.rows)
+
+    def __len__(self) -> int:
+        return len(self.rows)
 
     @property
     def table(self) -> Table:

@@ -160,6 +160,13 @@ class Table:
         name = as_text("name", name)
         return self.column(name).values
 
+    def __iter__(self) -> Iterator[str]:
+        """The names of the columns, as a frame of pandas gives them."""
+        return iter(self.names)
+
+    def __contains__(self, name: object) -> bool:
+        return any(name in (column.name, column.head) for column in self.columns)
+
     def column(self, name: str) -> Column:
         """A column by its name, or by its head.  Raises CallError for an unknown one."""
         for column in self.columns:

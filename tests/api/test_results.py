@@ -55,6 +55,18 @@ def test_every_result_is_asked_by_name_and_tells_an_unknown_one(kind):
     assert made(kind)[NAMES[kind]] is not None
     with pytest.raises(graphkin.CallError, match="nonsense"):
         made(kind)["nonsense"]
+    assert [name in made(kind) for name in (NAMES[kind], "nonsense", 0)] == [True, False, False]
+
+
+def test_the_scenes_that_come_along_are_gone_through_by_their_names():
+    assert SIXBAR in list(graphkin.scenes())
+    assert len(graphkin.scenes()) == len(list(graphkin.scenes()))
+    assert list(graphkin.scenes().table) == ["scene", "title", "title_zh", "mobility"]
+
+
+def test_a_result_without_an_order_says_how_it_is_asked():
+    with pytest.raises(TypeError, match="by name"):
+        list(made("check"))
 
 
 @pytest.mark.parametrize("kind", MAKE)
