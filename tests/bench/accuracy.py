@@ -26,7 +26,7 @@ from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
 from graphkin.solver.expressions import Vec
 from graphkin.solver.joints import Drive
-from graphkin.solver.program import FIELDS
+from graphkin.solver.pose import FIELDS
 from graphkin.structure import Structure, analyse
 
 from .larger import measure_larger
