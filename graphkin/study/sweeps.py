@@ -39,7 +39,7 @@ class Outcome:
 
     design : its number from 0
     status, why : "ok"; "partly" (some positions have no values, with the reason of the first); or why none has
-    cells : range, strokes, K, least transmission angles (see `graphkin.study.turn_data.row`)
+    cells : range, strokes, K, least transmission angles (see `graphkin.study.turn_data.design_row`)
     good : positions that are ok
     """
 
