@@ -114,7 +114,7 @@ def _act(plot: Plot, step: Step, held: str) -> Act | None:
             corners = one.point, other.point, point.point
             return ImageSeen(seen(Symbol(kind, point), held), (to(one), to(other)), corners, link, on_line)
         case ByRate(point, start, link):
-            return SeenByRate(seen(Symbol(kind, point), held), to(start), link, held)
+            return SeenByRate(seen(Symbol(kind, point), held), start, to(start), link, held)
         case SamePlace() | Translated():
             vectors = (s for s in step.strokes if isinstance(s, Vector | Aid))
             return next((Resultant(seen(v.symbol, held)) for v in vectors), None)

@@ -39,6 +39,7 @@ __all__ = [
     "TakenOff",
     "Translated",
     "TrialDrawn",
+    "end_of",
     "polygon_phrase",
 ]
 
@@ -254,10 +255,11 @@ class ImageSeen:
 
 @dataclass(frozen=True)
 class SeenByRate:
-    """The vector to a point of a link as seen from a held one, from that to another of its points (None: it rests) by
-    the rates of the link."""
+    """The vector to a point of a link as seen from a held one, laid off by the rates of the link from ``start``, that to
+    its point ``origin`` (None: it rests)."""
 
     vector: Symbol
+    origin: PointRef
     start: Symbol | None
     link: str
     held: str
@@ -321,9 +323,9 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return Phrase(f"seen from {order}", (held, ", ".join(links)))
         case ImageSeen(vector, between, points, link, on_line):
             key = "division seen" if on_line else "image seen"
-            return Phrase(key, (vector, *map(_end_of, between), link, "".join(points)))
-        case SeenByRate(vector, start, link, held):
-            return Phrase("by rate seen", (vector, _end_of(start), f"{link}{held}"))
+            return Phrase(key, (vector, *map(end_of, between), link, "".join(points)))
+        case SeenByRate(vector, _, start, link, held):
+            return Phrase("by rate seen", (vector, end_of(start), f"{link}{held}"))
         case PlanDrawn() | PlanTravel() | PlanTried():
             return _on_plan(act)
         case RateSeen(rate, link, held, vector, bar, value):
@@ -333,7 +335,8 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
 
 
-def _end_of(vector: Symbol | None) -> Phrase:
+def end_of(vector: Symbol | None) -> Phrase:
+    """Where a vector from the pole ends; None: it has no length."""
     return Phrase("the pole itself") if vector is None else Phrase("the end of", (vector,))
 
 

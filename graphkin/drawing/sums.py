@@ -7,12 +7,24 @@ same; its figures are those that the drawing carries.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
+from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, RateSeen, Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import (
+    ByRate,
+    LaidOff,
+    MeasuredRate,
+    PlanDrawn,
+    RateSeen,
+    SeenByRate,
+    Superposed,
+    TrialDrawn,
+)
 from graphkin.construction.sheet import DiagramName, Sheet, Step
-from graphkin.construction.sizes import RateTimes, RollingCurves, Size
+from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
+from graphkin.construction.strokes import Aid, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import PointRef, Symbol
@@ -32,10 +44,11 @@ from graphkin.words.written import (
 )
 
 __all__ = [
-    "Division", "bound", "divisions", "factors_of", "laid_sum", "lengths_measured", "plan_sum", "rate_sum", "rule_sum",
-    "scale_of", "substituted", "times_scale", "trials_of", "unit_of",
+    "Division", "RatePart", "bound", "divisions", "factors_of", "laid_sum", "lengths_measured", "parts_by_rates",
+    "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of", "unit_of",
 ]  # fmt: skip
 
+SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
 _TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
 
 
@@ -75,24 +88,36 @@ def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
 
 
-def rate_sum(sheet: Sheet, act: MeasuredRate, units: bool = True) -> str:
+def rate_sum(sheet: Sheet, act: MeasuredRate | RateSeen, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
     divide."""
     omega = act.rate == "omega"
-    rate = (sheet.omega if omega else sheet.alpha)[act.link]
-    if rate.mm == 0.0 or not rate.arm_mm:
-        return ""
     diagram: DiagramName = "velocity" if omega else "acceleration"
-    carried = figures(on_paper(rate.mm))
-    shown = amount(abs(rate.value), min(MOST - 1, carried))
+    mm, arm_mm, rate = _measured_rate(sheet, diagram, act)
+    if mm == 0.0 or not arm_mm:
+        return ""
+    carried = figures(on_paper(mm))
+    shown = amount(abs(rate), min(MOST - 1, carried))
     tried = [
-        (_carried(sheet, diagram, rate.mm, carried, most), _arm(sheet, act.bar, rate.arm_mm, most))
+        (_carried(sheet, diagram, mm, carried, most), _arm(sheet, act.bar, arm_mm, most))
         for most in FINER
     ]  # fmt: skip
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
     of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
     value = written(quotient(size, arm, min(MOST - 1, carried)))
     return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+
+
+def _measured_rate(
+    sheet: Sheet, diagram: DiagramName, act: MeasuredRate | RateSeen
+) -> tuple[float, float | None, float]:
+    """The lengths (mm) of vector and bar from which a rate is measured, and the rate."""
+    if isinstance(act, MeasuredRate):
+        rate = (sheet.omega if act.rate == "omega" else sheet.alpha)[act.link]
+        return rate.mm, rate.arm_mm, rate.value
+    mm = next((abs(one.span) for one in vectors_seen(sheet, diagram) if one.symbol == act.vector), 0.0)
+    one, other = (sheet.points.get(PointRef(name)) for name in act.bar)
+    return mm, None if one is None or other is None else abs(one - other), act.value
 
 
 def plan_sum(act: PlanDrawn) -> str:
@@ -158,15 +183,21 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
         rates = [sheet.omega[name].value for name in rule.turning]
         turning = amount(abs(rates[0] - sum(rates[1:])), most)
         return turning, turning, amount(rule.radius / sheet.scene.units.metres, most)
-    if not isinstance(rule, RateTimes) or len(rule.links) > 1:
+    if not isinstance(rule, RateTimes):
         return ()
     by = rule.factor
     factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
     if factor is None:
         return ()
-    turned = sheet.omega if rule.rate == "omega" else sheet.alpha
-    rate = amount(abs(turned[rule.links[0]].value), most)
+    rate = amount(abs(_turning(sheet, rule)), most)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
+
+
+def _turning(sheet: Sheet, rule: RateTimes) -> float:
+    """How a link turns (rad/s, rad/s2), or the first of two as seen from the second."""
+    rates = [(sheet.omega if rule.rate == "omega" else sheet.alpha)[name].value for name in rule.links]
+    turning = rates[0] - sum(rates[1:])
+    return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
 
 
 def substituted(rule: Size | None, factors: tuple[str, ...]) -> str:
@@ -220,8 +251,10 @@ def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
 
 
 def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
-    vector = sheet.vectors("velocity").get(symbol)
-    return None if vector is None else amount(abs(vector.span) * scale_of(sheet, "velocity"), most)
+    drawn: Vector | Aid | None = sheet.vectors("velocity").get(symbol)
+    if drawn is None:
+        drawn = next((one for one in vectors_seen(sheet, "velocity") if one.symbol == symbol), None)
+    return None if drawn is None else amount(abs(drawn.span) * scale_of(sheet, "velocity"), most)
 
 
 def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:
@@ -237,6 +270,50 @@ def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -
     middle = f"{substituted(rule, factors)} = " if factors else ""
     shown = f"{written(value)} {unit}"
     return f"{middle}{shown}", f"{shown} ÷ {number(per)} ({unit})/mm = {written(length)} mm"
+
+
+@dataclass(frozen=True)
+class RatePart:
+    """A part of the way from one end point of a link to another that its rates give: its ``span`` on paper (mm)."""
+
+    symbol: Symbol
+    rule: RateTimes
+    direction: Direction
+    span: complex
+
+
+def parts_by_rates(sheet: Sheet, diagram: DiagramName, act: ByRate | SeenByRate) -> list[RatePart]:
+    """What is laid off to go from an end point to another of its link by the rates of that, one part after the other;
+    none where a place or a rate is not known, or where it turns at none."""
+    start, point, links = _way_by_rates(act)
+    places = [sheet.points.get(PointRef(ref.point)) for ref in (start, point)]
+    if places[0] is None or places[1] is None or not all(name in sheet.omega for name in links):
+        return []
+    arm, ends = (places[1] - places[0]) * sheet.scales.length, (point.point, start.point)
+    held = links[1] if len(links) > 1 else ""
+    way: Literal["square", "towards"] = "square"
+    rules = [("v", RateTimes("omega", links, ends), way)]
+    if diagram == "acceleration":
+        if not all(name in sheet.alpha for name in links):
+            return []
+        inwards = RateTimes("omega", links, ends, square=True)
+        rules = [("an", inwards, "towards"), ("at", RateTimes("alpha", links, ends), way)]
+    found = []
+    for kind, rule, relation in rules:
+        rate = _turning(sheet, rule)
+        span = arm * (-rate * rate if rule.square else 1j * rate) / sheet.scales.of(diagram)
+        if span:
+            symbol = replace(Symbol(kind, point, start), seen=held)
+            found.append(RatePart(symbol, rule, Direction(relation, ends), span))
+    return found
+
+
+def _way_by_rates(act: ByRate | SeenByRate) -> tuple[PointRef, PointRef, tuple[str, ...]]:
+    """From where to where it goes, and the links that turn."""
+    if isinstance(act, ByRate):
+        return act.start, act.point, (act.link,)
+    assert act.vector.of is not None
+    return act.origin, act.vector.of, (act.link, act.held)
 
 
 def bound(text: str) -> str:

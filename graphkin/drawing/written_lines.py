@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Literal
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import ByRate, LaidOff, MeasuredRate, PlanDrawn, RateSeen, Superposed
+from graphkin.construction.polygon_acts import (
+    ByRate,
+    LaidOff,
+    MeasuredRate,
+    PlanDrawn,
+    RateSeen,
+    SeenByRate,
+    Superposed,
+)
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
-from graphkin.construction.sizes import Direction, RateTimes
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import WrittenLine, rule_alone
 from graphkin.drawing.headings import number, term, written
-from graphkin.drawing.sums import bound, divisions, lengths_measured, plan_sum, rate_sum, rule_sum, trials_of
+from graphkin.drawing.sums import (
+    bound,
+    divisions,
+    lengths_measured,
+    parts_by_rates,
+    plan_sum,
+    rate_sum,
+    rule_sum,
+    trials_of,
+)
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import on_paper
@@ -37,8 +52,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
         elif isinstance(step.act, RateSeen):
-            lines.append(_seen(step.act, letters, language))
-        elif isinstance(step.act, ByRate):
+            lines.append(_seen(sheet, step.act, letters, language))
+        elif isinstance(step.act, ByRate | SeenByRate):
             lines += by_rates(sheet, step, step.act, letters)
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
             lines.append(_off_plan(step.act, language))
@@ -103,33 +118,22 @@ def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) 
     return " =\u00a0".join((*(_rate_name(act.rate, n) for n in names), rule, value)) + way
 
 
-def _seen(act: RateSeen, letters: Letters, language: str) -> str:
+def _seen(sheet: Sheet, act: RateSeen, letters: Letters, language: str) -> str:
     """``ω_42 = v_CC2 / l_BC = 0.65 rad/s, clockwise``, as a link is seen from a held one."""
     rule = f"${letters.vector(act.vector)}$ / ${letters.length(act.bar)}$"
     unit = "rad/s" if act.rate == "omega" else "rad/s²"
     way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
-    return f"{_rate_name(act.rate, act.link + act.held)} = {rule} = {number(abs(act.value), 5)} {unit}{way}"
+    value = bound(rate_sum(sheet, act, units=False)) or f"{number(abs(act.value), 5)} {unit}"
+    return " =\u00a0".join((_rate_name(act.rate, act.link + act.held), rule, value)) + way
 
 
-def by_rates(sheet: Sheet, step: Step, act: ByRate, letters: Letters) -> Iterator[str]:
+def by_rates(sheet: Sheet, step: Step, act: ByRate | SeenByRate, letters: Letters) -> Iterator[str]:
     """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``: how an end point is laid off from another of its link
     whose rates are known."""
-    ends = act.point.point, act.start.point
-    way = letters.direction(Direction("square", ends), sheet.scene.frame.name)
-    inwards = letters.direction(Direction("towards", ends), sheet.scene.frame.name)
-    parts: tuple[tuple[Literal["v", "an", "at"], RateTimes, str], ...] = (
-        ("v", RateTimes("omega", (act.link,), ends), way),
-    )
-    if step.diagram == "acceleration":
-        parts = (
-            ("an", RateTimes("omega", (act.link,), ends, square=True), inwards),
-            ("at", RateTimes("alpha", (act.link,), ends), way),
-        )
-    for kind, rule, direction in parts:
-        rates = sheet.omega if rule.rate == "omega" else sheet.alpha
-        if rates[act.link].value and (said := rule_sum(sheet, rule, step.diagram)):
-            symbol = Symbol(kind, act.point, act.start)
-            yield f"${letters.vector(symbol)}$ =\u00a0${letters.size(rule)}$ =\u00a0{bound(said)},  {direction}"
+    for part in parts_by_rates(sheet, step.diagram, act):
+        way = letters.direction(part.direction, sheet.scene.frame.name)
+        rule = f"${letters.size(part.rule)}$ =\u00a0{bound(rule_sum(sheet, part.rule, step.diagram))}"
+        yield f"${letters.vector(part.symbol)}$ =\u00a0{rule},  {way}"
 
 
 def _off_plan(act: PlanDrawn, language: str) -> str:

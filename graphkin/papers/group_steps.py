@@ -3,23 +3,21 @@ polygons, how it is divided, and end points laid off by rates."""
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable, Sequence
 from functools import reduce
 
 from graphkin.construction.mechanism_acts import TrialPositions, TrialTable
-from graphkin.construction.polygon_acts import ByRate, Superposed, TrialDrawn
+from graphkin.construction.polygon_acts import ByRate, SeenByRate, Superposed, TrialDrawn, end_of
 from graphkin.construction.sheet import DiagramName, Sheet, Step
-from graphkin.construction.sizes import Direction, RateTimes
 from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Aid
 from graphkin.drawing.group_aids import NUMERALS
 from graphkin.drawing.headings import number
-from graphkin.drawing.sums import divisions
+from graphkin.drawing.sums import divisions, parts_by_rates
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
-from graphkin.words.written import on_paper, true_minus
+from graphkin.words.written import on_paper, pointing, true_minus
 
 __all__ = ["divided", "laid_off_by_rate", "tried", "tried_in_positions"]
 
@@ -128,43 +126,30 @@ def _opened(step: Step, act: Superposed, i: int, lettered: Lettered) -> Phrase:
     return told
 
 
-def laid_off_by_rate(sheet: Sheet, step: Step, act: ByRate, lettered: Lettered) -> Phrase | None:
-    """An end point from another of its link: what the rates give, laid off from letter to letter."""
-    places = [sheet.points.get(PointRef(ref.point)) for ref in (act.start, act.point)]
-    letters = [lettered(step.diagram, ref) for ref in (act.start, act.point)]
-    if None in places or None in letters or act.link not in sheet.omega:
-        return None
-    arm = (places[1] - places[0]) * sheet.scales.length  # type: ignore[operator]
-    ends = act.point.point, act.start.point
-    omega = sheet.omega[act.link].value
-    parts: list[tuple[str, Symbol, RateTimes, Direction | Phrase, complex]] = []
-    turned = RateTimes("omega", (act.link,), ends)
-    if step.diagram == "velocity":
-        parts = [("as vector", Symbol("v", act.point, act.start), turned, *_square(ends, 1j * omega * arm))]
-    elif act.link in sheet.alpha:
-        inwards = Direction("towards", ends)
-        square, bent = RateTimes("omega", (act.link,), ends, square=True), RateTimes("alpha", (act.link,), ends)
-        alpha = sheet.alpha[act.link].value
-        parts = [
-            ("as normal", Symbol("an", act.point, act.start), square, inwards, -omega * omega * arm),
-            ("as vector", Symbol("at", act.point, act.start), bent, *_square(ends, 1j * alpha * arm)),
-        ]
-    parts = [part for part in parts if abs(part[4]) > 0.0]
-    scale = sheet.scales.velocity if step.diagram == "velocity" else sheet.scales.acceleration
-    start = Phrase("the point", (letters[0],))
-    laid: list[Phrase] = []
-    for key, symbol, size, way, span in parts:
-        rule = Phrase(key, (Phrase("rule of size", (symbol, size)),))
-        laid.append(Phrase("lay off from", (start, rule, on_paper(abs(span) / scale), way)))
-        start = Phrase("the end of", (symbol,))
+def laid_off_by_rate(sheet: Sheet, step: Step, act: ByRate | SeenByRate, lettered: Lettered) -> Phrase | None:
+    """An end point from another of its link: what the rates give, laid off from letter to letter; as seen from a held
+    link, from the pole."""
+    parts = parts_by_rates(sheet, step.diagram, act)
+    if isinstance(act, SeenByRate):
+        first = end_of(act.start)
+    else:
+        letters = [lettered(step.diagram, ref) for ref in (act.start, act.point)]
+        if None in letters:
+            return None
+        first = Phrase("the point", (letters[0],))
+    start, laid = first, list[Phrase]()
+    for part in parts:
+        key = "as normal" if part.rule.square else "as vector"
+        way = part.direction if part.rule.square else Phrase("pointing", (part.direction, pointing(part.span)))
+        rule = Phrase(key, (Phrase("rule of size", (part.symbol, part.rule)),))
+        laid.append(Phrase("lay off from", (start, rule, on_paper(abs(part.span)), way)))
+        start = Phrase("the end of", (part.symbol,))
     if not laid:
         return None
-    return Phrase("ends in", (reduce(lambda one, other: Phrase("in turn", (one, other)), laid), letters[1]))
-
-
-def _square(ends: tuple[str, str], span: complex) -> tuple[Phrase, complex]:
-    angle = true_minus(f"{math.degrees(cmath.phase(span)) + 0.0:.1f}")
-    return Phrase("pointing", (Direction("square", ends), angle)), span
+    told = reduce(lambda one, other: Phrase("in turn", (one, other)), laid)
+    if isinstance(act, SeenByRate):
+        return Phrase("ends seen", (told, act.vector))
+    return Phrase("ends in", (told, letters[1]))
 
 
 def _numeral(number_of: int) -> str:

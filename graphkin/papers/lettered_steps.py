@@ -18,6 +18,7 @@ from graphkin.construction.polygon_acts import (
     LinesMeet,
     Named,
     Resultant,
+    SeenByRate,
     Superposed,
     TrialDrawn,
 )
@@ -84,7 +85,7 @@ class LetteredSteps:
             return tried(self.sheet, step, act)
         if isinstance(act, Superposed):
             return divided(self.sheet, step, act, self._of)
-        if isinstance(act, ByRate):
+        if isinstance(act, ByRate | SeenByRate):
             return laid_off_by_rate(self.sheet, step, act, self._of)
         return self._by_image(step, act) if isinstance(act, ByImage) else PositionSteps(self.sheet).phrase(step)
 

@@ -11,13 +11,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn
+from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn, RateSeen, SeenByRate
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.sums import laid_sum, plan_sum, rate_sum, scale_of, times_scale, unit_of
+from graphkin.drawing.sums import laid_sum, parts_by_rates, plan_sum, rate_sum, scale_of, times_scale, unit_of
 from graphkin.drawing.written_lines import by_rates
 from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup
@@ -98,7 +98,7 @@ class Speaker:
 
     def work(self, step: Step) -> tuple[str, ...]:
         """What is computed in a step, as lines of symbols and numbers."""
-        if isinstance(step.act, MeasuredRate):
+        if isinstance(step.act, MeasuredRate | RateSeen):
             return self._rate(step.act)
         if isinstance(step.act, PlanDrawn):
             letter = "ω" if step.act.rate == "omega" else "α"
@@ -112,28 +112,21 @@ class Speaker:
             bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
             return self._laid_off(step.diagram, step.act.symbol, size, abs(bar.b - bar.a)) if bar and size else ()
         measured = tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
-        return (*self._by_rate(step, step.act), *measured) if isinstance(step.act, ByRate) else measured
+        return (*self._by_rate(step, step.act), *measured) if isinstance(step.act, ByRate | SeenByRate) else measured
 
-    def _by_rate(self, step: Step, act: ByRate) -> Iterator[str]:
+    def _by_rate(self, step: Step, act: ByRate | SeenByRate) -> Iterator[str]:
         """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
-        sheet, per, unit = self.sheet, scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
-        ends = {ref.point: place for ref, place in sheet.points.items()}
-        if act.point.point not in ends or act.start.point not in ends:
-            return
-        arm = (ends[act.point.point] - ends[act.start.point]) * sheet.scales.length
-        omega, alpha = (rates[act.link].value if act.link in rates else 0.0 for rates in (sheet.omega, sheet.alpha))
-        spans = [1j * omega * arm] if step.diagram == "velocity" else [-(omega**2) * arm, 1j * alpha * arm]
-        for said, span in zip(by_rates(sheet, step, act, self.letters), filter(None, spans), strict=True):
-            length = abs(span) / sheet.scales.of(step.diagram)
-            angle = pointing(span)
+        per, unit = scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
+        parts = parts_by_rates(self.sheet, step.diagram, act)
+        for said, part in zip(by_rates(self.sheet, step, act, self.letters), parts, strict=True):
             yield said
-            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(length))} mm,  {angle}°"
+            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(part.span)))} mm,  {pointing(part.span)}°"
 
-    def _rate(self, act: MeasuredRate) -> tuple[str, ...]:
+    def _rate(self, act: MeasuredRate | RateSeen) -> tuple[str, ...]:
         omega = act.rate == "omega"
-        rate = (self.sheet.omega if omega else self.sheet.alpha)[act.link]
-        value = rate_sum(self.sheet, act) or f"{number(abs(rate.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
-        return (f"${'ω' if omega else 'α'}_{{{act.link}}}$ = {value}",)
+        value = rate_sum(self.sheet, act) or f"{number(abs(act.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
+        links = act.link if isinstance(act, MeasuredRate) else act.link + act.held
+        return (f"${'ω' if omega else 'α'}_{{{links}}}$ = {value}",)
 
     def _laid_off(self, diagram: DiagramName, symbol: Symbol, size: Size | None, length: float) -> tuple[str, ...]:
         computed, laid = laid_sum(self.sheet, diagram, size, length)

@@ -12,10 +12,19 @@ import pytest
 from graphkin import draw
 from graphkin.construction import draft, pencil
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, Superposed
+from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, SeenByRate, Superposed
 from graphkin.construction.sizes import RateTimes
+from graphkin.construction.strokes import Aid
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.sums import divisions, factors_of, lengths_measured, plan_sum, rate_sum, rule_sum
+from graphkin.drawing.sums import (
+    divisions,
+    factors_of,
+    lengths_measured,
+    parts_by_rates,
+    plan_sum,
+    rate_sum,
+    rule_sum,
+)
 from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
@@ -127,3 +136,44 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
     assert [] == [(true, said) for true, said in told if said != pytest.approx(true, rel=1e-4)]
+
+
+BY_RATE = {  # link 2 turns on a block of 3, as seen from 4, at the driver's rate: about no hinge of 4
+    "frame": {"points": {"A": [0, 0], "D": [135.501, 12.632]}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["B"], "on": "3.g", "angle_on": 33.9},
+        "3": {"points": ["D"], "on": "5", "guides": {"g": {"through": [-37.321, 20.627], "angle": 130.96}}},
+        "4": {"points": ["B", "C"], "length": 54.673, "on": "1", "angle_on": 68.22},
+        "5": {"points": ["C"]},
+    },
+    "driver": {"link": "2", "relative_to": "4", "angle": -23.85, "omega": -3.33, "alpha": 37.9},
+    "sketch": {"B": [151.3, 35.6], "C": [159.4, 89.6]},
+}
+
+
+def seen_from_a_held_link():
+    sheet = draft(mechanism_of(BY_RATE))
+    return sheet, [step for step in sheet.steps if isinstance(step.act, SeenByRate)]
+
+
+def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_are():
+    sheet, steps = seen_from_a_held_link()
+    assert ["velocity", "acceleration"] == [step.diagram for step in steps]
+    for step in steps:
+        drawn_ = {s.symbol: s for s in step.strokes if isinstance(s, Aid)}
+        (start,) = (s.tip for t in sheet.steps for s in t.strokes if isinstance(s, Aid) and s.symbol == step.act.start)
+        parts = parts_by_rates(sheet, step.diagram, step.act)
+        assert drawn_[step.act.vector].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
+
+
+def test_sizes_relative_to_a_held_link_stand_in_numbers():
+    sheet, _ = seen_from_a_held_link()
+    lines = [line.replace("\u00a0", " ") for line in written_lines(sheet, letters_of(sheet, "chinese"), "en")
+             if isinstance(line, str)]  # fmt: skip
+    told = [part for line in lines for part in line.split(";  ")]
+    by_rates = [line for line in told if "^{(4)}_{D3B3}" in line]
+    assert ["3.33 × 27.861 = 92.777 mm/s,  $⊥DB$", "3.33² × 27.861 = 308.95 mm/s²,  $D→B$",
+            "37.9 × 27.861 = 1055.9 mm/s²,  $⊥DB$"] == [line.split(" = ", 2)[2] for line in by_rates]  # fmt: skip
+    assert "$a^{n(4)}_{D5C}$ = 3.33² × 80.645 = 894.26 mm/s²" in told
+    assert "$a^{k(4)}_{B3B5}$ = 2 × 3.33 × 128.65 = 856.81 mm/s²" in told
