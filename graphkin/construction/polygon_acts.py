@@ -255,8 +255,8 @@ class ImageSeen:
 
 @dataclass(frozen=True)
 class SeenByRate:
-    """The vector to a point of a link as seen from a held one, laid off by the rates of the link from ``start``, that to
-    its point ``origin`` (None: it rests)."""
+    """The vector to a point of a link as seen from a held one, by the rates of the link laid off from ``start``, that
+    to its point ``origin`` (None: it rests)."""
 
     vector: Symbol
     origin: PointRef
