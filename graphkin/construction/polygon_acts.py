@@ -292,6 +292,10 @@ def polygon_phrase(act: InPolygon) -> Phrase:
         case LaidOff(symbol, size, mm, direction, role):
             if act.is_zero:
                 return Phrase("zero vector", (symbol,))
+            if not direction.names:  # it was found before
+                return Phrase("lay off so long", (symbol, size, on_paper(mm))) if size else Phrase(
+                    "lay off as found", (symbol, on_paper(mm))
+                )
             key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(role, "lay off")
             return Phrase(key, (symbol, size or "", on_paper(mm), direction))
         case FoundVector(symbol, mm):

@@ -9,10 +9,12 @@ from typing import Any
 import pytest
 
 import graphkin
+from graphkin.construction import group_polygons
 from graphkin.construction.contours import Joint, contours
-from graphkin.construction.polygon_acts import RateSeen, SeenFrom
+from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, LaidOff, RateSeen, SeenFrom
 from graphkin.construction.slip import Slip
 from graphkin.scene.symbol import Symbol
+from graphkin.words import say
 from tests.construction.test_groups import everything, wrong
 
 FOUR_BAR: dict[str, Any] = {  # plate, bar, plate, bar: its first hinge is driven; it hangs on a crank and a pivot
@@ -65,6 +67,42 @@ def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: st
     assert "special points" == result.data["construction"]
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+@pytest.mark.parametrize(("name", "links"), [("four-bar", "2345"), ("through a block", "41")])
+def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
+    name: str, links: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual = group_polygons.GroupPolygons._held
+    monkeypatch.setattr(group_polygons, "_against", lambda plan: False)
+    for link in links:
+        monkeypatch.setattr(
+            group_polygons.GroupPolygons, "_held", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
+        )
+        result = graphkin.check(SCENES[name])
+        assert {link} == {step.act.held for step in result.sheet.steps if isinstance(step.act, SeenFrom)}
+        assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None:
+    sheet = graphkin.check(SCENES[name]).sheet
+    equations = {e.number: (e.diagram, {t.symbol for side in e.sides for t in side}) for e in sheet.equations}
+    assert [*range(1, len(equations) + 1)] == [e.number for e in sheet.equations]
+    told = [step for step in sheet.steps if step.equation and step.diagram != "mechanism"]
+    assert {step.equation for step in told} == set(equations)
+    for step in told:
+        diagram, symbols = equations[step.equation or 0]
+        assert diagram == step.diagram
+        if isinstance(step.act, LaidOff | FoundVector | DirectionLine | Carried):
+            assert step.act.symbol in symbols
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_no_step_leaves_its_size_or_direction_blank(name: str, language: str) -> None:
+    said = [say(step.phrase, language).rstrip() for step in graphkin.check(SCENES[name]).sheet.steps]
+    assert [] == [one for one in said if "= ," in one or "= ，" in one or one.endswith((",", "，方向"))]
 
 
 def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_coriolis() -> None:
