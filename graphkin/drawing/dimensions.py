@@ -118,6 +118,7 @@ def _head(tip: complex, along: complex) -> Polygon:
 
 AROUND_POINT = 11.0  # mm around a point in which lines belong to its own symbols
 ARROWHEAD = 1.7  # mm: half the diagonal of the box of one, which is smaller than any symbol of a point
+ARC_END, ARC_STEP = 1.5, math.radians(12)  # mm of an arc at each end that may touch lines; between points of its course
 ON_LINE = 1e-9  # mm²: a smaller area with a line is rounding
 TRIM, LEAST_EXTENSION = 0.8, 2.2  # mm between a symbol and an extension line; a shorter one is none
 
@@ -148,8 +149,8 @@ class _Choice(NamedTuple):
         return made
 
     def courses(self) -> list[list[complex]]:
-        """Points of its arcs."""
-        return [[arc.at(arc.start + (arc.end - arc.start) * (0.06 + 0.11 * i)) for i in range(9)] for arc in self.arcs]
+        """Points of its arcs, but for their ends, which lie on lines."""
+        return [[arc.at(arc.start + share * (arc.end - arc.start)) for share in _along(arc)] for arc in self.arcs]
 
     def own(self) -> list[Segment]:
         """Its lines, and the chords of its arcs."""
@@ -291,6 +292,14 @@ class DimensionClearance:
             found.append(replace(line, start=line.start + start * way) if kept else None)
         each_of = iter(found)
         return [list(islice(each_of, len(each))) for each in extensions]
+
+
+def _along(arc: Arc) -> list[float]:
+    """Shares of an arc that leave out a little of its ends, no more than a dozen degrees apart."""
+    turn = abs(arc.end - arc.start)
+    left_out = min(0.06, ARC_END / (turn * arc.radius))
+    count = max(8, math.ceil(turn / ARC_STEP))
+    return [left_out + (1 - 2 * left_out) * i / count for i in range(count + 1)]
 
 
 def _left(choices: Sequence[_Choice], bad: Flags) -> list[_Choice]:

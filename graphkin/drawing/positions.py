@@ -5,22 +5,24 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
+from graphkin.drawing.dimensions import DimensionClearance, Parts, angle_dimension, check_bar, dimension
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, number, term, titles
-from graphkin.drawing.labels import Label
+from graphkin.drawing.labels import Label, Mark
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.symbols import BLOCK_LENGTH, BLOCK_WIDTH
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.scene.model import AngleDriver
@@ -32,6 +34,14 @@ __all__ = ["Shown", "positions_figure"]
 MARGIN, ROOM, FOOT = 8.0, 16.0, 14.0
 LEAST_WIDTH = 130.0
 LINE = 5.0
+OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of an arc, where its number may stand
+# Radii of arcs: of theta and of the crank's ways, by the crank's length, and of a swing (mm).
+AROUND, WITHIN, SWING_RADII = (
+    (1.18, 1.3, 1.5, 1.65, 1.9),
+    (0.55, 0.4, 0.7, 0.85, 1.35, 1.5, 1.75, 2.0),
+    (16.0, 20.0, 25.0, 31.0, 13.0),
+)
 NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
 
 
@@ -80,9 +90,8 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
         Group((Polyline(tuple(map(page, places)), PATH),), id=f"path-{point}", classes=("path",))
         for point, places in shown.paths.items() if len(places) > 1
     )})  # fmt: skip
-    numbers = _numbers(shown)
-    whole = joined((paths, *numbered, *limits, *least, _crank(shown), _strokes(shown),
-                    bare_mechanism(sheet, letters), numbers))  # fmt: skip
+    drawn = joined((paths, *numbered, *limits, *least, _back(shown), bare_mechanism(sheet, letters)))
+    whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     width = max(LEAST_WIDTH, box.width + 2 * (ROOM + MARGIN))
     head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
@@ -150,58 +159,108 @@ def _numbers(shown: Shown) -> Piece:
     return Piece(labels=tuple(labels))
 
 
-def _crank(shown: Shown) -> Piece:
-    """The angle theta between the crank's limit positions, and its two ways, in the driver's sense."""
+def _dimensions(shown: Shown, drawn: Piece) -> Piece:
+    """Angles between the crank's limit positions, strokes and swings, clear of everything drawn; numbers that find no
+    such place at their arcs or lines are labels."""
+    ink = obstacles_of(drawn.drawn)
+    # no number stands on a dashed limit position either
+    room = DimensionClearance(replace(ink, solid=ink.solid + ink.dashed, dashed=()), None)
     parts: list[Primitive] = []
-    for pair, (low, high) in shown.limits.items():
-        ends = _crank_end(low), _crank_end(high)
-        lag = shown.measured.get(("theta_lag", pair))
-        if ends[0] is None or ends[1] is None or lag is None or "theta" not in shown.marks:
+    labels: list[Label] = []
+    for id, crossing, choices in (*_strokes(shown), *_swings(shown), *_crank(shown)):
+        taken = room.take(choices, 0 if crossing else 2, ends_on_line=crossing, crossing=crossing)
+        if taken is not None:
+            parts += taken
             continue
-        pivot, radius = ends[0][0], abs(ends[0][1] - ends[0][0])
-        one, two = (end[1] - end[0] for end in ends if end is not None)
-        back = pivot - 1.35 * two
-        parts.append(Line(page(pivot), page(back), strokes.DIRECTION))
-        start = cmath.phase(one)
-        turn = math.remainder(cmath.phase(-two) - start, math.tau)
-        shown_lag = rich(f"$θ$ = {number(math.degrees(lag), 5)}°", 2.8)
-        if abs(turn) > 0.02:
-            parts += angle_dimension(page(pivot), 1.18 * radius, start, start + turn, shown_lag)
-        driver = shown.own.scene.drivers[0]
-        sense = -1.0 if driver.values[1] < 0 else 1.0
-        for from_, to, size in ((one, two, 0.55), (two, one, 0.4)):
-            way = (sense * (cmath.phase(to) - cmath.phase(from_))) % math.tau
-            begin = cmath.phase(from_)
-            written = rich(f"{number(math.degrees(way), 5)}°", 2.4)
-            if radius > 8.0 and way < math.tau - 0.05:
-                parts += angle_dimension(page(pivot), size * radius, begin, begin + sense * way, written)
-        break
-    return Piece({"answers": tuple(parts)}) if parts else Piece()
+        lines, number_of_it = [p for p in choices[0] if not isinstance(p, Text)], choices[0][-1]
+        assert isinstance(number_of_it, Text)
+        text = replace(number_of_it, anchor="start", id=f"label-{id}", classes=("label",))
+        parts += lines
+        labels.append(Label(text, _mark(lines)))
+    return Piece({"answers": tuple(parts)} if parts else {}, tuple(labels))
 
 
-def _strokes(shown: Shown) -> Piece:
-    """Strokes of slides and swings of links, dimensioned between the limit positions."""
-    parts: list[Primitive] = []
-    if "stroke" not in shown.marks:
+def _mark(lines: Sequence[Primitive]) -> Mark:
+    """What of a dimension its number belongs to: the middle of its arc, or its line."""
+    for part in lines:
+        if isinstance(part, Arc):
+            return part.at((part.start + part.end) / 2)
+    line = lines[2]
+    assert isinstance(line, Line)
+    return line.start, line.end
+
+
+def _limits_of_crank(shown: Shown) -> tuple[float, complex, complex, complex] | None:
+    """The angle theta (rad), the pivot and the two limit positions of the crank from there."""
+    for pair, both in shown.limits.items():
+        low, high = map(_crank_end, both)
+        lag = shown.measured.get(("theta_lag", pair))
+        if low is not None and high is not None and lag is not None and "theta" in shown.marks:
+            return lag, low[0], low[1] - low[0], high[1] - high[0]
+    return None
+
+
+def _back(shown: Shown) -> Piece:
+    """The crank's second limit position drawn beyond its pivot."""
+    crank = _limits_of_crank(shown)
+    if crank is None:
         return Piece()
+    _, pivot, _, two = crank
+    return Piece({"answers": (Line(page(pivot), page(pivot - 1.35 * two), strokes.DIRECTION),)})
+
+
+_Wanted: TypeAlias = tuple[str, bool, Sequence[Parts]]
+"""A dimension that wants a place: its name, whether its line may run over what is drawn, and its forms, the best
+first."""
+
+
+def _arcs(centre: complex, radii: Sequence[float], start: float, end: float, words: tuple[Run, ...]) -> Sequence[Parts]:
+    """An angle with arcs of some radii, its number at several shares of each."""
+    return [angle_dimension(page(centre), radius, start, end, words, share) for radius in radii for share in SHARES]
+
+
+def _crank(shown: Shown) -> Iterator[_Wanted]:
+    """The angle theta between the crank's limit positions, and its two ways, in the driver's sense."""
+    crank = _limits_of_crank(shown)
+    if crank is None:
+        return
+    lag, pivot, one, two = crank
+    radius, start = abs(one), cmath.phase(one)
+    sense = -1.0 if shown.own.scene.drivers[0].values[1] < 0 else 1.0
+    for name, from_, to, sizes in (("out", one, two, WITHIN), ("back", two, one, (WITHIN[1], WITHIN[0], *WITHIN[2:]))):
+        begin, way = cmath.phase(from_), (sense * (cmath.phase(to) - cmath.phase(from_))) % math.tau
+        if radius > 8.0 and way < math.tau - 0.05:
+            written = rich(f"{number(math.degrees(way), 5)}°", 2.4)
+            yield name, True, _arcs(pivot, [size * radius for size in sizes], begin, begin + sense * way, written)
+    turn = math.remainder(cmath.phase(-two) - start, math.tau)
+    if abs(turn) > 0.02:  # after the longer arcs, which could not go round its number
+        shown_lag = rich(f"$θ$ = {number(math.degrees(lag), 5)}°", 2.8)
+        yield "theta", True, _arcs(pivot, [size * radius for size in AROUND], start, start + turn, shown_lag)
+
+
+def _strokes(shown: Shown) -> Iterator[_Wanted]:
+    """Strokes of slides, dimensioned between the limit positions."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
-    for pair, (low, high) in shown.limits.items():
-        if "/" in pair:
-            stroke = shown.measured.get(("stroke", pair))
-            ends = [one.poses[pair.split("/")[0]].origin for one in (low, high)]
-            if stroke is not None and abs(ends[1] - ends[0]) > 1.0:
-                words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
-                parts += dimension(page(ends[0]), page(ends[1]), -9.0, words)
-        else:
-            swing = shown.measured.get(("swing", pair))
-            pivot = next((p for p in low.structure.links[pair].points if p in low.scene.frame.points), None)
-            if swing is None or pivot is None:
-                continue
-            at = low.points[PointRef(pivot)]
+    for pair, (low, high) in shown.limits.items() if "stroke" in shown.marks else ():
+        stroke = shown.measured.get(("stroke", pair))
+        if "/" in pair and stroke is not None:
+            a, b = (page(one.poses[pair.split("/")[0]].origin) for one in (low, high))
+            words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
+            if abs(b - a) > 1.0:
+                yield f"stroke-{pair.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
+
+
+def _swings(shown: Shown) -> Iterator[_Wanted]:
+    """Swings of links, dimensioned between the limit positions."""
+    for pair, (low, _) in shown.limits.items() if "stroke" in shown.marks else ():
+        swing = shown.measured.get(("swing", pair))
+        if "/" in pair or swing is None:
+            continue
+        pivot = next((p for p in low.structure.links[pair].points if p in low.scene.frame.points), None)
+        if pivot is not None:
             begin = cmath.phase(low.poses[pair].axis)
             words = rich(f"$ψ$ = {number(math.degrees(swing), 5)}°", 2.8)
-            parts += angle_dimension(page(at), 16.0, begin, begin + swing, words)
-    return Piece({"answers": tuple(parts)}) if parts else Piece()
+            yield f"swing-{pair}", True, _arcs(low.points[PointRef(pivot)], SWING_RADII, begin, begin + swing, words)
 
 
 def _gamma(shown: Shown) -> Piece:

@@ -8,6 +8,9 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
+from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.primitives import Text, walk
 from graphkin.papers.pictures import bare_picture
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}
@@ -49,3 +52,17 @@ def test_what_is_measured_stays_with_the_figure_where_its_titles_are_left_out() 
     bare = bare_picture(graphkin.draw(FOUR_BAR, figures=["positions"]).figures["positions"])
     written = [e for e in ET.fromstring(svg_bytes(bare)).iter() if e.tag.endswith("}text")]
     assert any("1.366094" in "".join(text.itertext()) for text in written)
+
+
+@pytest.mark.parametrize("name", ["shaper-forces", "fourbar-150-500-300-400", "whitworth"])
+def test_no_line_runs_through_a_stroke_an_angle_or_the_swing(name: str) -> None:
+    drawing = graphkin.draw(name, figures=["positions"]).figures["positions"]
+    ink = obstacles_of(drawing.children)
+    boxes = {
+        thing.string: text_box(thing)
+        for group in drawing.children if group.id == "answers"
+        for thing in walk(group.children) if isinstance(thing, Text)
+    }  # fmt: skip
+    assert boxes
+    struck = [words for words, box in boxes.items() if any(box.clip(*line) for line in (*ink.solid, *ink.dashed))]
+    assert [] == struck
