@@ -131,12 +131,12 @@ class _Inputs:
         return float(own.real) / rate.value if rate and rate.value else 1.0
 
     def _guide_turns(self, of: PointRef, to: PointRef | None) -> Symbol | None:
-        """The angular velocity of the guide between two coincident points."""
+        """The angular velocity of the guide between two coincident points, or of the link from which one is seen."""
         links = {r.link for r in (of, to) if r}
         for slide in self.plan.structure.slides:
             if slide.pin == of.point and links & {slide.a, slide.b}:
                 return Symbol("omega", link=slide.b)
-        return None
+        return Symbol("omega", link=to.link) if to and to.link else None  # a link of a contour, held still
 
     def _fixed(self, to: PointRef | None) -> bool:
         return to is None or to.point in self.plan.structure.scene.frame.points

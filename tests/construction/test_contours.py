@@ -9,10 +9,16 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.construction import group_polygons
+from graphkin.checking.consequential_errors import Consequences
+from graphkin.checking.readings import read_off
+from graphkin.construction import execute, group_polygons, plan
+from graphkin.construction.board import nudged
 from graphkin.construction.contours import Joint, contours
 from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, LaidOff, RateSeen, SeenFrom
+from graphkin.construction.execution import Redrawn
 from graphkin.construction.slip import Slip
+from graphkin.scene import mechanism_of
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import say
 from tests.construction.test_groups import everything, wrong
@@ -126,6 +132,29 @@ def test_a_line_of_the_contour_turned_by_a_tenth_of_a_degree_shows() -> None:
 
     assert set() == wrong(FOUR_BAR, Slip())
     assert {"omega_3", "omega_1", "v_F", "alpha_3"} <= wrong(FOUR_BAR, Slip(line=line))
+
+
+@pytest.mark.parametrize("name", ["four-bar", "through a block"])
+def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str) -> None:
+    scene = mechanism_of(SCENES[name])
+    what, still = plan(scene, find=()), nudged("pencil", Tools())
+    redrawn = Redrawn(what, what.scales, still)
+    for act in range(1, still.acts + 1, 12):
+        whole, gone_on = (
+            {r.symbol: r.value for r in read_off(redrawn.by(nudged("pencil", Tools(), {act: 1.0}), first))}
+            for first in (0, act)
+        )
+        for symbol, value in whole.items():
+            assert gone_on[symbol] == pytest.approx(value, rel=1e-9, abs=1e-12), (act, symbol)
+
+
+def test_a_wrong_angular_velocity_of_the_held_link_is_followed_to_the_term_of_coriolis() -> None:
+    what = plan(mechanism_of(FOUR_BAR), find=())
+    sheet = execute(what)
+    values = {r.symbol: r.value for r in read_off(sheet)}
+    omega, coriolis = Symbol("omega", link="2"), Symbol.parse("ak_F@3/F@2")
+    (followed,) = Consequences(what, sheet).values({omega: 1.2 * values[omega]}, coriolis)
+    assert complex(followed) == pytest.approx(1.2 * complex(values[coriolis]), rel=1e-9)
 
 
 def test_links_that_drivers_hold_to_each_other_are_one_contour() -> None:
