@@ -14,8 +14,8 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import execute, group_polygons, plan
 from graphkin.construction.board import nudged
 from graphkin.construction.contours import Joint, contours
-from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, LaidOff, RateSeen, SeenFrom
 from graphkin.construction.execution import Redrawn
+from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, LaidOff, RateSeen, SeenFrom
 from graphkin.construction.slip import Slip
 from graphkin.scene import mechanism_of
 from graphkin.scene.sheet_tables import Tools
