@@ -140,12 +140,10 @@ def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -
     ----------
     interrupted : what answers an interruption from when the command begins until it has ended; None: as before
     """
-    # nearly all that a command makes are modules, which stay: looking for garbage among them takes a tenth of its time
-    gc.set_threshold(100_000, 50, 100)
     atexit.register(gc.freeze)
     if interrupted is not None:  # who comes after the end comes too late
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
-    # and looking through all installed packages for plugins of pydantic another twentieth
+    # looking through all installed packages for plugins of pydantic takes a twentieth of a command's time
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     own_streams()
     status: str | int | None = 0
