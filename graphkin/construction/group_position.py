@@ -8,11 +8,8 @@ open is divided proportionally, until what was left out fits.
 from __future__ import annotations
 
 import cmath
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
@@ -20,12 +17,13 @@ from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import drawn_near, fitted
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
-from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions, TrialTable
+from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
+from graphkin.construction.trial_tables import table_of_one, table_of_several
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Driven, links_of
@@ -35,7 +33,6 @@ __all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
-DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 
 
@@ -124,7 +121,9 @@ def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> S
         if len(values) == 1:
             tried = _trial_drawings(replace(so_far, instrument=EXACT), reduced, poses, values)
             point, strokes = _curve(so_far, reduced, poses, tried)
-            table = _table(so_far, reduced, tried) if tried else None
+            table = table_of_one(so_far, reduced, tried[::BETWEEN], BEFORE) if tried else None
+        else:
+            table = table_of_several(so_far, reduced, poses, values)
         rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
         left_out = tuple(name for name in reduced.left_out if name not in rolling)
         links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
@@ -190,68 +189,6 @@ def _curve(
     places = tuple(_seen(drawn, removed, poses) for _, drawn in tried)
     curve = TrialCurve(places, places[::BETWEEN], removed.ends[0][0])
     return removed.ends[0][0], (curve, *_goal(known, removed, poses))
-
-
-def _table(
-    known: PlacedLinks, reduced: ReducedMechanism, tried: Sequence[tuple[float, PlacedLinks]]
-) -> TrialTable:
-    """What is measured in the trial positions, and what proportional division makes of it."""
-    driver, removed = reduced.trial[0], reduced.removed[0]
-    size = known.mm * reduced.structure.scene.size
-    turned = isinstance(driver, AngleDriver)
-    exact = replace(known, instrument=EXACT)
-
-    def shown(rows: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
-        x, y = math.degrees(1.0) if turned else size, math.degrees(1.0) if removed.is_angle else size
-        return tuple((value * x, gap * y) for value, gap in rows)
-
-    trials = [(value, reduced.gaps(drawn)[0]) for value, drawn in tried[::BETWEEN]]
-    over = [i for i, ((_, a), (_, b)) in enumerate(pairwise(trials)) if a * b < 0.0]
-    sides = min(over, key=lambda i: abs(i + 0.5 - BEFORE * (POINTS - 1)), default=None)
-    divided: list[tuple[float, float]] = []
-    if sides is not None:
-        (a, one), (b, two) = trials[sides], trials[sides + 1]
-        near: Poses = tried[sides * BETWEEN][1].poses
-        while len(divided) < DIVISIONS and not (divided and abs(shown(divided)[-1][1]) < UNSEEN):
-            c = (a * two - b * one) / (two - one)
-            drawn = drawn_near(reduced, exact, near, np.array([c]))
-            if drawn is None:
-                break
-            gap, near = reduced.gaps(drawn)[0], drawn.poses
-            divided.append((c, gap))
-            (a, one), (b, two) = ((c, gap), (b, two)) if gap * two < 0.0 else ((a, one), (c, gap))
-            if gap == 0.0:
-                break
-    missed, names, length = _missed(reduced, removed, known.mm)
-    frame = reduced.structure.scene.frame.name
-    moved, base = (driver.link, driver.relative_to) if isinstance(driver, AngleDriver) else (driver.key, frame)
-    if base in known.poses:  # a link that stands already: its angle is taken to the x axis
-        ahead, base = cmath.phase(known.poses[base].axis), frame
-        trials = [(value + ahead, gap) for value, gap in trials]
-        divided = [(value + ahead, gap) for value, gap in divided]
-    return TrialTable(
-        moved, "" if base == frame else base, turned, missed, names, length, removed.is_angle, shown(trials),
-        (sides or 0) + 1, shown(divided),
-    )  # fmt: skip
-
-
-def _missed(
-    reduced: ReducedMechanism, removed: RemovedConstraint, mm: float
-) -> tuple[Literal["bar", "guide", "turn", "travel", "guides", "rolled"], tuple[str, ...], float]:
-    """What is measured of what was left out, between what, and the length (mm) that a bar must have."""
-    if removed.rolling is not None:
-        return "rolled", (removed.name,), 0.0
-    if isinstance(removed.driver, AngleDriver):
-        return "turn", (removed.driver.relative_to, removed.driver.link), 0.0
-    if removed.driver is not None:
-        return "travel", (removed.driver.key,), 0.0
-    if removed.second is not None:
-        return "guides", (removed.left_out,), 0.0
-    ends = tuple(point for point, _ in removed.ends)
-    if removed.slide is not None:
-        return "guide", (*ends, removed.slide.key), 0.0
-    own = reduced.structure.links[removed.left_out].points
-    return "bar", ends, abs(own[ends[1]] - own[ends[0]]) * mm
 
 
 def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> complex:

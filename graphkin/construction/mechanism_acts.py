@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper
@@ -19,6 +19,8 @@ __all__ = [
     "LaidOffAngle",
     "LaidOffTravel",
     "LinkPoints",
+    "Missed",
+    "Moved",
     "OnMechanism",
     "PathDrawn",
     "PathsCross",
@@ -27,6 +29,7 @@ __all__ = [
     "SlidToMeet",
     "SpecialPoint",
     "TrialPositions",
+    "TrialRow",
     "TrialTable",
     "mechanism_phrase",
 ]
@@ -142,32 +145,62 @@ class HeldStill:
 
 
 @dataclass(frozen=True)
-class TrialTable:
-    """What is measured in the trial positions of a group, and divided.
+class Moved:
+    """What is moved in trial positions: a link ``name`` that is turned, by degrees from the link ``base`` ("" for the x
+    axis), or the pair whose travel is changed (``turned`` false; mm on paper)."""
 
-    ``moved`` is the link that is turned, by degrees from the link ``base`` ("" for the x axis), or the pair whose
-    travel is changed (``turned`` false; mm on paper).  ``missed`` tells what is measured of what was left out, with
-    the ``names`` that it lies between and the ``length`` of a bar (mm on paper).  ``trials`` are values with the
-    misses there (mm on paper, or, ``angle``, degrees), ``divided`` those that proportional division gives after the
-    trial number ``before`` (from 1), one after the other, the last one where nothing is missed.
-    """
-
-    moved: str
+    name: str
     base: str
     turned: bool
-    missed: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
+
+
+@dataclass(frozen=True)
+class Missed:
+    """What is measured of what was left out, with the ``names`` that it lies between and the ``length`` of a bar (mm on
+    paper): degrees where it is an ``angle``, else mm."""
+
+    kind: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
     names: tuple[str, ...]
     length: float
     angle: bool
-    trials: tuple[tuple[float, float], ...]
-    before: int
-    divided: tuple[tuple[float, float], ...]
+
+
+TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
+"""The values of what is moved in a trial position, and what is missed there."""
+
+
+@dataclass(frozen=True)
+class TrialTable:
+    """What is measured in the trial positions of a group, and divided.
+
+    ``divided`` are positions that proportional division gives, one after the other, the last one where nothing is
+    missed.  Where one thing is moved the first lies between the trial number ``before`` (from 1) and the next; where
+    several are, each further trial differs from the first in one of them, ``parts`` of these steps together make the
+    first that is divided, and each that is divided takes the place of the trial number ``instead`` (from 1).
+    """
+
+    moved: tuple[Moved, ...]
+    missed: tuple[Missed, ...]
+    trials: tuple[TrialRow, ...]
+    divided: tuple[TrialRow, ...]
+    before: int = 0
+    parts: tuple[float, ...] = ()
+    instead: tuple[int, ...] = ()
 
     def scaled(self, times: float) -> TrialTable:
         """The same with its lengths so many times as large."""
-        x, y = 1.0 if self.turned else times, 1.0 if self.angle else times
-        trials, divided = (tuple((v * x, m * y) for v, m in rows) for rows in (self.trials, self.divided))
-        return replace(self, length=self.length * times, trials=trials, divided=divided)
+        x = [1.0 if one.turned else times for one in self.moved]
+        y = [1.0 if one.angle else times for one in self.missed]
+
+        def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:
+            return tuple((_times(values, x), _times(misses, y)) for values, misses in old)
+
+        missed = tuple(replace(one, length=one.length * times) for one in self.missed)
+        return replace(self, missed=missed, trials=rows(self.trials), divided=rows(self.divided))
+
+
+def _times(values: tuple[float, ...], by: list[float]) -> tuple[float, ...]:
+    return tuple(v * k for v, k in zip(values, by, strict=True))
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import reduce
 
-from graphkin.construction.mechanism_acts import TrialPositions, TrialTable
+from graphkin.construction.mechanism_acts import Missed, Moved, TrialPositions, TrialRow, TrialTable
 from graphkin.construction.polygon_acts import ByRate, SeenByRate, Superposed, TrialDrawn, end_of
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.steps import phrase_of
@@ -31,37 +31,63 @@ def tried_in_positions(sheet: Sheet, act: TrialPositions) -> Phrase | None:
     table = act.table
     if table is None:
         return None
-    one, other = ("°" if x else " mm" for x in (table.turned, table.angle))
-    values = ", ".join(_value(value, one) for value, _ in table.trials)
-    misses = "; ".join(_two(miss) for _, miss in table.trials) + other
-    missed = Phrase(f"missed {table.missed}", (_named(table), on_paper(table.length)))
-    told = Phrase("trial table", (_moved(sheet, table), values, missed, misses))
+    moved = reduce(lambda a, b: Phrase("moved too", (a, b)), [_moved(sheet, one) for one in table.moved])
+    missed = reduce(lambda a, b: Phrase("missed too", (a, b)), [_missed(one) for one in table.missed])
+    values, misses = zip(*(_told(table, row) for row in table.trials), strict=True)
+    if len(table.moved) > 1:
+        told = Phrase("trial table several", (moved, _numbered(values), missed, _numbered(misses)))
+        return Phrase("in turn", (phrase_of(act), _divided_by_parts(table, told)))
+    unit = " mm" if not table.missed[0].angle else "°"
+    told = Phrase("trial table", (moved, ", ".join(values), missed, "; ".join(misses).replace(unit, "") + unit))
     if table.divided:
         before = table.before
-        between = tuple(f"{abs(table.trials[i][1]):.2f}" for i in (before - 1, before))
-        first, *rest = table.divided
-        told = Phrase("trial division", (told, before, before + 1, *between, _value(first[0], one),
-                                         _two(first[1]) + other))  # fmt: skip
+        between = tuple(f"{abs(table.trials[i][1][0]):.2f}" for i in (before - 1, before))
+        first, *rest = (_told(table, row) for row in table.divided)
+        told = Phrase("trial division", (told, before, before + 1, *between, *first))
         if rest:
-            told = Phrase("trial division again", (told, _value(rest[-1][0], one)))
+            told = Phrase("trial division again", (told, rest[-1][0]))
     return Phrase("in turn", (phrase_of(act), told))
 
 
-def _named(table: TrialTable) -> str:
-    """Between what is measured: the ends of a bar, or a list."""
-    return "".join(table.names) if table.missed == "bar" else ", ".join(table.names)
+def _divided_by_parts(table: TrialTable, told: Phrase) -> Phrase:
+    """The divisions of trials in each of which another thing was moved."""
+    for i, row in enumerate(table.divided):
+        values, misses = _told(table, row)
+        if i:
+            told = Phrase("trial parts again", (told, _numeral(table.instead[i - 1]), values, misses))
+        else:
+            steps = ", ".join(_numeral(k) for k in range(2, len(table.trials) + 1))
+            told = Phrase("trial parts", (told, ", ".join(map(_two, table.parts)), steps, values, misses))
+    return told
 
 
-def _moved(sheet: Sheet, table: TrialTable) -> Phrase:
-    if not table.turned:
-        return Phrase("trial travel", (table.moved,))
-    if not table.base:
-        return Phrase("trial angle", (table.moved,))
-    one, other = (sheet.structure.links[name] for name in (table.base, table.moved))
+def _told(table: TrialTable, row: TrialRow) -> tuple[str, str]:
+    """The values of a trial, and what it misses, each with its unit."""
+    values = (_value(v, "°" if one.turned else " mm") for v, one in zip(row[0], table.moved, strict=True))
+    misses = (_two(m) + ("°" if one.angle else " mm") for m, one in zip(row[1], table.missed, strict=True))
+    return ", ".join(values), ", ".join(misses)
+
+
+def _numbered(rows: Sequence[str]) -> str:
+    return "; ".join(f"{_numeral(i)} {row}" for i, row in enumerate(rows, 1))
+
+
+def _missed(missed: Missed) -> Phrase:
+    """What is measured: between the ends of a bar, or of a list."""
+    named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)
+    return Phrase(f"missed {missed.kind}", (named, on_paper(missed.length)))
+
+
+def _moved(sheet: Sheet, moved: Moved) -> Phrase:
+    if not moved.turned:
+        return Phrase("trial travel", (moved.name,))
+    if not moved.base:
+        return Phrase("trial angle", (moved.name,))
+    one, other = (sheet.structure.links[name] for name in (moved.base, moved.name))
     hinge = next((p for p in one.points if p in other.points), "")
     if len(one.bar) < 2 or len(other.bar) < 2 or not hinge:
-        return Phrase("trial turn", (table.moved, table.base))
-    return Phrase("trial turn of bars", (table.moved, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
+        return Phrase("trial turn", (moved.name, moved.base))
+    return Phrase("trial turn of bars", (moved.name, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
 
 
 def _value(value: float, unit: str) -> str:

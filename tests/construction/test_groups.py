@@ -12,7 +12,7 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Slip, draft, execute, plan
-from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.strokes import Aid, TrialCurve
@@ -334,15 +334,35 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
     (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
     table = act.table
     assert table is not None
-    assert ("bar", set(bar)) == (table.missed, set(table.names))
+    (missed,), (moved,) = table.missed, table.moved
+    assert ("bar", set(bar)) == (missed.kind, set(missed.names))
     at = {str(ref): z for ref, z in sheet.points.items()}
-    assert table.length == pytest.approx(abs(at[bar[0]] - at[bar[1]]), abs=1e-9)
-    (a, one), (b, two) = table.trials[table.before - 1 : table.before + 1]
+    assert missed.length == pytest.approx(abs(at[bar[0]] - at[bar[1]]), abs=1e-9)
+    ((a,), (one,)), ((b,), (two,)) = table.trials[table.before - 1 : table.before + 1]
     assert one * two < 0
-    assert table.divided[0][0] == pytest.approx((a * two - b * one) / (two - one), abs=1e-9)
-    p, q = mechanism_of(name).by_name[table.moved].bar
-    turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -math.radians(table.divided[-1][0]))))
+    assert table.divided[0][0][0] == pytest.approx((a * two - b * one) / (two - one), abs=1e-9)
+    p, q = mechanism_of(name).by_name[moved.name].bar
+    turned = math.degrees(cmath.phase((at[q] - at[p]) * cmath.rect(1, -math.radians(table.divided[-1][0][0]))))
     assert 0 == pytest.approx(turned, abs=0.1)
+
+
+@pytest.mark.parametrize("scene", [BARE, UNBARRED], ids=["BARE", "UNBARRED"])
+def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(scene: dict[str, Any]) -> None:
+    sheet = draft(mechanism_of(scene))
+    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    table = act.table
+    assert table is not None
+    (a, one), (b, two), (c, three) = table.trials
+    assert [0, 0] == [b[1] - a[1], c[0] - a[0]]
+    p, q = table.parts
+    left = [x + p * (y - x) + q * (z - x) for x, y, z in zip(one, two, three, strict=True)]
+    assert [0, 0] == pytest.approx(left, abs=1e-9)
+    first, last = table.divided
+    assert first[0] == pytest.approx((a[0] + p * (b[0] - a[0]), a[1] + q * (c[1] - a[1])))
+    assert max(map(abs, first[1])) > 0.02 > max(map(abs, last[1]))
+    assert "" == table.moved[0].base
+    laid = next(a for a in (s.act for s in sheet.steps) if isinstance(a, LaidOffAngle) and a.link == table.moved[0].name)
+    assert math.degrees(laid.angle) == pytest.approx(last[0][0], abs=0.01)
 
 
 def test_why_trial_polygons_are_drawn_is_known() -> None:

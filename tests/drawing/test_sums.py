@@ -172,7 +172,7 @@ def test_sizes_relative_to_a_held_link_stand_in_numbers():
     lines = [line.replace("\u00a0", " ") for line in written_lines(sheet, letters_of(sheet, "chinese"), "en")
              if isinstance(line, str)]  # fmt: skip
     told = [part for line in lines for part in line.split(";  ")]
-    by_rates = [line for line in told if "^{(4)}_{D3B3}" in line]
+    by_rates = [line for line in told if "(4)}_{D3B3}" in line]
     assert ["3.33 × 27.861 = 92.777 mm/s,  ⊥DB", "3.33² × 27.861 = 308.95 mm/s²,  D→B",
             "37.9 × 27.861 = 1055.9 mm/s²,  ⊥DB"] == [line.split(" = ", 2)[2] for line in by_rates]  # fmt: skip
     assert "$a^{n(4)}_{D5C}$ = 3.33² × 80.645 = 894.26 mm/s²" in told
