@@ -361,7 +361,8 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
     assert first[0] == pytest.approx((a[0] + p * (b[0] - a[0]), a[1] + q * (c[1] - a[1])))
     assert max(map(abs, first[1])) > 0.02 > max(map(abs, last[1]))
     assert "" == table.moved[0].base
-    laid = next(a for a in (s.act for s in sheet.steps) if isinstance(a, LaidOffAngle) and a.link == table.moved[0].name)
+    acts = [step.act for step in sheet.steps]
+    laid = next(a for a in acts if isinstance(a, LaidOffAngle) and a.link == table.moved[0].name)
     assert math.degrees(laid.angle) == pytest.approx(last[0][0], abs=0.01)
 
 
