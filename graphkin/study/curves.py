@@ -17,7 +17,9 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from graphkin.scene.cams import LawCam
 from graphkin.solver import DriverRange
+from graphkin.solver.followers import cam_angle
 from graphkin.solver.pose import Array
 from graphkin.study.quantities import Quantity
 
@@ -36,6 +38,10 @@ PLATEAU = 1e-10
 OUTSIDE = 1e-9
 """A root this far outside its piece (in half widths) is still its own: two pieces meet there."""
 SAME = 1e-8
+CLOSE = 1e-6
+"""Of the range: zeros this near to one at a seam are that one."""
+NOTHING = 1e-12
+"""Of the largest value: what a curve is where it is zero."""
 
 _NODES = np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)[::-1]
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, POINTS - 1))
@@ -48,6 +54,7 @@ class Pieces:
     low, high : shape (pieces,), the ends of each piece, in increasing order
     coefficients : shape (pieces, points, curves)
     weight : shape (curves,), the power of sin(parameter) that the curves were multiplied by to stay finite at the ends
+    seams : parameters at which curves may jump or bend, each between two pieces
     scale : shape (curves,), the largest value of each curve (the usual one, where it grows without bound), or the floor
     doubt : shape (pieces, curves), how far the values of each piece may be off; infinite where a piece is left out
     """
@@ -59,10 +66,19 @@ class Pieces:
     periodic: bool
     weight: Array
     doubt: Array
+    seams: Array
 
     def zeros(self, curve: int) -> Array:
-        """Parameters at which a curve is zero, in increasing order."""
-        return self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
+        """Parameters at which a curve is zero, in increasing order; of a stretch along which it is, the ends."""
+        found = self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
+        whole = self.high[-1] - self.low[0]
+        for seam in self.seams:
+            # several roots at one end are found apart, by the root of the rounding
+            if np.abs(self.beside(float(seam), curve)).min() <= NOTHING * self.scale[curve]:
+                apart = np.abs(found - seam)
+                apart = np.minimum(apart, whole - apart) if self.periodic else apart
+                found = np.append(found[apart > CLOSE * whole], seam)
+        return np.sort(found)
 
     def extremes(self, curve: int) -> Array:
         """Parameters at which the derivative of a curve is zero, in increasing order."""
@@ -88,6 +104,13 @@ class Pieces:
         low, high = self.low[piece], self.high[piece]
         x = (2 * parameter - low - high) / (high - low)
         return float(chebyshev.chebval(x, self.coefficients[piece, :, curve]))
+
+    def beside(self, seam: float, curve: int) -> tuple[float, float]:
+        """The values of a curve before and after a seam."""
+        after = int(np.argmin(np.abs(self.low - seam)))
+        before = after - 1 if after or self.periodic else after
+        one, two = self.coefficients[before, :, curve], self.coefficients[after, :, curve]
+        return float(chebyshev.chebval(1.0, one)), float(chebyshev.chebval(-1.0, two))
 
     def is_constant(self, curve: int) -> bool:
         """Whether a curve does not change beyond rounding."""
@@ -151,6 +174,7 @@ def resolve(
     periodic: bool = False,
     floor: Array | float = 0.0,
     weight: Array | None = None,
+    seams: Array | None = None,
 ) -> Pieces:
     """Represent curves to rounding.
 
@@ -163,8 +187,14 @@ def resolve(
     weight : shape (curves,), powers of sin(parameter) that the curves are multiplied by: over a range 0 .. pi, for
         curves that grow without bound at its ends.  The zeros stay, the extremes found are those of the curve itself.
     floor : shape (curves,), values that are as good as zero relative to it are not looked into
+    seams : parameters inside the range at which curves may jump or bend: pieces end there
     """
+    seams = np.zeros(0) if seams is None else np.sort(seams)
     edges = np.linspace(low, high, FIRST_PIECES + 1)
+    if len(seams):
+        far = np.abs(edges[:, None] - seams).min(axis=1) > (high - low) / (4 * FIRST_PIECES)
+        far[[0, -1]] = True
+        edges = np.unique(np.concatenate([edges[far], seams]))
     waiting = np.stack([edges[:-1], edges[1:]], axis=1)
     power = np.zeros(1) if weight is None else weight
     before = np.full((len(waiting), 1), np.inf)
@@ -213,9 +243,12 @@ def resolve(
         periodic,
         np.broadcast_to(power, scale.shape),
         np.stack([d for _, _, d in done]),
+        seams,
     )
 
 
+SEAM_STEPS = 360
+SECANTS = 5
 NEAR_END = 1e-5
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 STEPS_TO_END = 2e-2
@@ -258,6 +291,49 @@ class CurveParameter:
         far = np.max([np.abs(p.z) for p in motion.poses.values()], axis=0)
         # at an end where links only turn they come nearer to a place of theirs
         return not far[0] < 10 * far[1], not far[2] < 10 * far[3]
+
+    @cached_property
+    def seams(self) -> Array:
+        """Where one part of the law of a cam gives way to the next, in increasing order."""
+        low, high = self.range
+        found: list[float] = []
+        for cam in self.reach.scene.cams:
+
+            def beyond(at: Array, start: Array, cam: LawCam = cam) -> Array:
+                at = low + np.remainder(at - low, high - low) if self.reach.full else np.clip(at, low, high)
+                turn = self.reach.motion(self.offset(at), fine=False).poses[cam.link].u
+                return np.asarray(np.angle(np.exp(1j * (cam_angle(cam, turn) - start))))
+
+            step = (high - low) / SEAM_STEPS
+            # the grid begins beside the start of the range, which is often a seam
+            grid = np.linspace(low, high, SEAM_STEPS + 1) + (step / 2 if self.reach.full else 0.0)
+            for start in np.array(cam.law.starts):
+                apart = beyond(grid, start)
+                one, two = apart[:-1], apart[1:]
+                n = np.flatnonzero(((one < 0) != (two < 0)) & (np.abs(one) < 1.0) & (np.abs(two) < 1.0))
+                a, b, f, g = grid[n], grid[n + 1], one[n], two[n]
+                for _ in range(SECANTS if len(n) else 0):
+                    with np.errstate(all="ignore"):
+                        by = g * (b - a) / (g - f)
+                    a, f, b = b, g, b - np.where(np.isfinite(by), by, 0.0)
+                    g = beyond(b, start)
+                found += b.tolist()
+        return self._placed(found)
+
+    def _placed(self, seams: list[float]) -> Array:
+        """Inside the range, each once; the two ends of a turn are one place."""
+        low, high = self.range
+        near = SAME * (high - low)
+        if self.reach.full:
+            seams = [low + (at - low) % (high - low) for at in seams]
+            seams = [low if high - at < near or at - low < near else at for at in seams]
+        else:
+            seams = [at for at in seams if low + near < at < high - near]
+        kept: list[float] = []
+        for at in sorted(seams):
+            if not kept or at - kept[-1] > near:
+                kept.append(at)
+        return np.array(kept)
 
     def end(self, curve: Curve, which: int) -> float:
         """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half

@@ -19,7 +19,13 @@ from graphkin.study.quantities import Quantity, link_quantities, slide_quantitie
 
 __all__ = ["Extreme", "Least", "Traced", "driver_value", "trace"]
 
+_SIGNS: tuple[tuple[Literal["max", "min"], float], ...] = (("max", 1.0), ("min", -1.0))
 POLISH = 3
+BESIDE_SEAM = 1e-3
+CLOSE_TO_SEAM = 1e-7
+"""Of the range: how far off a seam of a law one sees how a curve goes on, and reads its value before it."""
+SAME_AT_SEAM = 1e-11
+"""Of the largest value: a curve that changes by less stands still."""
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
 
@@ -110,14 +116,15 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     least: tuple[Least, ...] = ()
     if places or dyads:
         floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
-        pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor)
+        pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor, seams=way.seams)
         curves += [Curve(q, pieces, k) for k, q in enumerate(places)]
         least = _leasts(way, pieces, len(places), dyads)
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
         weight = None if reach.full else power
-        pieces = resolve(speeds, *way.range, periodic=reach.full, floor=_floor(reach, rates), weight=weight)
+        usual = _floor(reach, rates)
+        pieces = resolve(speeds, *way.range, periodic=reach.full, floor=usual, weight=weight, seams=way.seams)
         curves += [Curve(q, pieces, k) for k, q in enumerate(rates)]
     found = {t.quantity: t for t in _traced(way, curves) if t.constant is None or np.isfinite(t.constant)}
     return tuple(found[q] for q in quantities if q in found), least
@@ -261,11 +268,13 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Ar
     low, high = reach.ends
     near = 1e-4 * (high - low)
     asked = _Asked(reach, [c.quantity for c in curves])
+    seams = way.offset(way.seams)
     inner = [np.sort(places) for places in offsets]
     # only what is printed takes all its digits
     values = asked.values(inner, fine=True)
     before = asked.values([_wrapped(reach, places - near) for places in inner])
     after = asked.values([_wrapped(reach, places + near) for places in inner])
+    at_seams = _at_seams(reach, asked, seams, [np.append(v, 0.0) for v in values])
     found: list[tuple[Extreme, ...]] = []
     for n, curve in enumerate(curves):
         own: list[Extreme] = []
@@ -273,12 +282,67 @@ def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Ar
         if bounded:
             own.append(Extreme("end", low, driver_value(reach, low), way.end(curve, 0)))
         for place, value, one, two in zip(*(x[n].tolist() for x in (inner, values, before, after)), strict=True):
-            # a curve that only stands still for a moment has none
-            if one < value > two or one > value < two:
+            # a curve that only stands still for a moment has none; what comes to rest at a seam is told there
+            if not at_seams[n].has(place, value) and (one < value > two or one > value < two):
                 own.append(Extreme("max" if one < value else "min", place, driver_value(reach, place), value))
+        own = sorted([*own, *at_seams[n].extremes], key=lambda e: e.offset)
         if bounded:
             own.append(Extreme("end", high, driver_value(reach, high), way.end(curve, 1)))
         found.append(tuple(own))
+    return found
+
+
+@dataclass(frozen=True)
+class _Seams:
+    """A curve where one part of a law gives way to the next.
+
+    places : offsets, shape (seams,)
+    levels : values before and after, shape (2, seams)
+    near, slack : how far from a seam, and how far from its values, a curve is still there
+    whole : after what offset the curve repeats
+    """
+
+    places: Array
+    levels: Array
+    near: Array
+    slack: float
+    whole: float
+    extremes: tuple[Extreme, ...] = ()
+
+    def has(self, place: float, value: float) -> bool:
+        apart = np.abs(self.places - place)
+        here = np.minimum(apart, self.whole - apart) < self.near
+        return bool((here & (np.abs(self.levels - value) <= self.slack)).any())
+
+
+def _at_seams(reach: DriverRange, asked: _Asked, seams: Array, values: Sequence[Array]) -> list[_Seams]:
+    """Extremes where one part of a law gives way to the next: a curve may jump there, or leave a stretch along which it
+    stands still, whose end is meant.  ``values`` are some of each curve, from which its size is seen."""
+    low, high = reach.ends
+    wide = high - low
+    if not len(seams):
+        return [_Seams(seams, np.zeros((2, 0)), seams, 0.0, wide)] * len(values)
+    ends = (seams[-1] - wide, seams[0] + wide) if reach.full else (low, high)
+    around = np.diff(np.concatenate([ends[:1], seams, ends[1:]]))
+    near = np.minimum(BESIDE_SEAM * wide, np.minimum(around[:-1], around[1:]) / 3)
+    close = CLOSE_TO_SEAM * wide
+    places = np.concatenate([_wrapped(reach, seams + by) for by in (-near, -2 * close, -close, 0.0, near)])
+    found = []
+    for quantity, some, five in zip(asked.quantities, values, asked.values([places] * len(values), True), strict=True):
+        before, two, one, after, beyond = five.reshape(5, -1)
+        known = np.abs(np.append(some, five))
+        slack = SAME_AT_SEAM * float(np.max(known, where=np.isfinite(known), initial=0.0))
+        till = 2 * one - two  # the value before a jump: along the curve to the seam
+        till = np.where(np.abs(till - after) <= slack, after, till)
+        own: list[Extreme] = []
+        for kind, sign in _SIGNS:
+            top = sign * np.maximum(sign * till, sign * after)
+            is_one = (sign * (top - before) >= -slack) & (sign * (top - beyond) > slack)
+            if not quantity.is_position:
+                is_one &= np.abs(top) > slack  # where it stands still it is said to be zero
+            for place, value in zip(seams[is_one].tolist(), top[is_one].tolist(), strict=True):
+                own.append(Extreme(kind, place, driver_value(reach, place), value))
+        found.append(_Seams(seams, np.stack([till, after]), near, slack, wide if reach.full else np.inf, tuple(own)))
     return found
 
 

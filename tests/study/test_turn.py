@@ -209,3 +209,66 @@ def test_a_driven_slide_has_its_other_range() -> None:
 def test_a_larger_group_whose_other_ranges_are_unknown_is_named() -> None:
     turn = study_turn(driver_range(mechanism_of_text(scenes.MOVED_PARALLELOGRAM, "p")), everything=False)
     assert turn.not_searched == ("1", "2", "3", "5")
+
+
+CAM = """
+[frame]
+name = "0"
+points = {{ A = [0, 0] }}
+guides = {{ g = {{ through = "A", angle = 90 }} }}
+[links.1]
+points = ["A"]
+[links.2]
+points = ["B"]
+on = "0.g"
+[cams.1]
+follower = "2"
+law = [ {{ to = 100, rise = 20, by = "{by}" }}, {{ to = 150 }}, {{ to = 350, fall = 20, by = "{by}" }}, {{ to = 360 }} ]
+base = {{ r = 80 }}
+[driver]
+link = "1"
+angle = {angle}
+omega = 10
+"""
+RISE, FALL = math.radians(100), math.radians(200)
+
+
+def follower(by: str, angle: float) -> TurnStudy:
+    return study_turn(driver_range(mechanism_of_text(CAM.format(by=by, angle=angle), "cam")))
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.0, 150.0])
+@pytest.mark.parametrize("by", ["harmonic", "cycloidal", "345", "4567"])
+def test_a_follower_with_dwells_is_at_rest_where_they_begin_and_end(by: str, angle: float) -> None:
+    speed = next(c for c in follower(by, angle).curves if c.quantity.kind == "v" and c.quantity.of == "2/0")
+    assert [0, 100, 150, 350] == pytest.approx(sorted(math.degrees(z) for z in speed.zeros), abs=1e-10)
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.0, 150.0])
+@pytest.mark.parametrize("by", ["harmonic", "cycloidal", "345", "4567"])
+def test_a_follower_with_dwells_has_its_limits_where_it_leaves_them(by: str, angle: float) -> None:
+    output = slider(follower(by, angle))
+    assert 0.02 == pytest.approx(output.stroke, rel=1e-12)
+    assert output.high is not None
+    assert output.low is not None
+    assert [150, 0] == pytest.approx([math.degrees(e.driver) for e in (output.high, output.low)], abs=1e-10)
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.0, 100.0])
+def test_an_acceleration_that_jumps_has_its_extremes_at_the_jumps(angle: float) -> None:
+    curves = follower("harmonic", angle).curves
+    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.of == "2/0").extremes
+    rise, fall = (math.pi**2 * 0.02 * 10**2 / (2 * wide**2) for wide in (RISE, FALL))
+    expected = {(0, "max", rise), (100, "min", -rise), (150, "min", -fall), (350, "max", fall)}
+    assert [x for e in sorted(expected) for x in (e[0], e[2])] == pytest.approx(
+        [x for e in sorted(found, key=lambda e: e.driver) for x in (math.degrees(e.driver), e.value)], rel=1e-11
+    )
+    assert [e[1] for e in sorted(expected)] == [e.kind for e in sorted(found, key=lambda e: e.driver)]
+
+
+def test_a_parabolic_law_has_the_acceleration_of_its_halves() -> None:
+    found = next(c for c in follower("parabolic", 20.0).curves if c.quantity.kind == "a" and c.quantity.of == "2/0")
+    assert found.greatest is not None
+    assert found.least is not None
+    size = 4 * 0.02 * 10**2 / RISE**2
+    assert [size, -size] == pytest.approx([found.greatest.value, found.least.value], rel=1e-12)
