@@ -2,12 +2,15 @@
 
 import re
 from dataclasses import replace
+from functools import cache
+from itertools import combinations
 
 import pytest
 
 from graphkin import draw
 from graphkin.construction import plan
 from graphkin.drawing import Text, sheet_room
+from graphkin.drawing.piece import ink_box
 from graphkin.drawing.primitives import Group, walk
 from graphkin.drawing.tables import table_rows
 from graphkin.scene import mechanism_of
@@ -113,13 +116,32 @@ def test_the_title_elsewhere_is_without_the_words_of_the_scenes_own_position(at,
     assert [expected] == [text[-len(expected) :] for text in told if text.startswith("Shaper")]
 
 
-@pytest.mark.parametrize(("scene", "how"), [
-    ("slotter-75-150", {}), ("oldham-coupling", {"language": "zh"}),
+@cache
+def sheets(scene, **how):
+    return draw(scene, figures=("sheet",), **how).figures
+
+
+IN_ROOMS_LEFT = [
+    ("slotter-75-150", {}),
+    ("oldham-coupling", {"language": "zh"}),
     ("hit-two-RPR", {"convention": "us", "language": "both"}),
-])  # fmt: skip
+]
+
+
+@pytest.mark.parametrize(("scene", "how"), IN_ROOMS_LEFT)
 def test_few_lines_that_have_no_room_in_their_place_stand_where_the_page_has_some(scene, how):
-    figures = draw(scene, figures=("sheet",), **how).figures
-    assert ["sheet"] == list(figures)
+    assert ["sheet"] == list(sheets(scene, **how))
+
+
+@pytest.mark.parametrize(("scene", "how"), IN_ROOMS_LEFT)
+def test_what_goes_on_in_other_rooms_of_a_sheet_stands_on_nothing_else(scene, how):
+    texts = [thing for thing in walk(sheets(scene, **how)["sheet"].children) if isinstance(thing, Text)]
+    inks = [(text.string, box) for text in texts if (box := ink_box((text,))) is not None]
+    assert [] == [
+        (one, two)
+        for (one, a), (two, b) in combinations(inks, 2)
+        if min(a.right, b.right) - max(a.left, b.left) > 0.3 and min(a.bottom, b.bottom) - max(a.top, b.top) > 0.3
+    ]
 
 
 def test_what_a_large_sheet_leaves_goes_overleaf_on_a4():
