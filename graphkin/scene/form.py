@@ -7,23 +7,31 @@ types of this module: so only reading a scene waits for pydantic.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections.abc import Mapping
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
+from pydantic_core.core_schema import CoreSchema, no_info_plain_validator_function
 
 from graphkin.files import Json
-from graphkin.scene.asked_tables import StrokeStart
-from graphkin.scene.contact_tables import LawPiece, TimePiece
-from graphkin.scene.sheet_tables import ReadScan
-from graphkin.scene.tables import SMALLEST, Compass, DrivenSlide, Driver, Link, Polar, SceneTables
+from graphkin.scene.file_table import FileTable
+from graphkin.scene.tables import SMALLEST, SceneTables
 from graphkin.words import LANGUAGES
 
 __all__ = ["SCENE", "schema"]
+
+AnyTable = TypeVar("AnyTable", bound=FileTable)
 
 LARGEST = 1e15
 LONGEST_TEXT = 300
 
 if TYPE_CHECKING:
+    from graphkin.scene.asked_tables import StrokeStart
+    from graphkin.scene.contact_tables import LawPiece, TimePiece
+    from graphkin.scene.sheet_tables import ReadScan
+    from graphkin.scene.tables import Compass, DrivenSlide, Driver, Link, Polar
+
     Language = str
 else:
     Language = Literal[LANGUAGES]  # as many as there are tables of words
@@ -50,11 +58,11 @@ PointNames = list[PointName]
 LinkNames = list[LinkName]
 TwoPoints = Annotated[list[PointName], Field(min_length=2, max_length=2)]
 TwoLengths = Annotated[list[Magnitude], Field(min_length=2, max_length=2)]
-Links = Annotated[dict[LinkName, Link], Field(min_length=1)]
-LawPieces = list[LawPiece]
+Links = Annotated[dict[LinkName, "Link"], Field(min_length=1)]
+LawPieces = list["LawPiece"]
 EndName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9@/_]*$", max_length=80)]
-Scans = dict[Literal["mechanism", "velocity", "acceleration"], ReadScan]
-TimePieces = Annotated[list[TimePiece], Field(max_length=1000)]
+Scans = dict[Literal["mechanism", "velocity", "acceleration"], "ReadScan"]
+TimePieces = Annotated[list["TimePiece"], Field(max_length=1000)]
 Knots = Annotated[list[Place], Field(max_length=5000)]
 
 
@@ -112,18 +120,18 @@ Least = Annotated[Number, Field(ge=0, le=90)]
 Part = Annotated[Number, Field(gt=0, le=0.5)]
 StatedRow = dict[str, Stated]
 Start = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
+    Annotated[Number, Tag("<number>")] | Annotated["StrokeStart", Tag("<polar>")],
     _forms('write a driver value, or { stroke = "5/6", at = 0, sense = 1 }'),
 ]
 FramePlace = Annotated[
-    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")] | Annotated[Compass, Tag("<compass>")],
+    Annotated[Place, Tag("<list>")] | Annotated["Polar", Tag("<polar>")] | Annotated["Compass", Tag("<compass>")],
     _forms('write [x, y], { from = "A", r = 400, angle = -30 } or '
            '{ from = ["A", "D"], r = [60, 80], side = "left" }'),
 ]
 At = Annotated[
     Annotated[Place, Tag("<list>")]
-    | Annotated[Polar, Tag("<polar>")]
-    | Annotated[Compass, Tag("<compass>")]
+    | Annotated["Polar", Tag("<polar>")]
+    | Annotated["Compass", Tag("<compass>")]
     | Annotated[Literal["drawn"], Tag("<name>")],
     _forms('write [x, y], { from = "C", r = 65, angle = -60 }, '
            '{ from = ["B", "C"], r = [60, 80], side = "left" } or "drawn"'),
@@ -143,14 +151,34 @@ NumberOrSquare = Annotated[
     _forms('write degrees, or "square" for square to the link\'s own axis'),
 ]
 OneDriver = Annotated[
-    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(_driver_form)
+    Annotated["Driver", Tag("<angle>")] | Annotated["DrivenSlide", Tag("<slide>")], Discriminator(_driver_form)
 ]
 Drivers = Annotated[
     Annotated[OneDriver, Tag("<one>")] | Annotated[list[OneDriver], Tag("<list>")], Discriminator(_count)
 ]
 
-SCENE: TypeAdapter[SceneTables] = TypeAdapter(SceneTables)
-SCENE.rebuild(_types_namespace=dict(globals()))  # the annotations of the tables are names of this module
+
+def _rules(table: type[AnyTable], others: Mapping[str, object]) -> TypeAdapter[AnyTable]:
+    """The rules of a table by its annotations, which are names of this module and of the other tables in it."""
+    made = TypeAdapter(table)
+    made.rebuild(_types_namespace={**globals(), **others})
+    return made
+
+
+class _WhenMet:
+    """The rules of a table in another: made when a file has such a table, since most have few of the kinds."""
+
+    def __init__(self, table: type[FileTable]) -> None:
+        self.rules = cache(lambda: _rules(table, _WHEN_MET))
+
+    def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
+        return no_info_plain_validator_function(lambda value: self.rules().validate_python(value))
+
+
+_TABLES = {table.__name__: table for table in FileTable.__subclasses__()}
+_WHEN_MET = {name: Annotated[table, _WhenMet(table)] for name, table in _TABLES.items()}
+
+SCENE = _rules(SceneTables, _WHEN_MET)
 
 
 def _without_null(node: Json) -> Json:
@@ -170,6 +198,6 @@ def _without_null(node: Json) -> Json:
 
 def schema() -> dict[str, Json]:
     """Return the JSON schema (draft 2020-12) of a scene file, for editors that complete and check TOML."""
-    made = _without_null(SCENE.json_schema(by_alias=True))
+    made = _without_null(_rules(SceneTables, _TABLES).json_schema(by_alias=True))
     assert isinstance(made, dict)
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": "graphkin scene"}
