@@ -100,7 +100,7 @@ CLEARANCE = 0.35  # between a label and any line or area, mm
 NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
-LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 60.0, 3.0
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 110.0, 3.0
 AREA_WEIGHT, THICK_WEIGHT = 25.0, 10.0  # of what a leader crosses, where a thin line counts 1
 FORBIDDEN = 1e5
 TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector
@@ -171,6 +171,14 @@ class LabelPanel:
         """Places without a fault in all rings, and further ones, for each of some requests."""
         who = np.array(some)
         return self._without_fault(who, candidates(self.requests, who, RINGS) + led_candidates(self.requests, who))
+
+    def struck(self, place: LabelPosition) -> bool:
+        """Whether a dashed line runs through a place."""
+        if place.cost <= DASHED_COST:
+            return False
+        half = complex(place.right - place.left, place.bottom - place.top) / 2 + complex(CLEARANCE, CLEARANCE)
+        _, what = self._touched(np.array([place.box.centre]), np.array([half]), len(self.start))
+        return bool((what >= self.solid).any())
 
     def tangled(self, place: LabelPosition) -> bool:
         """Whether the leader of a place crosses a vector, a link, a joint or an arrowhead."""

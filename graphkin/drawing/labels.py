@@ -97,10 +97,10 @@ class Placement:
 
     @property
     def placed(self) -> tuple[Placed, ...]:
-        """The labels at their places, in their order; without such as may be missing whose leader crosses a vector."""
+        """The labels at their places, in their order; without such as may be missing and stand badly."""
         return tuple(
             self._placed(i, position) for i, position in sorted(self.held.standing.items())
-            if self.ranks[i] < _DISPENSABLE or not self._tangled(i)
+            if self.ranks[i] < _DISPENSABLE or not self._badly(i)
         )  # fmt: skip
 
     def _placed(self, i: int, position: LabelPosition) -> Placed:
@@ -116,7 +116,7 @@ class Placement:
         """The labels that stand badly, or nowhere though they have keys."""
         return [
             i for i, label in enumerate(self.labels)
-            if (not self.clear[i] or self._tangled(i) if i in self.held.standing
+            if (not self.clear[i] or self._badly(i) if i in self.held.standing
                 else label.key is not None and label.rank < _DISPENSABLE)
         ]  # fmt: skip
 
@@ -206,8 +206,9 @@ class Placement:
                 freed = freed or k is not None
 
     def _untangle(self) -> None:
-        """Find places for labels whose leaders cross vectors or joints, if need be by moving those in their way."""
-        tangled = [i for i in self.held.standing if self.clear[i] and self._tangled(i)]
+        """Find places for labels that dashed lines run through, or whose leaders cross vectors or joints, if need be by
+        moving those in their way."""
+        tangled = [i for i in self.held.standing if self.clear[i] and self._badly(i)]
         if not tangled:
             return
         tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
@@ -215,8 +216,12 @@ class Placement:
         self.found |= zip(tangled, further, strict=True)
         for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
             for i in tangled:
-                if i in self.held.standing and self._tangled(i):
+                if i in self.held.standing and self._badly(i):
                     attempt(i)
+
+    def _badly(self, i: int) -> bool:
+        """Whether a dashed line runs through a label, or its leader crosses what leaders are to go round."""
+        return self._tangled(i) or self.panel.struck(self.held.standing[i])
 
     def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""
