@@ -329,7 +329,8 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             key = "division seen" if on_line else "image seen"
             return Phrase(key, (vector, *map(end_of, between), link, "".join(points)))
         case SeenByRate(vector, _, start, link, held):
-            return Phrase("by rate seen", (vector, end_of(start), f"{link}{held}"))
+            key = "by rate seen" if vector.kind == "v" else "by rates seen"
+            return Phrase(key, (vector, end_of(start), f"{link}{held}"))
         case PlanDrawn() | PlanTravel() | PlanTried():
             return _on_plan(act)
         case RateSeen(rate, link, held, vector, bar, value):

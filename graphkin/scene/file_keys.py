@@ -28,6 +28,8 @@ def path_of_key(tables: Tables, key: str) -> KeyPath | None:
 
     >>> path_of_key({"frame": {"points": {"D": [3, 4]}}}, "frame.points.D.y")
     ('frame', 'points', 'D', 1)
+    >>> path_of_key({"frame": {"points": {"D": [3, 4]}}}, "frame.points.E.y") is None
+    True
     """
     path: list[str | int] = []
     place: object = tables
@@ -41,7 +43,11 @@ def path_of_key(tables: Tables, key: str) -> KeyPath | None:
 
 
 def value_at(place: object, path: KeyPath) -> Any:
-    """What stands at a path of tables, or of a part of them; None where there is nothing."""
+    """What stands at a path of tables, or of a part of them; None where there is nothing.
+
+    >>> value_at({"driver": [{"angle": 40}]}, ("driver", 0, "angle")), value_at({"driver": []}, ("driver", 0, "angle"))
+    (40, None)
+    """
     for step in path:
         if isinstance(place, Mapping):
             place = place.get(step)

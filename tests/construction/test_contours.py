@@ -15,11 +15,19 @@ from graphkin.construction import execute, group_polygons, plan
 from graphkin.construction.board import nudged
 from graphkin.construction.contours import Joint, contours
 from graphkin.construction.execution import Redrawn
-from graphkin.construction.polygon_acts import Carried, DirectionLine, FoundVector, LaidOff, RateSeen, SeenFrom
+from graphkin.construction.polygon_acts import (
+    Carried,
+    DirectionLine,
+    FoundVector,
+    ImageSeen,
+    LaidOff,
+    RateSeen,
+    SeenFrom,
+)
 from graphkin.construction.slip import Slip
 from graphkin.scene import mechanism_of
 from graphkin.scene.sheet_tables import Tools
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
 from tests.construction.test_groups import everything, wrong
 
@@ -62,7 +70,21 @@ TURNED_ALIKE: dict[str, Any] = {  # the special points lie on two links that tur
     "driver": {"link": "6", "relative_to": "5", "angle": -36, "omega": -10, "alpha": 29},
     "sketch": {"B": [20, 33], "C": [107, 110], "E": [58, 68]},
 }
-SCENES = {"four-bar": FOUR_BAR, "through a block": THROUGH_A_BLOCK, "turned alike": TURNED_ALIKE}
+ON_A_GUIDE: dict[str, Any] = {  # the contour cannot turn: one of its plates slides on the frame
+    "frame": {"guides": {"g": {"through": [103, 37], "angle": 20}, "h": {"through": [265, -55], "angle": 100}}},
+    "links": {
+        "2": {"points": ["E", "B"], "length": 124, "on": "0.g", "angle_on": 55.5},
+        "3": {"points": ["C", "D"], "length": 119, "at": {"G": [52, 127]}},
+        "4": {"points": ["B", "C"], "length": 150},
+        "5": {"points": ["D", "E"], "length": 51},
+        "6": {"points": ["G"], "on": "0.h"},
+    },
+    "driver": {"link": "5", "relative_to": "2", "angle": 283, "omega": -3.7, "alpha": -30},
+    "sketch": {"B": [134, 157], "C": [264, 82], "D": [154, 36], "E": [103, 37], "G": [265, -55]},
+}
+SCENES = {
+    "four-bar": FOUR_BAR, "through a block": THROUGH_A_BLOCK, "turned alike": TURNED_ALIKE, "on a guide": ON_A_GUIDE,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -75,7 +97,7 @@ def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: st
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
-@pytest.mark.parametrize(("name", "links"), [("four-bar", "2345"), ("through a block", "41")])
+@pytest.mark.parametrize(("name", "links"), [("four-bar", "2345"), ("through a block", "41"), ("on a guide", "2345")])
 def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
     name: str, links: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -106,8 +128,10 @@ def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None
 
 @pytest.mark.parametrize("name", SCENES)
 @pytest.mark.parametrize("language", ["en", "zh"])
-def test_no_step_leaves_its_size_or_direction_blank(name: str, language: str) -> None:
-    said = [say(step.phrase, language).rstrip() for step in graphkin.check(SCENES[name]).sheet.steps]
+def test_no_step_has_blanks_or_takes_accelerations_for_velocities(name: str, language: str) -> None:
+    sheet = graphkin.check(SCENES[name]).sheet
+    said = [say(step.phrase, language).rstrip() for step in sheet.steps]
+    assert not any("α" in one for one, step in zip(said, sheet.steps, strict=True) if step.diagram == "velocity")
     assert [] == [one for one in said if "= ," in one or "= ，" in one or one.endswith((",", "，方向"))]
 
 
@@ -121,7 +145,27 @@ def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_c
         for link in "34":
             more = exact[Symbol(rate, link=link)] - exact[Symbol(rate, link="2")]
             assert turned[rate, link] == pytest.approx(more.real, rel=1e-9)
+    # what the driver gives is laid off by its rule first
+    assert ["v_D/D@2"] == [str(act.symbol) for act in acts if isinstance(act, LaidOff)][:1]
     assert {"v_F@3/F@2", "ak_F@3/F@2", "ar_F@3/F@2"} <= {str(symbol) for symbol in exact}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_images_seen_from_a_held_link_name_their_corners_in_order_and_what_rests_by_no_vector(name: str) -> None:
+    sheet = graphkin.check(SCENES[name]).sheet
+    links = {link.name: link for link in (sheet.scene.frame, *sheet.scene.links)}
+    for act in (step.act for step in sheet.steps if isinstance(step.act, ImageSeen)):
+        held = (act.vector.to or PointRef("")).link
+        for vector, corner in zip(act.between, act.points, strict=False):
+            assert (vector is None) == (corner in links[held].points)
+            assert vector is None or (vector.of or PointRef("")).point == corner
+        assert (act.vector.of or PointRef("")).point == act.points[2]
+
+
+def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
+    steps = graphkin.check(FOUR_BAR).sheet.steps
+    (told,) = (say(step.phrase) for step in steps if str(getattr(step.act, "symbol", "")) == "v_D/D@2")
+    assert "ω_{52}·ED" in told
 
 
 def test_a_line_of_the_contour_turned_by_a_tenth_of_a_degree_shows() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import entries, head, json_text, motion_data, solve, to_json
 from tests import scenes
+from tests.construction.test_contours import ON_A_GUIDE, THROUGH_A_BLOCK
 
 
 def first(name: str) -> dict[str, Any]:
@@ -99,6 +101,22 @@ GROUPS = {
 @pytest.mark.parametrize("name", GROUPS)
 def test_a_group_says_its_class_kind_links_and_assembly(name: str) -> None:
     assert to_json(solve(mechanism_of_text(getattr(scenes, name), name)))["groups"] == [GROUPS[name]]
+
+
+@pytest.mark.parametrize("scene", [scenes.TRIAD, ON_A_GUIDE, THROUGH_A_BLOCK], ids=["triad", "guide", "block"])
+def test_the_assembly_of_a_larger_group_is_said_as_it_lies(scene: Any) -> None:
+    motion = solve(mechanism_of_text(scene, "scene") if isinstance(scene, str) else mechanism_of(scene))
+    (said,) = (group["assembly"] for group in to_json(motion)["groups"])
+    sides = re.findall(r"(\w+) (left|right) of (\w+) to (\w+)", said)
+    for inner, side, one, two in sides:
+        z, p, q = (complex(motion.point(name).z[0]) for name in (inner, one, two))
+        assert side == ("left" if ((q - p).conjugate() * (z - p)).imag > 0 else "right")
+    slides = re.findall(r"(\w+) on the (positive|negative) side of (\w+)\.(\w+)", said)
+    for link, sign, rail, name in slides:
+        guide, pose = motion.scene.by_name[rail].guides[name], motion.poses[rail]
+        along = complex(((motion.poses[link].z - pose.z) / pose.u)[0]) - guide.through
+        assert sign == ("positive" if (along / guide.direction).real > 0 else "negative")
+    assert len(sides) + len(slides) >= 2
 
 
 def test_the_other_assembly_is_said() -> None:
