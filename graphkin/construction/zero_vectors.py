@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from graphkin.construction.polygon_acts import FoundVector, LaidOff, MeasuredRate
+from graphkin.construction.as_seen import vectors_seen
+from graphkin.construction.polygon_acts import FoundVector, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
 from graphkin.construction.steps import Act
-from graphkin.construction.strokes import Stroke, Vector
+from graphkin.construction.strokes import Aid, Stroke, Vector
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["MOST_LOST", "without_residues"]
@@ -41,7 +42,7 @@ def without_residues(sheet: Sheet) -> Sheet:
 
 def _residues(sheet: Sheet) -> frozenset[Symbol]:
     scales, size = sheet.scales, sheet.scene.size
-    velocity, acceleration = sheet.vectors("velocity"), sheet.vectors("acceleration")
+    velocity, acceleration = _drawn(sheet, "velocity"), _drawn(sheet, "acceleration")
     fastest = _largest(velocity.values())
     # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
     push = max(_largest(acceleration.values()), (fastest * scales.velocity) ** 2 / size / scales.acceleration)
@@ -60,7 +61,12 @@ def _residues(sheet: Sheet) -> frozenset[Symbol]:
     return frozenset(zero)
 
 
-def _largest(vectors: Iterable[Vector]) -> float:
+def _drawn(sheet: Sheet, diagram: DiagramName) -> dict[Symbol, Vector | Aid]:
+    """The vectors of a diagram, those among them that are seen from a held link."""
+    return {**{one.symbol: one for one in vectors_seen(sheet, diagram)}, **sheet.vectors(diagram)}
+
+
+def _largest(vectors: Iterable[Vector | Aid]) -> float:
     return max((abs(vector.span) for vector in vectors), default=0.0)
 
 
@@ -79,7 +85,7 @@ def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
 
 def _step(step: Step, zero: frozenset[Symbol]) -> Step:
     strokes: tuple[Stroke, ...] = tuple(
-        replace(s, tip=s.tail) if isinstance(s, Vector) and s.symbol in zero else s for s in step.strokes
+        replace(s, tip=s.tail) if isinstance(s, Vector | Aid) and s.symbol in zero else s for s in step.strokes
     )
     return replace(step, act=_act(step.act, zero), strokes=strokes)
 
@@ -87,7 +93,7 @@ def _step(step: Step, zero: frozenset[Symbol]) -> Step:
 def _act(act: Act, zero: frozenset[Symbol]) -> Act:
     if isinstance(act, LaidOff | FoundVector) and act.symbol in zero:
         return replace(act, mm=0.0)
-    return replace(act, value=0.0) if isinstance(act, MeasuredRate) and act.vector in zero else act
+    return replace(act, value=0.0) if isinstance(act, MeasuredRate | RateSeen) and act.vector in zero else act
 
 
 def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) -> dict[str, Rate]:

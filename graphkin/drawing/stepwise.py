@@ -96,6 +96,7 @@ def _polygon(diagram: DiagramName, steps: list[Step]) -> dict[str, int]:
             elif isinstance(stroke, Aid):
                 born[f"trial-{diagram}-{stroke.trial}-{stroke.symbol.id}"] = step.number
                 if not stroke.trial:
+                    born.setdefault(f"special-{stroke.symbol.id}", step.number)
                     born.setdefault(f"foot-{stroke.symbol.id}", step.number)
             elif isinstance(stroke, Vector):
                 born[stroke.symbol.id] = step.number

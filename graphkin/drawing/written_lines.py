@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
+from graphkin.construction.mechanism_acts import HeldStill, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import (
     ByRate,
+    Carried,
     LaidOff,
     MeasuredRate,
     PlanDrawn,
@@ -21,6 +22,7 @@ from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.sums import (
     bound,
     divisions,
+    factors_of,
     lengths_measured,
     parts_by_rates,
     plan_sum,
@@ -53,6 +55,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines.append(_measured(sheet, step.act, letters, language))
         elif isinstance(step.act, RateSeen):
             lines.append(_seen(sheet, step.act, letters, language))
+        elif isinstance(step.act, HeldStill) and step.act.gives in ("omega", "alpha"):
+            lines.append(_held_still(step.act, language))
         elif isinstance(step.act, ByRate | SeenByRate):
             lines += by_rates(sheet, step, step.act, letters)
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
@@ -127,6 +131,14 @@ def _seen(sheet: Sheet, act: RateSeen, letters: Letters, language: str) -> str:
     return " =\u00a0".join((_rate_name(act.rate, act.link + act.held), rule, value)) + way
 
 
+def _held_still(act: HeldStill, language: str) -> str:
+    """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
+    unit, kind = ("rad/s", "omega") if act.gives == "omega" else ("rad/s²", "alpha")
+    way = "" if act.value == 0.0 else f",  {term('clockwise' if act.value < 0 else 'counter-clockwise', language)}"
+    name = _rate_name(kind, act.link + act.held)
+    return f"{name} = {number(abs(act.value), 5)} {unit}{way},  {term('held still', language)}"
+
+
 def by_rates(sheet: Sheet, step: Step, act: ByRate | SeenByRate, letters: Letters) -> Iterator[str]:
     """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``: how an end point is laid off from another of its link
     whose rates are known."""
@@ -149,13 +161,13 @@ def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
     once; that of an equation which is only a rule stands in it."""
     if rule_alone(sheet, equation):
         return []
-    acts = (s.act for s in sheet.steps if s.equation == equation.number)
-    laid_off = {act.symbol: act for act in acts if isinstance(act, LaidOff)}
+    acts = [s.act for s in sheet.steps if s.equation == equation.number]
+    laid_off = {a.symbol for a in acts if isinstance(a, Carried) or (isinstance(a, LaidOff) and not a.is_zero)}
     sums = {
         one.symbol: rule_sum(sheet, one.size, equation.diagram)
         for side in equation.sides
         for one in side
-        if one.symbol in laid_off and not laid_off[one.symbol].is_zero
+        if one.symbol in laid_off and "0" not in factors_of(sheet, one.size)
     }
     said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in sums.items() if text]
     return [";  ".join(said)] if said else []

@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from graphkin.construction import Cad, Scales, draft, pencil
+from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.polygon_acts import FoundVector
 from graphkin.construction.remarks import OffTheSheet, ZeroVector
 from graphkin.construction.strokes import CompassArc, Ray
@@ -61,7 +62,8 @@ def test_every_equation_closes(name):
     sheet = draft(mechanism_of(name))
     special = {point for group in sheet.groups for point, _ in group.points}
     for equation in sheet.equations:
-        vectors = sheet.vectors(equation.diagram)
+        seen = {one.symbol: one for one in vectors_seen(sheet, equation.diagram)}
+        vectors = {**seen, **sheet.vectors(equation.diagram)}
         terms = [t.symbol for side in equation.sides for t in side]
         if any(ref is not None and ref.point in special for s in terms for ref in (s.of, s.to)):
             continue  # what belongs to a special point only leads on, and is measured nowhere

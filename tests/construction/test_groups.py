@@ -27,6 +27,7 @@ LIBRARY = {
     "loader-cylinder": "special points",
     "single-flier": "special points",
     "contour-four-bars": "superposition",
+    "scissor-lift": "special points",
     "double-butterfly": "superposition",
 }
 
