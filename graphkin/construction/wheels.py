@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board import Instrument
-from graphkin.construction.centre_lines import CentreLine, centre_lines, trains
 from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
 from graphkin.construction.polygon_pair import Order
 from graphkin.construction.steps import Act
@@ -16,7 +15,7 @@ from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
 
 if TYPE_CHECKING:
-    from graphkin.construction.centre_lines import TrainPlan
+    from graphkin.construction.centre_lines import CentreLine, TrainPlan
     from graphkin.construction.train_plan import Travel, Turned
 
 __all__ = ["Wheels"]
@@ -36,6 +35,10 @@ class Wheels:
         here = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
         touching = [c for c in scene.contacts if {*c.links} <= links.keys()]
         meshes = meshes_of(scene, touching, here, links)
+        if not meshes:
+            return cls(structure, (), {})
+        from graphkin.construction.centre_lines import centre_lines, trains
+
         ground = scene.frame.name
         return cls(structure, tuple(centre_lines(one, links, ground) for one in trains(meshes, ground)), {})
 

@@ -9,7 +9,6 @@ import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -152,6 +151,8 @@ class Scene(SceneTables):
         return f"<Scene {self.name}: {len(self.links)} moving links>"
 
     def _repr_html_(self) -> str:
+        from html import escape
+
         return f"<pre>{escape(toml_text(self.to_dict()))}</pre>"
 
 
