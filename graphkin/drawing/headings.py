@@ -104,8 +104,10 @@ def dimensions_in(sheet: Sheet, language: str) -> str:
     unit = sheet.scene.units.length
     if unit == "mm":
         return ""
-    said = (say(Phrase("dimensions in", (word(f"unit {unit}", each),)), each) for each in languages(language))
-    return " / ".join(said)
+    *others, last = languages(language)
+    own = word(f"unit {unit}", last)  # once, where both languages write it alike
+    said = [say(Phrase("dimensions in", (word(f"unit {unit}", each),)), each) for each in (*others, last)]
+    return " / ".join((*(one.removesuffix(f" {own}") for one in said[:-1]), said[-1]))
 
 
 def number(value: float, digits: int = 6) -> str:

@@ -299,6 +299,7 @@ def _guides(here: MechanismOnPaper) -> Iterator[Label]:
         name for step in here.sheet.equations for side in step.sides for term in side
         if term.direction and len(term.direction.names) == 1 for name in term.direction.names
     }  # fmt: skip
+    written |= {guide.name for guide in here.scene.frame.guides.values()}  # the given data name them
     for b in here.sliders:
         name = b.slide.guide.name or f"x{b.slide.b}"
         if name in written:

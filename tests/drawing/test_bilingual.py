@@ -65,3 +65,8 @@ def test_numbers_of_forces_stand_once_on_a_sheet_in_two_languages(figure):
     ]  # fmt: skip
     assert long[0]
     assert long[0] == long[1]
+
+
+def test_a_unit_that_both_languages_write_alike_stands_once():
+    figure = draw("sixbar-420rpm", language="both", figures=["mechanism"]).figures["mechanism"]
+    assert any("dimensions in / 尺寸单位 m" in text for text in texts(figure))

@@ -131,3 +131,7 @@ def test_a_pin_in_a_named_slot_of_the_frame_leaves_its_distance_dimensioned():
         "driver": {"link": "1", "angle": 40, "rpm": 100},
     }
     assert "20" in words(draw(scene).figures["mechanism"])
+
+
+def test_a_guide_that_is_given_has_its_name_in_the_figure_though_no_equation_names_it():
+    assert {"x", "s"} <= set(words(draw("scotch-yoke", figures=["mechanism"]).figures["mechanism"]))
