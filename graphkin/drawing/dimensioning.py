@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise, product
+from itertools import chain, pairwise, product
 from typing import NamedTuple
 
 from graphkin.construction.sheet import Sheet
@@ -27,7 +27,7 @@ from graphkin.drawing.headings import number
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
 from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.piece import Piece
+from graphkin.drawing.piece import Piece, ink_box
 from graphkin.drawing.primitives import Group, Line, Primitive, Text
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, PlacedLink
@@ -51,23 +51,31 @@ SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)  # of the arc, or the line, where its numbe
 LEAST_ANGLE = math.radians(0.5)
 
 
-def drawn_lengths(sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None) -> Piece:
+def drawn_lengths(
+    sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None, most: tuple[float, float] | None = None
+) -> Piece | None:
     """Dimensions of bars and of the frame; the lengths of bars for whose dimensions there is no room are labels.
 
     Parameters
     ----------
     drawn : the mechanism, of which the dimensions keep clear
     panel : no dimension leaves it
+    most : width and height (mm) that both may take together; where they take more there is no piece
     """
     drawn = tuple(drawn)
     room = DimensionClearance(obstacles_of(drawn), panel)
     parts: list[Primitive] = []
     labels: list[Label] = []
-    for taken in (*_frame(sheet, room), *_bars(sheet, room), *_angles(sheet, room)):
+    reach = ink_box(drawn)
+    for taken in chain(_frame(sheet, room), _bars(sheet, room), _angles(sheet, room)):
         if isinstance(taken, Label):
             labels.append(taken)
-        else:
-            parts += taken
+            continue
+        parts += taken
+        if most is not None and (added := ink_box(taken)) is not None:
+            reach = added if reach is None else reach.joined(added)
+            if reach.width > most[0] or reach.height > most[1]:
+                return None
     return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels))
 
 

@@ -339,15 +339,15 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     bare = _without_lengths(here)
     around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(around, room):
-        piece = _with_lengths(here, bare, None)
-        box = ink_box(piece.drawn) or around
-        if room is None or _fits(box, room):
-            return piece, box
+        whole = _with_lengths(here, bare, None, room)
+        box = around if whole is None else ink_box(whole.drawn) or around
+        if whole is not None and (room is None or _fits(box, room)):
+            return whole, box
     else:
         around = Box.around(page(z) for z in sheet.points.values())
     half = complex(*room) / 2
     panel = Box.around((around.centre - half, around.centre + half))
-    piece = _with_lengths(here, bare, panel)
+    piece = _with_lengths(here, bare, panel) or bare
     layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
     names = tuple(n for n in piece.labels if panel.distance(middle_of(n.mark)) == 0.0)
     return Piece(layers, names, piece.marks), panel
@@ -374,9 +374,12 @@ def _without_lengths(here: MechanismOnPaper) -> Piece:
     return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
 
 
-def _with_lengths(here: MechanismOnPaper, bare: Piece, panel: Box | None) -> Piece:
+def _with_lengths(
+    here: MechanismOnPaper, bare: Piece, panel: Box | None, most: tuple[float, float] | None = None
+) -> Piece | None:
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
-    return joined((bare, drawn_lengths(here.sheet, drawn, panel), link_names(here), _marks(here)))
+    lengths = drawn_lengths(here.sheet, drawn, panel, most)
+    return None if lengths is None else joined((bare, lengths, link_names(here), _marks(here)))
 
 
 def _construction(here: MechanismOnPaper) -> Piece:

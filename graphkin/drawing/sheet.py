@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import islice, product
 
 from graphkin.checking.report import Report
@@ -36,7 +37,7 @@ from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, 
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text
 from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism
-from graphkin.drawing.tables import given_data, given_lines, readings_table, table_rows
+from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.train import train_figure
 from graphkin.drawing.written_lines import written_lines
@@ -75,10 +76,11 @@ def sheet_page(
         acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
         pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
     lines = [line_to_set(line, sheet, letters, spoken) for line in written_lines(sheet, letters, spoken)]
-    writing, rest = _writing(sheet, report, letters, spoken, plan, lines, homeless, GIVEN[0])
+    words = _Writing(sheet, table_rows(sheet, report), letters, spoken, lines, homeless)
+    writing, rest = words.on(plan, GIVEN[0])
     closer = product((plan, *with_less_mechanism(plan, sheet)), GIVEN) if rest and plan.equations else ()
     for each, size in islice(closer, 1, None):
-        there, left = _writing(sheet, report, letters, spoken, each, lines, homeless, size)
+        there, left = words.on(each, size)
         if not left:
             plan, writing, rest = each, there, left
             break
@@ -112,29 +114,51 @@ def sheet_page(
     )
 
 
-def _writing(
-    sheet: Sheet, report: Report | None, letters: Letters, language: str, plan: SheetPlan, lines: Sequence[LineToSet],
-    senses: list[CoriolisTerm], size: float,
-) -> tuple[list[Piece], Remainder]:  # fmt: skip
-    """Equations, given data in letters of at most a size, and readings, with the insets of Coriolis terms that found no
-    room in their panel; and what is left of them for further pages."""
-    rows = table_rows(sheet, report)
-    if plan.equations is None or plan.given is None or plan.readings is None:
-        return [], Remainder(lines, senses, given_lines(sheet, letters, language, plan.page.width, GIVEN[0]), rows)
-    given, given_rest = given_data(sheet, letters, language, plan.given, size)
-    data = captioned(plan.given, term("given", language), "labels", given)
-    spare = _spare(plan.given, given)
-    if spare is not None and not given_rest:
-        data = joined((data, coriolis_row(sheet, senses[:1], letters, spare)))
-        senses = senses[1:]
-    equations, lines_left, senses = _equations(sheet, letters, language, plan.equations, lines, senses)
-    table, count = readings_table(sheet, rows, letters, language, plan.readings)
-    readings = captioned(plan.readings, term("readings", language), "answers", table)
-    rest = Remainder(lines_left, senses, given_rest, rows[count:])
-    places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
-    more = continued(sheet, rest, [below(box, piece.drawn) for box, piece in places], letters, language)
-    pieces = [data, equations, readings]
-    return (pieces, rest) if more is None else ([*pieces, more], Remainder())
+class _Writing:
+    """Equations, given data and readings, with the insets of Coriolis terms that found no room in their panel; each is
+    set once for each of its rooms, however many plans are tried."""
+
+    def __init__(
+        self, sheet: Sheet, rows: list[TableRow], letters: Letters, language: str, lines: Sequence[LineToSet],
+        senses: list[CoriolisTerm],
+    ) -> None:  # fmt: skip
+        self.sheet, self.rows, self.letters, self.language = sheet, rows, letters, language
+        self.lines, self.senses = lines, senses
+        self._given = cache(self._set_given)
+        self._equations = cache(self._set_equations)
+        self._readings = cache(self._set_readings)
+
+    def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
+        """All of it on a plan, given data in letters of at most a size; and what is left for further pages."""
+        sheet, letters, language = self.sheet, self.letters, self.language
+        if plan.equations is None or plan.given is None or plan.readings is None:
+            given = given_lines(sheet, letters, language, plan.page.width, GIVEN[0])
+            return [], Remainder(self.lines, self.senses, given, self.rows)
+        data, given_rest, shown = self._given(plan.given, size)
+        equations, lines_left, senses = self._equations(plan.equations, shown)
+        readings, count = self._readings(plan.readings)
+        rest = Remainder(lines_left, senses, given_rest, self.rows[count:])
+        places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
+        more = continued(sheet, rest, [below(box, piece.drawn) for box, piece in places], letters, language)
+        pieces = [data, equations, readings]
+        return (pieces, rest) if more is None else ([*pieces, more], Remainder())
+
+    def _set_given(self, box: Box, size: float) -> tuple[Piece, Sequence[tuple[Run, ...]], int]:
+        """The given data, what is left of it, and how many of the insets stand below it."""
+        given, rest = given_data(self.sheet, self.letters, self.language, box, size)
+        data = captioned(box, term("given", self.language), "labels", given)
+        spare = _spare(box, given)
+        if spare is None or rest:
+            return data, rest, 0
+        first = self.senses[:1]
+        return joined((data, coriolis_row(self.sheet, first, self.letters, spare))), rest, len(first)
+
+    def _set_equations(self, box: Box, shown: int) -> tuple[Piece, Sequence[LineToSet], list[CoriolisTerm]]:
+        return _equations(self.sheet, self.letters, self.language, box, self.lines, self.senses[shown:])
+
+    def _set_readings(self, box: Box) -> tuple[Piece, int]:
+        table, count = readings_table(self.sheet, self.rows, self.letters, self.language, box)
+        return captioned(box, term("readings", self.language), "answers", table), count
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
