@@ -18,7 +18,7 @@ from graphkin.drawing.meeting import Flags, Floats, Indices, Points
 from graphkin.drawing.primitives import Segment, Text, page_direction
 
 __all__ = [
-    "LEADER_FROM", "LEADER_LEAST", "RINGS", "Candidates", "Label", "LabelRequest", "LabelRequests", "Mark",
+    "LEADER_FROM", "LEADER_LEAST", "LED_RINGS", "RINGS", "Candidates", "Label", "LabelRequest", "LabelRequests", "Mark",
     "candidates", "ends", "led_candidates",
 ]  # fmt: skip
 
@@ -39,7 +39,8 @@ _SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
 # What a leader that runs over a vector is tried with further: places of its foot, ways, distances.
 _FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97))
 _MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
-_LED_RINGS = (2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0)
+LED_RINGS = ((2.4, 3.6, 5.0, 6.8), (9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0))
+"""Distances that are tried for such a leader, mm: the further ones where the nearer give it no place."""
 _SIDES = np.array((1.0, -1.0))
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 _LIKED = math.radians(40)
@@ -145,9 +146,10 @@ def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -
     return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
 
 
-def led_candidates(requests: LabelRequests, who: Indices) -> Candidates:
-    """Further places of labels that want leaders: at more angles from a point, or from more places of a vector."""
-    gaps = np.array(_LED_RINGS)[:, None]
+def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ...]) -> Candidates:
+    """Further places of labels that want leaders, at some distances (mm): at more angles from a point, or from more
+    places of a vector."""
+    gaps = np.array(rings)[:, None]
     parts = []
     for i, label in enumerate(who):
         ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[label] else (_WAYS, _FEET)

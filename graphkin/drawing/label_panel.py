@@ -15,6 +15,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.label_candidates import (
     LEADER_FROM,
     LEADER_LEAST,
+    LED_RINGS,
     RINGS,
     Candidates,
     LabelRequest,
@@ -162,15 +163,19 @@ class LabelPanel:
         who = np.array(some)
         return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]), known)
 
-    def further(self, some: Sequence[int], known: Sequence[LabelPositions]) -> list[LabelPositions]:
-        """Further places without a fault for each of some requests, with leaders, and those that are known of each."""
+    def further(
+        self, some: Sequence[int], rings: tuple[float, ...], known: Sequence[LabelPositions]
+    ) -> list[LabelPositions]:
+        """Further places without a fault in some rings for each of some requests, with leaders, and those that are
+        known of each."""
         who = np.array(some)
-        return self._without_fault(who, led_candidates(self.requests, who), known)
+        return self._without_fault(who, led_candidates(self.requests, who, rings), known)
 
     def everywhere_free(self, some: Sequence[int]) -> list[LabelPositions]:
         """Places without a fault in all rings, and further ones, for each of some requests."""
         who = np.array(some)
-        return self._without_fault(who, candidates(self.requests, who, RINGS) + led_candidates(self.requests, who))
+        led = led_candidates(self.requests, who, sum(LED_RINGS, ()))
+        return self._without_fault(who, candidates(self.requests, who, RINGS) + led)
 
     def struck(self, place: LabelPosition) -> bool:
         """Whether a dashed line runs through a place."""

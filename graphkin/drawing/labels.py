@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import box_about
-from graphkin.drawing.label_candidates import RINGS, Label, Mark
+from graphkin.drawing.label_candidates import LED_RINGS, RINGS, Label, Mark
 from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
 from graphkin.drawing.meeting import Flags
@@ -208,16 +208,17 @@ class Placement:
     def _untangle(self) -> None:
         """Find places for labels that dashed lines run through, or whose leaders cross vectors or joints, if need be by
         moving those in their way."""
-        tangled = [i for i in self.held.standing if self.clear[i] and self._badly(i)]
-        if not tangled:
-            return
-        tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
-        further = self.panel.further(tangled, [self.found[i] for i in tangled])
-        self.found |= zip(tangled, further, strict=True)
-        for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
-            for i in tangled:
-                if i in self.held.standing and self._badly(i):
-                    attempt(i)
+        for rings in LED_RINGS:
+            tangled = [i for i in self.held.standing if self.clear[i] and self._badly(i)]
+            if not tangled:
+                return
+            tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
+            further = self.panel.further(tangled, rings, [self.found[i] for i in tangled])
+            self.found |= zip(tangled, further, strict=True)
+            for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
+                for i in tangled:
+                    if i in self.held.standing and self._badly(i):
+                        attempt(i)
 
     def _badly(self, i: int) -> bool:
         """Whether a dashed line runs through a label, or its leader crosses what leaders are to go round."""

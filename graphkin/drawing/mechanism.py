@@ -339,10 +339,12 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     bare = _without_lengths(here)
     around = ink_box(bare.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     if room is None or _fits(around, room):
-        whole = _with_lengths(here, bare, None, room)
-        box = around if whole is None else ink_box(whole.drawn) or around
-        if whole is not None and (room is None or _fits(box, room)):
-            return whole, box
+        piece = _with_lengths(here, bare, None, room)
+        if piece is not None:
+            box = ink_box(piece.drawn) or around
+            if room is None or _fits(box, room):
+                return piece, box
+        assert room is not None  # without one everything fits
     else:
         around = Box.around(page(z) for z in sheet.points.values())
     half = complex(*room) / 2

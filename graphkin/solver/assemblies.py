@@ -40,8 +40,9 @@ ROUNDS = 80
 SAME = 1e-6
 NEAR = 1e-4
 FOUND = 1e-13
-FLAT = 1e-7
-"""Where the constraints are open all the same and no step closes them better, relatively, nothing more is found."""
+FLAT, HOPELESS = 1e-7, 1e-5
+"""Where the constraints are open all the same and no step closes them better, relatively, nothing more is found; the
+second where they are further open than NEAR, since towards such a place steps only creep."""
 
 
 def own_values(scene: Mechanism) -> Array:
@@ -255,7 +256,7 @@ def _descended(system: System, place: Array) -> Array:
         turned = np.swapaxes(matrix, 1, 2)
         slope = (turned @ open_[..., None])[..., 0]
         most = missed[active] = np.abs(open_).max(axis=1)
-        on = (most > FOUND) & ~(np.abs(slope).max(axis=1) < FLAT * most)
+        on = (most > FOUND) & ~(np.abs(slope).max(axis=1) < np.where(most > NEAR, HOPELESS, FLAT) * most)
         if not on.all():
             active, damping, matrix, turned, slope, open_ = (
                 x[on] for x in (active, damping, matrix, turned, slope, open_)
