@@ -319,15 +319,19 @@ def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -
 
 
 def _pair(plot: Plot, of: PointRef, to: PointRef, symbol: Symbol) -> str:
-    """The guiding link of the sliding pair between two coincident points."""
+    """The guide of the sliding pair between two coincident points; of links of a group the one it is seen from."""
     for s in plot.structure.slides:
         sides = {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)}
         if sides == {of, to}:
             return s.b
+    seen = {ref.link for ref in (symbol.of, symbol.to) if ref}
+    if symbol.to and any(isinstance(g, Cluster) and seen <= {*g.members} for g in plot.structure.groups):
+        return symbol.to.link  # links of a group that are drawn as one, seen from one of them
+    known = ", ".join(s.key for s in plot.structure.slides)
     raise CallError(
         Problem(
             str(symbol),
             "these two points do not lie on the two sides of a sliding pair",
-            "known are " + ", ".join(s.key for s in plot.structure.slides),
+            f"known are {known}" if known else "this mechanism has none",
         )
     )

@@ -12,7 +12,10 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import JUDGED
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import execute, pencil, plan
+from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.sheet import Pose
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
+from graphkin.scene.model import PlacedLink
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 
@@ -122,3 +125,12 @@ def test_an_acute_crossing_is_said():
 
 def test_crossings_at_a_fair_angle_are_not_remarked_on():
     assert "sharp crossing" not in [n.key for n in graphkin.check("fourbar-150-500-300-400").sheet.notes]
+
+
+def test_points_of_a_link_that_fall_into_one_are_pricked_once_and_others_for_themselves():
+    points = {"A": 0j, "B": 0.01 + 0j, "C": 0.01 + 0j, "D": 0.0105 + 0j}
+    link = PlacedLink("1", points, ("A", "B"), {})
+    placed = PlacedLinks({"1": link}, 1000.0, {}, {"1": Pose(0j, 1 + 0j)}, pencil(Tools(), 1))
+    placed.settle(["1"])
+    assert placed.pricked["B"] == placed.pricked["C"]
+    assert len({placed.pricked[name] for name in "ABD"}) == 3

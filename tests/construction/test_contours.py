@@ -162,6 +162,19 @@ def test_images_seen_from_a_held_link_name_their_corners_in_order_and_what_rests
         assert (act.vector.of or PointRef("")).point == act.points[2]
 
 
+def test_any_two_links_of_a_group_have_terms_of_coriolis_on_the_board_as_in_the_solver() -> None:
+    result, motion = graphkin.check(FOUR_BAR, find=["ak_C@1/C@3", "ar_E@4/E@3"]), graphkin.solve(FOUR_BAR)
+    for name in ("ak_C@1/C@3", "ar_E@4/E@3"):
+        row = result[name]
+        assert complex(row.exact) == pytest.approx(complex(motion[name][0]) / 1000, rel=1e-9)  # mm/s2
+        assert complex(row.measured) == pytest.approx(complex(row.exact), rel=1e-9)
+
+
+def test_without_a_sliding_pair_none_is_offered() -> None:
+    with pytest.raises(graphkin.CallError, match="this mechanism has none"):
+        graphkin.check("four-bar-coupler-point", find=["ak_B@1/B@3"])
+
+
 def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
     steps = graphkin.check(FOUR_BAR).sheet.steps
     (told,) = (say(step.phrase) for step in steps if str(getattr(step.act, "symbol", "")) == "v_D/D@2")
@@ -208,6 +221,20 @@ def test_links_that_drivers_hold_to_each_other_are_one_contour() -> None:
     assert [("2", "3", "4", "5")] == contours("2345", [*hinges, driven], [])
     assert [] == contours("2345", [*hinges, free], [])
     assert [("2", "3", "4", "5")] == contours("2345", [*hinges, free], [("3", "2")])
+
+
+def test_a_bar_square_to_the_guide_leaves_its_block_free() -> None:
+    crank, bar = Joint(("1", "2"), 0j, None, True), Joint(("2", "3"), 20 + 30j, None, False)
+    pin, along = Joint(("3", "4"), 60 + 30j, None, False), Joint(("4", "1"), 60 + 30j, 1 + 0j, False)
+    assert [("1", "2", "3", "4")] == contours("1234", [crank, bar, pin, along], [])
+    assert [] == contours("1234", [crank, bar, pin, Joint(("4", "1"), 60 + 30j, 1j, False)], [])
+
+
+def test_a_driven_block_is_held_along_its_guide() -> None:
+    hinges = [Joint(("1", "2"), 0j, None, False), Joint(("2", "3"), 20 + 30j, None, False),
+              Joint(("3", "4"), 60 + 10j, None, False)]  # fmt: skip
+    for driven, found in ((True, [("1", "2", "3", "4")]), (False, [])):
+        assert found == contours("1234", [*hinges, Joint(("4", "1"), 60 + 10j, 1 + 0j, driven)], [])
 
 
 def test_two_links_that_a_driver_holds_at_their_hinge_are_no_contour() -> None:
