@@ -121,6 +121,7 @@ def _frame(here: MechanismOnPaper) -> Group:
         if b.slide.slot and b.slide.b == here.ground:
             reach = GUIDE_LENGTH / 2 * b.along
             parts += symbols.slot(page(b.at - reach), page(b.at + reach))
+            parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH, symbols.SLOT_WIDTH)
         elif here.ground in (b.slide.a, b.slide.b):
             parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
     parts += [*outlines_of(here, here.ground), *wheels_of(here, here.ground), *faces_of_frame(here)]

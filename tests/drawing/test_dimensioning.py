@@ -6,6 +6,7 @@ from graphkin import draw
 from graphkin.drawing import Text
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import Group, Line, walk
+from graphkin.drawing.strokes import HATCHING
 from graphkin.scene import library
 from tests.drawn import drafted, drawn
 
@@ -135,3 +136,26 @@ def test_a_pin_in_a_named_slot_of_the_frame_leaves_its_distance_dimensioned():
 
 def test_a_guide_that_is_given_has_its_name_in_the_figure_though_no_equation_names_it():
     assert {"x", "s"} <= set(words(draw("scotch-yoke", figures=["mechanism"]).figures["mechanism"]))
+
+
+def test_a_slot_in_the_frame_is_hatched_on_both_sides():
+    scene = {
+        "units": {"length": "mm"},
+        "frame": {"name": "4", "points": {"A": [0, 0]}, "guides": {"k": {"through": [60, 30], "angle": 20}}},
+        "links": {"1": {"points": ["A", "B"], "length": 30}, "2": {"points": ["B", "C"], "length": 90}},
+        "pins": {"C": {"of": "2", "in": "4.k"}}, "sketch": {"C": [110, 50]},
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }  # fmt: skip
+    figure = draw(scene, figures=["mechanism"]).figures["mechanism"]
+    (frame,) = (g for g in groups(figure.children) if g.id == "link-4")
+    feet = [part.start for part in walk(frame.children) if isinstance(part, Line) and part.stroke == HATCHING]
+    middle = sum(feet) / len(feet)
+    across = {round((z * (0.9396926 + 0.3420201j)).imag, 2) for z in feet if z.real > middle.real}  # y runs downwards
+    assert 2 == len(across)
+
+
+def groups(children):
+    for child in children:
+        if isinstance(child, Group):
+            yield child
+            yield from groups(child.children)
