@@ -5,7 +5,7 @@ others have left some, or on further pages.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
@@ -34,12 +34,16 @@ TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one 
 
 @dataclass(frozen=True)
 class Remainder:
-    """What is left to be shown, in the order of its parts."""
+    """What is left to be shown, in the order of its parts.
+
+    readings_begin : whether the readings are the first of all, the others stand further on
+    """
 
     equations: Sequence[LineToSet] = ()
     senses: Sequence[CoriolisTerm] = ()
     given: Sequence[tuple[Run, ...]] = ()
     readings: Sequence[TableRow] = ()
+    readings_begin: bool = False
 
     def __bool__(self) -> bool:
         return bool(self.equations or self.senses or self.given or self.readings)
@@ -143,7 +147,7 @@ def _equations(
     written = moved(blocks, complex(box.left, box.top))
     caption = term("equations continued" if begun else "equations", language)
     piece = captioned(box, caption, "labels", (Group(written, id="equations-continued" if begun else "equations"),))
-    left = Remainder(rest.equations[count:], rest.senses, rest.given, rest.readings)
+    left = replace(rest, equations=rest.equations[count:])
     return piece, left, _after(box, written)
 
 
@@ -155,7 +159,7 @@ def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room
         row = Box(room.left, room.top, room.right, room.top + INSET[1])
         pieces.append(coriolis_row(sheet, senses[:count], letters, row))
         senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
-    return joined(pieces), Remainder(rest.equations, senses, rest.given, rest.readings), room
+    return joined(pieces), replace(rest, senses=senses), room
 
 
 def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
@@ -165,7 +169,7 @@ def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room:
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
     lines = set_lines(rest.given[:most], complex(box.left, box.top))
-    left = Remainder(rest.equations, rest.senses, rest.given[most:], rest.readings)
+    left = replace(rest, given=rest.given[most:])
     return captioned(box, term("given", language), "labels", lines), left, _after(box, lines)
 
 
@@ -179,6 +183,6 @@ def _readings(
     table, count = readings_table(sheet, rest.readings, letters, language, box)
     if not count:
         return Piece(), rest, room
-    left = Remainder(rest.equations, rest.senses, rest.given, rest.readings[count:])
-    caption = term("readings continued" if begun else "readings", language)
+    left = replace(rest, readings=rest.readings[count:], readings_begin=False)
+    caption = term("readings continued" if begun and not rest.readings_begin else "readings", language)
     return captioned(box, caption, "answers", table), left, _after(box, table)

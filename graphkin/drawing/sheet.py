@@ -139,9 +139,19 @@ class _Writing:
         readings, count = self._readings(plan.readings)
         rest = Remainder(lines_left, senses, given_rest, self.rows[count:])
         places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
-        more = continued(sheet, rest, [below(box, piece.drawn) for box, piece in places], letters, language)
-        pieces = [data, equations, readings]
-        return (pieces, rest) if more is None else ([*pieces, more], Remainder())
+        rooms = [below(box, piece.drawn) for box, piece in places]
+        more = continued(sheet, rest, rooms, letters, language)
+        if more is None:
+            return [data, equations, readings], rest
+        # rooms that are left lie before that of the readings: they take the first of them
+        before = len(rest.readings)
+        if before:
+            first = replace(rest, readings=self.rows[:before], readings_begin=True)
+            turned = continued(sheet, first, rooms[:2], letters, language)
+            last, count = self._set_last(plan.readings, before)
+            if turned is not None and count == len(self.rows) - before:
+                readings, more = last, turned
+        return [data, equations, readings, more], Remainder()
 
     def _set_given(self, box: Box, size: float) -> tuple[Piece, Sequence[tuple[Run, ...]], int]:
         """The given data, what is left of it, and how many of the insets stand below it."""
@@ -159,6 +169,11 @@ class _Writing:
     def _set_readings(self, box: Box) -> tuple[Piece, int]:
         table, count = readings_table(self.sheet, self.rows, self.letters, self.language, box)
         return captioned(box, term("readings", self.language), "answers", table), count
+
+    def _set_last(self, box: Box, before: int) -> tuple[Piece, int]:
+        """The readings but for some that stand before them."""
+        table, count = readings_table(self.sheet, self.rows[before:], self.letters, self.language, box)
+        return captioned(box, term("readings continued", self.language), "answers", table), count
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
