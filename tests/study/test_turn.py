@@ -237,14 +237,14 @@ def follower(by: str, angle: float) -> TurnStudy:
     return study_turn(driver_range(mechanism_of_text(CAM.format(by=by, angle=angle), "cam")))
 
 
-@pytest.mark.parametrize("angle", [0.0, 37.0, 150.0])
+@pytest.mark.parametrize("angle", [0.0, 37.0, 100.0, 150.0])
 @pytest.mark.parametrize("by", ["harmonic", "cycloidal", "345", "4567"])
 def test_a_follower_with_dwells_is_at_rest_where_they_begin_and_end(by: str, angle: float) -> None:
     speed = next(c for c in follower(by, angle).curves if c.quantity.kind == "v" and c.quantity.of == "2/0")
     assert [0, 100, 150, 350] == pytest.approx(sorted(math.degrees(z) for z in speed.zeros), abs=1e-10)
 
 
-@pytest.mark.parametrize("angle", [0.0, 37.0, 150.0])
+@pytest.mark.parametrize("angle", [0.0, 37.0, 100.0, 150.0])
 @pytest.mark.parametrize("by", ["harmonic", "cycloidal", "345", "4567"])
 def test_a_follower_with_dwells_has_its_limits_where_it_leaves_them(by: str, angle: float) -> None:
     output = slider(follower(by, angle))
@@ -252,6 +252,7 @@ def test_a_follower_with_dwells_has_its_limits_where_it_leaves_them(by: str, ang
     assert output.high is not None
     assert output.low is not None
     assert [150, 0] == pytest.approx([math.degrees(e.driver) for e in (output.high, output.low)], abs=1e-10)
+    assert len(output.position.extremes) == 2
 
 
 @pytest.mark.parametrize("angle", [0.0, 37.0, 100.0])
@@ -264,6 +265,57 @@ def test_an_acceleration_that_jumps_has_its_extremes_at_the_jumps(angle: float) 
         [x for e in sorted(found, key=lambda e: e.driver) for x in (math.degrees(e.driver), e.value)], rel=1e-11
     )
     assert [e[1] for e in sorted(expected)] == [e.kind for e in sorted(found, key=lambda e: e.driver)]
+
+
+@pytest.mark.parametrize("angle", [0.0, 37.0, 350.0])
+def test_an_acceleration_that_jumps_to_zero_is_zero_from_there_on(angle: float) -> None:
+    found = next(c for c in follower("harmonic", angle).curves if c.quantity.kind == "a" and c.quantity.of == "2/0")
+    assert [0, 50, 100, 150, 250, 350] == pytest.approx(sorted(math.degrees(z) for z in found.zeros), abs=1e-10)
+
+
+@pytest.mark.parametrize("angle", [0.0, 50.0])
+def test_a_curve_that_jumps_where_it_is_steep_has_its_value_before_the_jump(angle: float) -> None:
+    arm, rod, swing = 0.075, 0.2, math.radians(24)
+    text = """
+[frame]
+name = "0"
+points = { A = [0, 0], C = [90, 0] }
+guides = { g = { through = "C", angle = 0 } }
+[links.1]
+points = ["A"]
+[links.2]
+points = ["C", "B"]
+length = 75
+[links.3]
+points = ["B", "D"]
+length = 200
+[links.4]
+points = ["D"]
+on = "0.g"
+[cams.1]
+follower = "2"
+law = [ { to = 100, rise = 24, by = "parabolic" }, { to = 150 }, { to = 360, fall = 24, by = "parabolic" } ]
+base = { r = 35 }
+[sketch]
+B = [30, 40]
+D = [220, 0]
+[driver]
+link = "1"
+angle = ANGLE
+omega = 10
+""".replace("ANGLE", str(angle))
+    curves = study_turn(driver_range(mechanism_of_text(text, "cam"))).curves
+    found = next(c for c in curves if c.quantity.kind == "a" and c.quantity.of == "4/0")
+    # the bar at half of its rise: the law of cosines gives where it stands at the base circle
+    start = math.pi - math.acos((0.09**2 + arm**2 - 0.035**2) / (2 * 0.09 * arm))
+    theta, omega = start - swing / 2, -2 * swing * 10 / RISE
+    sin, cos = math.sin(theta), math.cos(theta)
+    along = math.sqrt(rod**2 - (arm * sin) ** 2)
+    first = -arm * sin - arm**2 * sin * cos / along
+    second = -arm * cos - arm**2 * (cos**2 - sin**2) / along - (arm**2 * sin * cos) ** 2 / along**3
+    before = second * omega**2 - first * 4 * swing * 10**2 / RISE**2
+    at = next(e for e in found.extremes if abs(math.degrees(e.driver) - 50) < 1e-9)
+    assert (before, "max") == (pytest.approx(at.value, rel=1e-12), at.kind)
 
 
 def test_a_parabolic_law_has_the_acceleration_of_its_halves() -> None:
