@@ -4,7 +4,7 @@ overlap, drawn again larger."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import EXACT_NAME, DiagramName, Scales, Sheet
@@ -17,9 +17,9 @@ from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import page
 from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.piece import Piece, cut_to, joined, middle_of, moved_piece, with_labels
+from graphkin.drawing.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels
 from graphkin.drawing.polygon import polygon_piece, step_numbers
-from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, details, side_by_side
+from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
 from graphkin.drawing.polygon_points import END_RADIUS
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.strokes import colour_of_vector
@@ -29,9 +29,10 @@ from graphkin.scene.symbol import PointRef
 
 __all__ = ["INSET", "coriolis_row", "mechanism_detail", "per_row", "polygon_with_insets", "strip_height"]
 
-INSET = (32.0, 26.0)  # mm
+INSET, SMALL_INSET = (32.0, 26.0), (24.0, 21.0)  # mm
+ROUNDING = 1e-6  # mm
 GUTTER = 2.0
-MOST_DETAILS = 3
+MOST_DETAILS, MOST_CROWDS = 3, 3
 
 
 def polygon_with_insets(
@@ -52,26 +53,69 @@ def polygon_with_insets(
     """
     senses, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(senses) + len(small)
-    if strip is not None:
-        boxes = _in_rows(strip, count)
-    elif count:
-        bare = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, panel, origin, ()))
-        boxes = free_boxes(count, INSET, panel, obstacles_of(bare.drawn))
-    else:
-        boxes = []
-    shown, enlarged = senses[: len(boxes)], small[: max(0, len(boxes) - len(senses))]
-    pieces = [_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)]
-    here = PolygonOnPage(sheet, diagram, letters, language, panel, origin, tuple(enlarged))
-    own = polygon_piece(here)
-    for number, (one, box) in enumerate(zip(enlarged, boxes[len(shown) :], strict=False), 1):
-        pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
-        own = _without_feet(own, pieces[-1])
-    figure = with_labels(own, panel, boxes)
+    bare = PolygonOnPage(sheet, diagram, letters, language, panel, origin, ())
+    boxes = _boxes(bare, strip, count, INSET)
+    shown = senses[: len(boxes)]
+    boxes += _boxes(bare, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
+    enlarged = small[: len(boxes) - len(shown)]
+    here = replace(bare, enlarged=tuple(enlarged))
+    figure, pieces, crowd = _with_details(here, boxes[len(shown) :], boxes)
+    crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
+    for size in (INSET, SMALL_INSET) if crowded else ():
+        more = [*boxes, *_boxes(bare, strip, len(crowded), size, boxes)]
+        if len(more) > len(boxes):
+            there = replace(bare, enlarged=(*enlarged, *crowded[: len(more) - len(boxes)]))
+            clearer = _with_details(there, more[len(shown) :], more)
+            if len(clearer[2]) < len(crowd):
+                here, boxes, (figure, pieces, _) = there, more, clearer
+            break
+    pieces = [*(_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
     arrows = [(step, here.drawn(vector)) for step, vector in here.in_order() if step not in keyed]
     numbers = Piece({"labels": step_numbers(arrows, panel, around)})
     return joined((figure, numbers, *pieces)), senses[len(shown) :]
+
+
+def _boxes(
+    bare: PolygonOnPage, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = ()
+) -> list[Box]:
+    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first."""
+    found: list[Box] = []
+    if count < 1:
+        return found
+    if strip is not None:
+        many = per_row(strip.width) * int((strip.height + ROUNDING) // (INSET[1] + GUTTER))
+        found = _in_rows(strip, many)[len(taken) : len(taken) + count]
+    if count > len(found):
+        around = obstacles_of(polygon_piece(bare).drawn) + Obstacles(areas=(*taken, *found))
+        found += free_boxes(count - len(found), size, bare.panel, around)
+    return found
+
+
+def _with_details(
+    here: PolygonOnPage, boxes: Sequence[Box], fences: Sequence[Box]
+) -> tuple[Piece, list[Piece], tuple[Label, ...]]:
+    """A polygon with its names, the insets of what is drawn again larger, each in its box, and the names that stand
+    badly."""
+    own, pieces = polygon_piece(here), []
+    shown: set[str] = set()
+    again: set[str] = set()  # with the letters that stand at other vectors too
+    for number, (one, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
+        pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
+        letters = {text.id for text in pieces[-1].layers["labels"] if isinstance(text, Text)}
+        again |= {id.replace("label-detail-", "label-") for id in letters}
+        shown |= {id.replace("label-detail-", "label-") for id in letters if one.crowd is not None or "-foot-" in id}
+    figure, crowd = with_crowd(_without(own, shown), here.panel, fences)
+    again &= {label.text.id for label in crowd}
+    if again:  # the inset has them
+        figure, crowd = with_crowd(_without(own, shown | again), here.panel, fences)
+    return figure, pieces, crowd
+
+
+def _without(piece: Piece, shown: Collection[str]) -> Piece:
+    """A piece without some labels."""
+    return replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in shown))
 
 
 def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]:
@@ -80,13 +124,6 @@ def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]
     return [
         one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
     ]
-
-
-def _without_feet(piece: Piece, inset: Piece) -> Piece:
-    """A polygon without the letters of those feet between components that have theirs in an inset."""
-    shown = {one.id for one in inset.layers["labels"] if isinstance(one, Text)}
-    feet = {id.replace("label-detail-foot-", "label-foot-") for id in shown if id.startswith("label-detail-foot-")}
-    return replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in feet))
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
@@ -143,13 +180,13 @@ def _detail_inset(
         colour = colour_of_vector(sheet, vector.symbol)
         shift = shifts.get(vector.symbol, 0j).conjugate()
         tail, tip = at(vector.tail) + shift, at(vector.tip) + shift
-        if vector.symbol in own:
-            parts += arrow(tail, tip, kind, colour)
-            text = Text(0j, symbol(letters.arrow(vector.symbol), 2.8), "start", colour,
-                        f"label-detail-{vector.symbol.id}", ("label",))
-            names.append(Label(text, (tail, tip), rank=1))
-            continue
         clipped = inner.clip(tail, tip)
+        if vector.symbol in own and clipped is not None:
+            parts += arrow(clipped[0], tip, kind, colour)
+            text = Text(0j, symbol(letters.arrow(vector.symbol), 2.8), "start", colour,
+                        f"label-detail-{vector.symbol.id}", ("label",), detail.crowd)
+            names.append(Label(text, clipped, rank=1))
+            continue
         if clipped is None or abs(clipped[1] - clipped[0]) < 0.5:
             continue
         if inner.distance(tip) < 1e-9 and abs(clipped[1] - clipped[0]) > 3.0:
@@ -162,12 +199,12 @@ def _detail_inset(
         if inner.distance(spot) == 0.0:
             parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
-            names.append(Label(replace(point.text, id=id), spot, point.toward, rank=1))
+            names.append(Label(replace(point.text, id=id, step=detail.crowd), spot, point.toward, rank=1))
     words = f"{term('detail', here.language).replace('{0}', f'{detail.factor:g}')}"
     id = f"detail-{here.diagram}-{number}"
     runs = fitted(words, 2.6, box.width - 1.6)
-    caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}")
-    group = Group(tuple(parts), id=id, classes=("inset", "detail"))
+    caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}", step=detail.crowd)
+    group = Group(tuple(parts), id=id, classes=("inset", "detail"), step=detail.crowd)
     return Piece({here.diagram: (group,), "labels": (caption,)}, tuple(names)), inner
 
 

@@ -37,7 +37,7 @@ _SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
 # Far from a mark every second angle, and places about the middle of a vector, will do.
 _SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
 # What a leader that runs over a vector is tried with further: places of its foot, ways, distances.
-_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97))
+_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97, 1.0))
 _MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
 LED_RINGS = ((2.4, 3.6, 5.0, 6.8), (9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0))
 """Distances that are tried for such a leader, mm: the further ones where the nearer give it no place."""
@@ -76,6 +76,8 @@ class Label:
         normal is nearest to the first of them is liked
     rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
     key : what may stand in its place in a crowd, the text being listed elsewhere
+    between : the letters of the ends of its vector, by which a list can tell it in a crowd where not even the key has
+        room; in the notation of symbols, empty where the ends have none
     """
 
     text: Text
@@ -83,6 +85,7 @@ class Label:
     toward: tuple[float, ...] = ()
     rank: int = 0
     key: Text | None = None
+    between: str = ""
 
     def request(self, box: Box) -> LabelRequest:
         """What it asks for with a box of this size."""

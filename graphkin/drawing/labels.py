@@ -39,8 +39,10 @@ _LOOKED_AT = 120  # places of a label that is to make room
 _PUSHES, _PUSHED, _DROPPED = 40, 8.0, 60.0
 _MOVED = 2  # labels that make room for another at most
 _DISPENSABLE = 4  # the rank from which labels may be missing
-# What it costs, beside what places cost, that a key stands for a name, and that a label stands nowhere.
-_KEY_COST, _MISSING_COST = 10.0, TANGLED
+# What it costs, beside what places cost, that a key stands for a name, that a list tells a label by its ends, and that
+# it stands nowhere.
+_KEY_COST, _TOLD_COST, _MISSING_COST = 10.0, 70.0, TANGLED
+_TOLD = -1  # in place of a request
 _NOTHING = Obstacles()
 
 
@@ -89,6 +91,8 @@ class Placement:
         self.clear = [True] * len(labels)
         self.keys: dict[int, int] = {}  # the request for the key of a label
         self.keyed: set[int] = set()  # labels for which their keys stand
+        self.telling = False  # whether a list may tell labels by their ends
+        self.told: set[int] = set()  # labels that it tells so
         self.moves = 0  # how often room has been made
         # Labels for which none could be made: after how many moves, with how many keys, and who was in the way.
         self.stuck: dict[int, tuple[int, int, set[int]]] = {}
@@ -117,7 +121,7 @@ class Placement:
         return [
             i for i, label in enumerate(self.labels)
             if (not self.clear[i] or self._badly(i) if i in self.held.standing
-                else label.key is not None and label.rank < _DISPENSABLE)
+                else i not in self.told and label.key is not None and label.rank < _DISPENSABLE)
         ]  # fmt: skip
 
     def _settle(self) -> None:
@@ -243,6 +247,14 @@ class Placement:
             self._ask_for_keys([i for i in having if i not in self.keys])
             for i in crowded:
                 self._make_room(i)
+        self._tell()
+
+    def _tell(self) -> None:
+        """Have labels that stand badly still, or are in the way of such, told by their ends."""
+        self.telling = True
+        self.stuck.clear()
+        for i in sorted(self.crowded, key=lambda i: (bool(self.labels[i].between), -self._cost(i), i)):
+            self._make_room(i)
 
     def _ask_for_keys(self, some: Sequence[int]) -> range:
         """Let keys of some labels want places too; returns their requests."""
@@ -268,7 +280,7 @@ class Placement:
     def _cost(self, i: int) -> float:
         """What it costs that a label stands where it stands, or nowhere."""
         if i not in self.held.standing:
-            return _MISSING_COST
+            return _TOLD_COST if i in self.told else _MISSING_COST
         if not self.clear[i]:
             return FORBIDDEN
         return self.held.standing[i].cost + _KEY_COST * (i in self.keyed)
@@ -284,20 +296,23 @@ class Placement:
         here, best = self.held.standing.get(i), self._cost(i)
         if here is not None:
             self.held.leave(i)
-        chosen: dict[int, tuple[int, LabelPosition]] = {}
+        chosen: dict[int, tuple[int, LabelPosition | None]] = {}
+        if self._tellable(i) and best > _TOLD_COST:
+            chosen, best = {i: (_TOLD, None)}, _TOLD_COST
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
             positions = self._places(form)
             free = self.held.first_known_free(positions, positions.cheaper(best - extra), _SPACE)
             if free is not None:
-                chosen = {i: (form, positions.position(free))}
-                best = chosen[i][1].cost + extra
+                position = positions.position(free)
+                chosen, best = {i: (form, position)}, position.cost + extra
             nearly = self._nearly_free(positions, positions.cheaper(best - extra))
             for position, meeting in islice(nearly, _TRIED):
                 cost = position.cost + extra
                 if cost >= best:
                     break
-                moved, taken = {i: (form, position)}, [position]
+                moved: dict[int, tuple[int, LabelPosition | None]] = {i: (form, position)}
+                taken = [position]
                 for j in meeting.nonzero()[0].tolist():
                     if j not in others:
                         others[j] = self._others(j)
@@ -305,15 +320,14 @@ class Placement:
                     for dear, own, k in others[j]:
                         if dear >= rest:
                             break
-                        its = self.found[own].position(k)
-                        for one in taken:
-                            if its.meets(one, _SPACE):
-                                break
-                        else:
-                            moved[j] = own, its
+                        its = None if own == _TOLD else self.found[own].position(k)
+                        if its is not None:
+                            if any(its.meets(one, _SPACE) for one in taken):
+                                continue
                             taken.append(its)
-                            cost += dear - self._cost(j)
-                            break
+                        moved[j] = own, its
+                        cost += dear - self._cost(j)
+                        break
                     if j not in moved:
                         break
                 else:
@@ -325,10 +339,17 @@ class Placement:
             self.stuck[i] = self.moves, len(self.keys), {i, *others}
             if here is not None:
                 self.held.take(i, here)
-        for label, (form, position) in chosen.items():
-            self.held.take(label, position)
+        for label, (form, place) in chosen.items():
+            if place is not None:
+                self.held.take(label, place)
+            elif label in self.held.standing:
+                self.held.leave(label)
             self.clear[label] = True
-            (self.keyed.discard if form == label else self.keyed.add)(label)
+            for kind, belongs in ((self.told, form == _TOLD), (self.keyed, form not in (label, _TOLD))):
+                (kind.add if belongs else kind.discard)(label)
+
+    def _tellable(self, i: int) -> bool:
+        return self.telling and bool(self.labels[i].between)
 
     def _push(self, i: int) -> None:
         """Put a label where its leader crosses nothing, and whoever stands there elsewhere in the same way; everything
@@ -374,6 +395,8 @@ class Placement:
             free = np.flatnonzero(met.sum(axis=1) == met[:, j])
             costs = (positions.costs[free] + extra).tolist()
             found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
+        if self._tellable(j):
+            found.append((_TOLD_COST, _TOLD, 0))
         return sorted(found)
 
     def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:

@@ -23,7 +23,7 @@ from graphkin.drawing.primitives import (
     walk,
 )
 
-__all__ = ["Obstacles", "free_boxes", "obstacles_of"]
+__all__ = ["CLEAR", "Obstacles", "free_boxes", "obstacles_of"]
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -112,13 +112,16 @@ STEP = 6.0  # mm from one place tried to the next along the edge of the panel
 CLEAR = 2.0  # mm between an inset and what is drawn
 
 
-def free_boxes(count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles) -> list[Box]:
-    """Up to ``count`` boxes of a size (mm) along the edges of a panel that hold nothing, those in corners first."""
+def free_boxes(
+    count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, clear: float = CLEAR
+) -> list[Box]:
+    """Up to ``count`` boxes of a size (mm) along the edges of a panel, ``clear`` (mm) of what is drawn; corners
+    first."""
     found: list[Box] = []
     for box in _places(size, panel):
         if len(found) == count:
             break
-        wide = box.grown(CLEAR)
+        wide = box.grown(clear)
         if any(wide.overlaps(other) for other in (*found, *obstacles.areas)):
             continue
         if any(wide.clip(*segment) for segment in (*obstacles.solid, *obstacles.dashed)):

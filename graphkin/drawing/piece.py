@@ -14,12 +14,13 @@ from itertools import accumulate
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width, text_box
 from graphkin.drawing.labels import Label, Mark, Placed, Placement
-from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Text, walk
+from graphkin.drawing.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
+from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Scan, Text, walk
+from graphkin.drawing.text import rich
 
 __all__ = [
     "LAYERS", "Piece", "cut_to", "ink_box", "joined", "layer_groups", "middle_of", "moved", "moved_piece", "renamed",
-    "with_labels",
+    "with_crowd", "with_labels",
 ]  # fmt: skip
 
 # In the order of drawing.
@@ -59,10 +60,16 @@ def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
 
     No label leaves the panel or enters a fence.
     """
+    return with_crowd(piece, panel, fences)[0]
+
+
+def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
+    """As `with_labels`, with those of the labels that stand badly."""
     labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
     obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences), writing=tuple(fences))
-    written = named(labels, panel, obstacles, piece.marks)
-    return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}, (), piece.marks)
+    written, crowded = named(labels, panel, obstacles, piece.marks)
+    layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
+    return Piece(layers, (), piece.marks), crowded
 
 
 def _most(count: int) -> int:
@@ -173,22 +180,28 @@ BEHIND = 1.0  # mm between a key and the name behind it
 APART = 3.0, 1.0  # mm between columns and between lines of the list
 
 
-def named(labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> tuple[Primitive, ...]:
+def named(
+    labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]
+) -> tuple[tuple[Primitive, ...], tuple[Label, ...]]:
     """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
-    keys."""
+    keys; and those that stand badly nevertheless."""
     placement = Placement(labels, panel, obstacles, marks)
-    placed, crowded = placement.placed, len(placement.crowded)
+    placed, crowded = placement.placed, placement.crowded
     listed: tuple[Text, ...] = ()
     if crowded:
         placement.shorten()
         shorter = placement.placed
         keyed = {one.text.id for one in shorter if one.keyed}
-        entries = [_entry(label.text, label.key) for label in labels if label.key and label.text.id in keyed]
+        told = {labels[i].text.id for i in placement.told}
+        entries = [
+            _entry(label.text, label.key, label.between if label.text.id in told else "")
+            for label in labels if label.key and label.text.id in keyed | told
+        ]  # fmt: skip
         list_of_names = _list(entries, panel, obstacles + _standing(shorter))
-        if len(placement.crowded) < crowded and (list_of_names or not entries):
-            placed, listed = shorter, list_of_names
+        if len(placement.crowded) < len(crowded) and (list_of_names or not entries):
+            placed, listed, crowded = shorter, list_of_names, placement.crowded
     written = (thing for one in placed for thing in (one.leader, one.text) if thing is not None)
-    return *written, *listed
+    return (*written, *listed), tuple(labels[i] for i in crowded)
 
 
 def _standing(placed: Iterable[Placed]) -> Obstacles:
@@ -198,29 +211,51 @@ def _standing(placed: Iterable[Placed]) -> Obstacles:
     return Obstacles(solid=leaders, areas=boxes, writing=boxes)
 
 
-def _entry(name: Text, key: Text) -> Text:
-    """A key with what it stands for; only the name where this begins with the key."""
+def _entry(name: Text, key: Text, between: str) -> Text:
+    """A key with what it stands for, and the letters of its ends where neither stands at its vector; only the name
+    where this begins with the key."""
     runs = name.runs
     if not name.string.startswith(key.string.rstrip("… ")):
-        by = runs_width(key.runs) + BEHIND
-        runs = *key.runs, *(run._replace(x=run.x + by) for run in name.runs)
+        runs = _behind(key.runs, name.runs, BEHIND)
+    if between:
+        runs = _behind(runs, rich(f": ${between}$"), 0.0)
     return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"))
 
 
+def _behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float) -> tuple[Run, ...]:
+    by = runs_width(first) + gap
+    return *first, *(run._replace(x=run.x + by) for run in second)
+
+
 def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text, ...]:
-    """The entries in columns in a free place of the panel; empty where there is none."""
-    boxes = [text_box(entry) for entry in entries]
+    """The entries in columns in a free place of the panel, or one after the other in several where none holds all of
+    them; empty where there is no room."""
     for lines in range(len(entries), 0, -1):
-        columns = [range(k, min(k + lines, len(entries))) for k in range(0, len(entries), lines)]
-        widths = [max(boxes[i].right for i in column) for column in columns]
-        heights = [max(boxes[i].height for i in range(k, len(entries), lines)) for k in range(lines)]
-        lefts = accumulate((width + APART[0] for width in widths[:-1]), initial=0.0)
-        tops = list(accumulate((height + APART[1] for height in heights), initial=0.0))
-        size = sum(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
-        for room in free_boxes(1, size, panel, around):
-            corner = complex(room.left, room.top)
-            return tuple(
-                replace(entries[i], at=corner + complex(left, tops[k] - boxes[i].top))
-                for left, column in zip(lefts, columns, strict=True) for k, i in enumerate(column)
-            )  # fmt: skip
+        found = _in_columns(entries, lines, panel, around, CLEAR)
+        if found:
+            return found
+    for count in range(len(entries) - 1, 0, -1):
+        first = _in_columns(entries[:count], count, panel, around, APART[1])
+        if first:
+            boxes = tuple(text_box(entry) for entry in first)
+            rest = _list(entries[count:], panel, around + Obstacles(areas=boxes))
+            return first + rest if rest else ()
     return ()
+
+
+def _in_columns(
+    entries: Sequence[Text], lines: int, panel: Box, around: Obstacles, clear: float
+) -> tuple[Text, ...]:
+    """Entries in columns of so many lines at most in one free place; empty where there is none."""
+    boxes = [text_box(entry) for entry in entries]
+    columns = [range(k, min(k + lines, len(entries))) for k in range(0, len(entries), lines)]
+    widths = [max(boxes[i].right for i in column) for column in columns]
+    heights = [max(boxes[i].height for i in range(k, len(entries), lines)) for k in range(lines)]
+    lefts = accumulate((width + APART[0] for width in widths[:-1]), initial=0.0)
+    tops = list(accumulate((height + APART[1] for height in heights), initial=0.0))
+    size = sum(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
+    return tuple(
+        replace(entries[i], at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
+        for room in free_boxes(1, size, panel, around, clear)
+        for left, column in zip(lefts, columns, strict=True) for k, i in enumerate(column)
+    )  # fmt: skip

@@ -4,7 +4,7 @@ direction lines, images of links, carried vectors, rings around details."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +21,7 @@ from graphkin.drawing.meeting import Flags, Points, meets
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.polygon_points import points
+from graphkin.drawing.polygon_points import named_points, points
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
@@ -48,7 +48,7 @@ def _construction(here: PolygonOnPage) -> Piece:
 def _rings(here: PolygonOnPage) -> Iterator[Primitive]:
     for number, d in enumerate(here.enlarged, 1):
         ring = Circle(here.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION)
-        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",))
+        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd)
 
 
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
@@ -162,7 +162,8 @@ def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
 
 def _vector_names(here: PolygonOnPage) -> Piece:
     """One name for vectors that share tail and tip; those of zero length are named in words."""
-    named = (_name(here, length, shared) for length, shared in _shared(here))
+    letters = {same_place(point.at): point.letter for point in reversed(named_points(here))}
+    named = (_name(here, length, shared, letters) for length, shared in _shared(here))
     return Piece(labels=tuple(name for name in named if name))
 
 
@@ -178,7 +179,9 @@ def _shared(here: PolygonOnPage) -> Iterator[tuple[float, list[Vector]]]:
             yield abs(shared[0].span), sorted(shared, key=lambda v: here.vectors[v.symbol][0])
 
 
-def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Label | None:
+def _name(
+    here: PolygonOnPage, length: float, vectors: Sequence[Vector], letters: Mapping[complex, str]
+) -> Label | None:
     us = here.letters.convention == "us"
     if length == 0.0:
         vectors = [v for v in vectors if v.role != "resultant" or us or abs(v.tip) < SAME]
@@ -194,7 +197,9 @@ def _name(here: PolygonOnPage, length: float, vectors: Sequence[Vector]) -> Labe
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
     key = step_number(here.vectors[first.symbol][0], text.colour)
-    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key)
+    ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
+    between = "→".join(ends) if all(ends) else ""
+    return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)
 
 
 LEAST = 5.0  # mm: a shorter vector has no room for a number

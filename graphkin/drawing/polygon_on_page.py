@@ -13,6 +13,7 @@ from graphkin.construction.sheet import SERIES, DiagramName, Sheet, Step
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.labels import Label
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import Symbol
@@ -26,6 +27,7 @@ SMALL = 2.0  # mm: shorter vectors are drawn again larger
 TOGETHER = 3.0  # mm: small vectors nearer than this share an inset
 SEEN = 0.5  # mm: a vector shorter than this is no vector in an inset either
 LONGEST = 13.0  # mm of the largest part in the inset
+CROWD = 5.0  # how many times larger a crowd is drawn again at most
 
 
 @dataclass(frozen=True)
@@ -102,12 +104,14 @@ def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box
 
 @dataclass(frozen=True)
 class Detail:
-    """A place of a polygon (mm on paper, y up) with its small vectors, and how much larger they are drawn."""
+    """A place of a polygon (mm on paper, y up) with its small vectors, or those that end there in a crowd, and how much
+    larger they are drawn; of a crowd the step after which it is all there."""
 
     centre: complex
     radius: float
     vectors: tuple[Vector, ...]
     factor: float
+    crowd: int | None = None
 
 
 def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
@@ -115,6 +119,36 @@ def details(sheet: Sheet, diagram: DiagramName) -> list[Detail]:
     small = [v for v in sheet.vectors(diagram).values() if 0.0 < abs(v.span) < SMALL]
     found = [detail for group in _near(small) for detail in _at_their_scales(group)]
     return sorted(found, key=lambda d: (d.factor, -len(d.vectors), d.centre.real, d.centre.imag))
+
+
+def crowds(here: PolygonOnPage, crowded: Iterable[Label]) -> list[Detail]:
+    """The places around points whose letters, and tips of vectors whose names, find no good place at the size of the
+    figure, near ones together; not those that are drawn again larger already."""
+    vectors = {f"label-{symbol.id}": vector for symbol, (_, vector) in here.vectors.items()}
+    groups: list[list[tuple[complex, tuple[Vector, ...]]]] = []
+    for label in crowded:
+        vector = vectors.get(label.text.id)
+        if vector is not None:
+            point = vector.tip
+        elif isinstance(label.mark, complex):
+            point = (label.mark - here.origin).conjugate()
+        else:
+            continue
+        if any(abs(point - known.centre) <= known.radius for known in here.enlarged):
+            continue
+        near = [group for group in groups if any(abs(point - z) < TOGETHER for z, _ in group)]
+        own = point, (vector,) if vector else ()
+        groups = [group for group in groups if group not in near] + [[own, *(one for group in near for one in group)]]
+    return [_crowd(here, group) for group in groups]
+
+
+def _crowd(here: PolygonOnPage, group: Sequence[tuple[complex, tuple[Vector, ...]]]) -> Detail:
+    steps = [step for step, vector in here.vectors.values() if any(abs(vector.tip - z) <= SAME for z, _ in group)]
+    last = max(steps, default=here.steps[-1].number)
+    box = Box.around(z for z, _ in group)
+    size = max(box.width, box.height)
+    vectors = tuple(vector for _, own in group for vector in own)
+    return Detail(box.centre, max(1.2, 0.75 * size), vectors, min(CROWD, _factor(LONGEST / max(size, 1.0))), last)
 
 
 def _near(small: Sequence[Vector]) -> list[list[Vector]]:

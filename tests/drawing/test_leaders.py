@@ -105,6 +105,37 @@ def test_a_name_with_no_room_makes_others_move_before_its_leader_runs_across_two
     assert crossed(scene, figure) <= 1
 
 
+def texts_of(scene: str, figure: str) -> dict[str, str]:
+    root = ET.fromstring(drawn(scene).figures[figure].content("svg"))
+    return {text.get("id"): "".join(text.itertext()) for text in root.iter(f"{SVG}text") if text.get("id")}
+
+
+@pytest.mark.parametrize(("scene", "figure"), [
+    ("disc-on-disc", "acceleration"), ("disc-on-disc", "sheet"), ("disc-on-disc", "contacts-2"),
+    ("loader-cylinder", "sheet"), ("double-butterfly", "sheet"), ("sixbar-rotating-guide-scheme2", "sheet"),
+])  # fmt: skip
+def test_no_leader_runs_across_a_vector_in_a_crowd(scene, figure):
+    assert crossed(scene, figure) == 0
+
+
+def test_a_vector_with_no_room_even_for_its_number_is_told_by_the_letters_of_its_ends():
+    texts = texts_of("disc-on-disc", "contacts-2")
+    assert texts["listed-label-a_O"].replace(" ", "") == "(18)aO:p′→o′"
+    assert "label-a_O" not in texts
+
+
+def test_a_letter_without_a_clear_place_stands_in_an_inset_with_a_ring_about_its_point():
+    root = ET.fromstring(drawn("scissor-lift").figures["velocity"].content("svg"))
+    texts = texts_of("scissor-lift", "velocity")
+    assert "label-velocity-P" not in texts
+    assert texts["label-detail-velocity-P"] == "p3"
+    point = next(group for group in root.iter(f"{SVG}g") if group.get("id") == "velocity-P")
+    ring = next(group for group in root.iter(f"{SVG}g") if group.get("id") == "ring-velocity-1")
+    dot, around = (next(group.iter(f"{SVG}circle")) for group in (point, ring))
+    at, middle = (shapely.Point(float(one.get("cx")), float(one.get("cy"))) for one in (dot, around))
+    assert at.distance(middle) < float(around.get("r"))
+
+
 @pytest.mark.parametrize("scene", ["boom-lifted", "toggle-press-force"])
 def test_letters_of_corners_stand_clear_of_the_forces_of_their_polygon(scene):
     assert crossed(scene, "forces") == 0
