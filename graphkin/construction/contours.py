@@ -57,8 +57,6 @@ def contours(
             rows.append(_row(at, *joint.links, tuple(n.real * x + n.imag * y for x, y in zip(across, up, strict=True))))
         if joint.along is not None or joint.driven:
             rows.append(_row(at, *joint.links, (0.0, 0.0, 1.0)))
-    if not rows:
-        return []
     _, sizes, turned = np.linalg.svd(np.array(rows))
     free = turned[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
     sets: list[list[int]] = []

@@ -1,0 +1,126 @@
+"""A line of a larger group's construction drawn a tenth of a degree off: whichever it is, the check fails."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import pytest
+
+import graphkin
+from graphkin import solver
+from graphkin.checking.readings import read_off
+from graphkin.construction import Plan, Slip, draft, execute, plan, removed_constraint
+from graphkin.construction.group_polygons import GroupPolygons
+from graphkin.construction.links_on_paper import Poses
+from graphkin.construction.mechanism_acts import TrialPositions
+from graphkin.construction.removed_constraint import RemovedConstraint
+from graphkin.construction.strokes import Ray
+from graphkin.scene import mechanism_of
+from graphkin.scene.model import PlacedLink
+from graphkin.scene.symbol import Symbol
+from tests.construction.test_contours import FOUR_BAR, ON_A_GUIDE, TURNED_ALIKE
+from tests.construction.test_groups import (
+    BARE,
+    CONTOUR,
+    SLIDING,
+    UNBARRED,
+    WELDED,
+    driven_inside,
+    parallel_legs,
+)  # fmt: skip
+
+OFF = math.radians(0.1)
+TURNED = cmath.rect(1.0, OFF)
+POLYGONS: dict[str, Any] = {
+    "special point": "triad-slider", "several special points": "single-flier",
+    "special point, cylinder": "loader-cylinder",
+    "special point, driven inside": driven_inside("guide of the plate in a swivelling block"),
+    "special point of two links": CONTOUR, "two links, none with points": SLIDING,
+    "special point at infinity": parallel_legs(False), "special point at infinity, moving": parallel_legs(True),
+    "contour": FOUR_BAR, "contour that cannot turn": ON_A_GUIDE,
+    "contour without bars": BARE, "contour with a driven hinge": WELDED, "special point carried over": TURNED_ALIKE,
+    "special points without bars": UNBARRED,
+    "trial polygons": "contour-four-bars", "trial polygons of an eight-bar": "double-butterfly",
+}  # fmt: skip
+
+
+def wrong(what: Plan, motion: solver.Motion, slip: Slip) -> set[str]:
+    largest: dict[str, float] = {}
+    off: dict[str, float] = {}
+    for reading in read_off(execute(what, slip=slip)):
+        exact, kind = complex(motion.value(reading.symbol)[0]), reading.symbol.kind[0]
+        largest[kind] = max(largest.get(kind, 0.0), abs(exact))
+        off[str(reading.symbol)] = abs(reading.value - exact)
+    return {symbol for symbol, error in off.items() if error > 1e-9 * largest[symbol[0]]}
+
+
+@pytest.mark.parametrize("name", POLYGONS)
+def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong(name: str) -> None:
+    scene = mechanism_of(POLYGONS[name])
+    what, motion, lines = plan(scene), solver.solve(scene), list[Symbol]()
+
+    def noted(symbol: Symbol, along: complex) -> complex:
+        lines.append(symbol)
+        return along
+
+    sheet = execute(what, slip=Slip(line=noted))
+    rays = [s for step in sheet.steps for s in step.strokes if isinstance(s, Ray)]
+    # a line that only leads back to where it begins may lie as it likes
+    still = {ray.symbol for ray in rays if ray.to is not None and abs(ray.to - ray.through) < 1e-9}
+    assert set() == wrong(what, motion, Slip())
+    unseen = {
+        str(one) for one in lines
+        if not wrong(what, motion, Slip(line=lambda symbol, way, one=one: way * TURNED if symbol == one else way))
+    }  # fmt: skip
+    assert unseen <= set(map(str, still))
+    assert len(unseen) < len(lines) / 3
+
+
+@pytest.mark.parametrize("name", ["special point", "contour", "special point at infinity, moving", "trial polygons"])
+def test_check_fails_where_a_line_is_turned_by_a_tenth_of_a_degree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    init = GroupPolygons.__init__
+    first: list[Symbol] = []
+
+    def line(symbol: Symbol, along: complex) -> complex:
+        first.append(symbol)
+        return along * TURNED if symbol == first[0] else along
+
+    monkeypatch.setattr(GroupPolygons, "__init__", lambda self, *args: init(self, *args[:4], Slip(line=line)))
+    assert not graphkin.check(POLYGONS[name]).ok
+
+
+ARCS = ["triad-slider", "single-flier", "double-butterfly", "contour-four-bars", "loader-cylinder"]
+
+
+@pytest.mark.parametrize("name", ARCS)
+def test_check_fails_where_the_arc_that_trial_positions_meet_lies_a_tenth_of_a_degree_off(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    steps = draft(mechanism_of(name)).steps
+    (arc,) = (step.act.table.missed[0] for step in steps if isinstance(step.act, TrialPositions) and step.act.table)
+    assert "bar" == arc.kind
+    place = removed_constraint._place
+
+    def turned(links: Mapping[str, PlacedLink], poses: Poses, mm: float, point: str, link: str) -> complex:
+        return place(links, poses, mm, point, link) * (TURNED if point == arc.names[0] else 1)
+
+    monkeypatch.setattr(removed_constraint, "_place", turned)
+    assert not graphkin.check(name).ok
+
+
+@pytest.mark.parametrize("scene", [BARE, SLIDING], ids=["guides missed", "an angle missed"])
+def test_check_fails_where_the_guide_that_trial_positions_meet_is_turned_by_a_tenth_of_a_degree(
+    scene: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rail, gap = RemovedConstraint._rail, RemovedConstraint.gap
+
+    def turned(self: RemovedConstraint, poses: Poses, mm: float) -> tuple[complex, complex, complex]:
+        start, along, origin = rail(self, poses, mm)
+        return start, along * TURNED, origin
+
+    monkeypatch.setattr(RemovedConstraint, "_rail", turned)
+    monkeypatch.setattr(RemovedConstraint, "gap", lambda self, *args: gap(self, *args) + OFF * self.is_angle)
+    assert not graphkin.check(scene).ok
