@@ -23,6 +23,8 @@ from graphkin.drawing.dimensions import (
     angle_dimension,
     dimension,
 )
+from graphkin.drawing.given_shapes import along_its_guide, off_its_guide
+from graphkin.drawing.guide_dimensions import guide_dimensions
 from graphkin.drawing.headings import number
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
@@ -67,7 +69,7 @@ def drawn_lengths(
     parts: list[Primitive] = []
     labels: list[Label] = []
     reach = ink_box(drawn)
-    for taken in chain(_frame(sheet, room), _bars(sheet, room), _angles(sheet, room)):
+    for taken in chain(_frame(sheet, room), _bars(sheet, room), _angles(sheet, room), guide_dimensions(sheet, room)):
         if isinstance(taken, Label):
             labels.append(taken)
             continue
@@ -82,10 +84,14 @@ def drawn_lengths(
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    for link in (sheet.scene.instead_of or sheet.scene).links:
+    scene = sheet.scene.instead_of or sheet.scene
+    for link in scene.links:
         if link.redundant:
             continue
         spans, corners = _spans(link, sheet.scene.units.metres)
+        if len(link.bar) < 2 and along_its_guide(scene, link):
+            beside = off_its_guide(scene, link)  # dimensioned along their guide
+            spans = [span for span in spans if span[1] not in beside]
         for corner in corners:
             parts = _corner(link, places, room, *corner)
             if parts is not None:

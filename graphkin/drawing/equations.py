@@ -15,7 +15,7 @@ from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.sums import bound, factors_of, substituted
+from graphkin.drawing.sums import bound, carried_by, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.words.written import MOST, product
 
@@ -188,7 +188,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
         factors = factors_of(sheet, only.size)
         if factors:
             parts.append(bound(substituted(only.size, factors)))
-            said = written(product(*factors, carried=MOST))
+            said = written(product(*factors, carried=carried_by(sheet, only.size)))
     unit = sheet.scene.units.rates.length + ("/s" if equation.diagram == "velocity" else "/s²")
     laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
     # what is given is not what a hand has made of it

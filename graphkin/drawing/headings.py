@@ -25,7 +25,7 @@ from graphkin.words.written import amount, in_markup, on_paper, product, true_mi
 
 __all__ = [
     "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "once", "punctuation",
-    "remarks", "spoken_ref", "spoken_vector", "term", "titles", "written",
+    "remarks", "slide_index", "spoken_ref", "spoken_vector", "term", "titles", "written",
 ]  # fmt: skip
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
@@ -142,7 +142,7 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
             if second:
                 parts.append(f"$α_{{{index}}}$ = {number(second)} rad/s²")
         else:
-            index = _slide_index(sheet, driver.key)
+            index = slide_index(sheet, driver.key)
             v, a = ("V", "A") if letters.convention == "us" else ("v", "a")
             parts.append(f"$s_{{{index}}}$ = {number(value / unit.metres)} {unit.length}")
             parts.append(f"${v}_{{{index}}}$ = {number(rate / rates.metres)} {rates.length}/s")
@@ -171,10 +171,11 @@ def _stands(sheet: Sheet, driver: AnyDriver, value: float) -> str:
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
         return f"$φ_{{{index}}}$ = {number(math.degrees(value))}°"
     unit = sheet.scene.units
-    return f"$s_{{{_slide_index(sheet, driver.key)}}}$ = {number(value / unit.metres)} {unit.length}"
+    return f"$s_{{{slide_index(sheet, driver.key)}}}$ = {number(value / unit.metres)} {unit.length}"
 
 
-def _slide_index(sheet: Sheet, key: str) -> str:
+def slide_index(sheet: Sheet, key: str) -> str:
+    """The index of a sliding pair's travel: the sliding link, and what it slides on unless that is the frame."""
     sliding, guiding = key.split("/")
     return sliding if guiding == sheet.scene.frame.name else sliding + guiding
 

@@ -6,7 +6,6 @@ same; its figures are those that the drawing carries.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -14,7 +13,6 @@ from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import (
     ByRate,
-    LaidOff,
     MeasuredRate,
     PlanDrawn,
     RateSeen,
@@ -25,13 +23,11 @@ from graphkin.construction.polygon_acts import (
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
+from graphkin.drawing.measured_lengths import arm_written, is_given, scale_of, unit_of
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.scene.tables import Units
 from graphkin.words.written import (
     FINER,
-    LEAST,
     MOST,
     amount,
     difference,
@@ -44,68 +40,38 @@ from graphkin.words.written import (
 )
 
 __all__ = [
-    "Division", "RatePart", "bound", "divisions", "factors_of", "laid_sum", "lengths_measured", "parts_by_rates",
-    "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of", "unit_of",
+    "Division", "RatePart", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "parts_by_rates", "plan_sum",
+    "rate_sum", "rule_sum", "substituted", "trials_of",
 ]  # fmt: skip
 
 SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
-_TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
-
-
-def unit_of(sheet: Sheet, diagram: DiagramName) -> str:
-    """The unit of what a diagram shows."""
-    return _units(sheet, diagram).length + _TAILS[diagram]
-
-
-def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
-    """Scene units for one mm of paper."""
-    return sheet.scales.of(diagram) / _units(sheet, diagram).metres
-
-
-def _units(sheet: Sheet, diagram: DiagramName) -> Units:
-    return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
-
-
-def _arm(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
-    """A length in the unit of rates, with which it is multiplied or by which they are divided: given where one link has
-    both ends, whatever a hand has made of it, else what so many mm on paper are."""
-    held = (link.points for link in sheet.structure.links.values())
-    given = (abs(p[bar[0]] - p[bar[1]]) for p in held if bar[0] in p and bar[1] in p and p[bar[0]] != p[bar[1]])
-    long = next(given, None)
-    if long is None and sheet.instrument != EXACT.name and abs(mm) >= LEAST:
-        return product(on_paper(mm), amount(sheet.scales.length / sheet.scene.units.rates.metres, 12))
-    return amount((mm * sheet.scales.length if long is None else long) / sheet.scene.units.rates.metres, most)
-
-
-def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
-    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and, where exact hands have drawn it, what
-    it is beyond the hundredth of a millimetre in brackets."""
-    unit, per = unit_of(sheet, diagram), scale_of(sheet, diagram)
-    length = on_paper(mm)
-    value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
-    more = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
-    shown = unit if diagram == "mechanism" else f"({unit})"
-    return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
-
-
 def rate_sum(sheet: Sheet, act: MeasuredRate | RateSeen, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
     divide."""
     omega = act.rate == "omega"
-    diagram: DiagramName = "velocity" if omega else "acceleration"
+    divided = _divided(sheet, act)
+    if divided is None:
+        return ""
+    size, arm, value = (written(one) for one in divided)
+    unit = unit_of(sheet, "velocity" if omega else "acceleration")
+    of, over = (f" {unit}", f" {sheet.scene.units.rates.length}") if units else ("", "")
+    return f"{size}{of} / {arm}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+
+
+def _divided(sheet: Sheet, act: MeasuredRate | RateSeen) -> tuple[str, str, str] | None:
+    """The numbers of a measured rate as they are written: size, length and quotient; None where there are none."""
+    diagram: DiagramName = "velocity" if act.rate == "omega" else "acceleration"
     mm, arm_mm, rate = _measured_rate(sheet, diagram, act)
     if mm == 0.0 or not arm_mm:
-        return ""
+        return None
     carried = figures(on_paper(mm))
     shown = amount(abs(rate), min(MOST - 1, carried))
     tried = [
-        (_carried(sheet, diagram, mm, carried, most), _arm(sheet, act.bar, arm_mm, most))
+        (_carried(sheet, diagram, mm, carried, most), arm_written(sheet, act.bar, arm_mm, most))
         for most in FINER
     ]  # fmt: skip
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
-    of, over = (f" {unit_of(sheet, diagram)}", f" {sheet.scene.units.rates.length}") if units else ("", "")
-    value = written(quotient(size, arm, min(MOST - 1, carried)))
-    return f"{written(size)}{of} / {written(arm)}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
+    return size, arm, quotient(size, arm, min(MOST - 1, carried))
 
 
 def _measured_rate(
@@ -178,7 +144,8 @@ def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: 
 
 
 def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, ...]:
-    """The numbers whose product a size is, as they are written to so many figures; none where no such rule is known."""
+    """The numbers whose product a size is, as they are written to so many figures, those that a hand has measured as
+    they stand on the sheet; none where no such rule is known."""
     if isinstance(rule, RollingCurves):
         rates = [sheet.omega[name].value for name in rule.turning]
         turning = amount(abs(rates[0] - sum(rates[1:])), most)
@@ -189,8 +156,33 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
     factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
     if factor is None:
         return ()
-    rate = amount(abs(_turning(sheet, rule)), most)
+    rate = (_rate_read(sheet, rule) if most == MOST else "") or amount(abs(_turning(sheet, rule)), most)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
+
+
+def carried_by(sheet: Sheet, rule: Size | None) -> int:
+    """How many figures a product carries: as many as the poorest of what a hand has measured for it."""
+    if sheet.instrument == EXACT.name or not isinstance(rule, RateTimes):
+        return MOST
+    read = [_rate_read(sheet, rule)]
+    if isinstance(rule.factor, Symbol):
+        read.append(on_paper(_span(sheet, rule.factor) or 0.0))
+    elif not is_given(sheet, rule.factor):
+        one, other = (sheet.points[PointRef(name)] for name in rule.factor)
+        read.append(on_paper(abs(one - other)))
+    return min((figures(one) for one in read if one and one != "0"), default=MOST)
+
+
+def _rate_read(sheet: Sheet, rule: RateTimes) -> str:
+    """The rate of one link as a hand has measured it, the quotient that stands on the sheet; "" for any other."""
+    if sheet.instrument == EXACT.name or len(rule.links) > 1:
+        return ""
+    rate = (sheet.omega if rule.rate == "omega" else sheet.alpha)[rule.links[0]]
+    link = rate.same_as or rate.link
+    acts = (s.act for s in sheet.steps if isinstance(s.act, MeasuredRate))
+    own = next((act for act in acts if (act.rate, act.link) == (rule.rate, link)), None)
+    divided = None if own is None or abs(own.value) != abs(rate.value) else _divided(sheet, own)
+    return "" if divided is None else divided[2]
 
 
 def _turning(sheet: Sheet, rule: RateTimes) -> float:
@@ -214,56 +206,39 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
     factors = factors_of(sheet, rule)
     if not factors:
         return ""
-    value = written(product(*factors, carried=MOST))
+    value = written(product(*factors, carried=carried_by(sheet, rule)))
     return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram)}"
-
-
-def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[str]:
-    """Each length that enters an equation and is not given, in the order of use, with its millimetres:
-    ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
-    bars: dict[frozenset[str], tuple[str, str]] = {}
-    for step in sheet.steps:
-        act, bar = step.act, None
-        if isinstance(act, MeasuredRate | RateSeen):
-            bar = act.bar
-        elif isinstance(act, LaidOff) and isinstance(act.size, RateTimes) and not isinstance(act.size.factor, Symbol):
-            bar = act.size.factor
-        if bar is not None and not _is_given(sheet, bar):
-            bars.setdefault(frozenset(bar), bar)
-    for one, other in bars.values():
-        mm = abs(sheet.points[PointRef(one)] - sheet.points[PointRef(other)])
-        yield f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
-
-
-def _is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
-    """Whether one link holds both ends, or a place of one of them is not on the drawing."""
-    if any(PointRef(name) not in sheet.points for name in bar):
-        return True
-    bodies = (sheet.scene.frame, *sheet.scene.links)
-    return any(set(bar) <= set(body.points) for body in bodies)
 
 
 def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
     ends = [sheet.points.get(PointRef(name)) for name in bar]
     if ends[0] is None or ends[1] is None:
         return None
-    return _arm(sheet, bar, abs(ends[0] - ends[1]), most)
+    return arm_written(sheet, bar, abs(ends[0] - ends[1]), most)
 
 
 def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
+    span = _span(sheet, symbol)
+    if span is not None and most == MOST and sheet.instrument != EXACT.name:
+        return product(on_paper(span), amount(scale_of(sheet, "velocity"), 12))
+    return None if span is None else amount(span * scale_of(sheet, "velocity"), most)
+
+
+def _span(sheet: Sheet, symbol: Symbol) -> float | None:
+    """The length of a drawn velocity (mm)."""
     drawn: Vector | Aid | None = sheet.vectors("velocity").get(symbol)
     if drawn is None:
         drawn = next((one for one in vectors_seen(sheet, "velocity") if one.symbol == symbol), None)
-    return None if drawn is None else amount(abs(drawn.span) * scale_of(sheet, "velocity"), most)
+    return None if drawn is None else abs(drawn.span)
 
 
 def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:
     """``0.7396² × 383.14 = 209.58 mm/s²`` (without a rule the value alone), and what ``÷ 10 (mm/s²)/mm = 20.96 mm``
     says of it, for a vector of a length on paper: with as many figures as both want to be true as they are written."""
     per, unit = scale_of(sheet, diagram), unit_of(sheet, diagram)
-    length, scale = on_paper(mm), amount(per, 12)
+    length, scale, least = on_paper(mm), amount(per, 12), carried_by(sheet, rule)
     tried = [
-        (factors, product(*factors, carried=most) if factors else amount(mm * per, most))
+        (factors, product(*factors, carried=least + most - MOST) if factors else amount(mm * per, most))
         for most in FINER for factors in (factors_of(sheet, rule, most),)
     ]  # fmt: skip
     factors, value = next((t for t in tried if is_quotient(length, t[1], scale)), tried[0])

@@ -13,6 +13,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.given_shapes import along_its_guide, given_shapes, off_its_guide
 from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
@@ -174,6 +175,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     items += rolling_starts(sheet)
     items += given_teeth(scene, language)
     items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
+    items += given_shapes(scene, letters, language)
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
     for guide in scene.frame.guides.values():
         if guide.name:
@@ -244,7 +246,8 @@ def given_teeth(scene: Mechanism, language: str) -> list[str]:
 
 def _further(link: PlacedLink, scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
     """Distances of the further points of a link from its own."""
-    more = [p for p in link.points if p not in link.bar]
+    told = off_its_guide(scene, link) if len(link.bar) < 2 and along_its_guide(scene, link) else []
+    more = [p for p in link.points if p not in (*link.bar, *told)]
     return [
         (letters.length((own, p)), abs(link.points[p] - link.points[own]) / scene.units.metres)
         for p in more

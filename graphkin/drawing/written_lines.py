@@ -19,11 +19,11 @@ from graphkin.construction.sheet import Equation, Rate, Sheet, Step
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import WrittenLine, rule_alone
 from graphkin.drawing.headings import number, term, written
+from graphkin.drawing.measured_lengths import lengths_measured
 from graphkin.drawing.sums import (
     bound,
     divisions,
     factors_of,
-    lengths_measured,
     parts_by_rates,
     plan_sum,
     rate_sum,

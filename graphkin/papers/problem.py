@@ -11,6 +11,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.given_loads import given_loads
+from graphkin.drawing.given_shapes import given_shapes
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.papers.blocks import (
@@ -232,6 +233,10 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
                 for each in languages(lesson.language)
             )
         )
+    shapes = {each: given_shapes(scene, letters, each) for each in languages(lesson.language)}
+    if any(shapes.values()):
+        told = ((each, labelled("links given", "; ".join(said), each)) for each, said in shapes.items())
+        yield Paragraph(tuple(told))
     moving = [*drivers(lesson.sheet, letters).split(",  "), *_speeds(scene)]
     yield Paragraph(_labelled(lesson, "driver", moving, "list comma"))
     for sense in _senses(scene):

@@ -17,7 +17,8 @@ from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, 
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.sums import laid_sum, parts_by_rates, plan_sum, rate_sum, scale_of, times_scale, unit_of
+from graphkin.drawing.measured_lengths import scale_of, times_scale, unit_of
+from graphkin.drawing.sums import laid_sum, parts_by_rates, plan_sum, rate_sum
 from graphkin.drawing.written_lines import by_rates
 from graphkin.papers.blocks import whole_sentence
 from graphkin.papers.lettered_steps import LetteredSteps, Markup

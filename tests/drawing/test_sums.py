@@ -15,11 +15,12 @@ from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, SeenByRate, Superposed
 from graphkin.construction.sizes import RateTimes
 from graphkin.construction.strokes import Aid
+from graphkin.drawing import sheet_room
 from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.measured_lengths import lengths_measured
 from graphkin.drawing.sums import (
     divisions,
     factors_of,
-    lengths_measured,
     parts_by_rates,
     plan_sum,
     rate_sum,
@@ -177,3 +178,31 @@ def test_sizes_relative_to_a_held_link_stand_in_numbers():
             "37.9 × 27.861 = 1055.9 mm/s²,  ⊥DB"] == [line.split(" = ", 2)[2] for line in by_rates]  # fmt: skip
     assert "$a^{n(4)}_{D5C}$ = 3.33² × 80.645 = 894.26 mm/s²" in told
     assert "$a^{k(4)}_{B3B5}$ = 2 × 3.33 × 128.65 = 856.81 mm/s²" in told
+
+
+def test_lengths_from_a_special_point_are_measured_before_they_are_used():
+    named = [line.split(" = ")[0] for line in lengths_measured(*drawn("single-flier"))]
+    assert ["$l_{SH}$", "$l_{KS}$", "$l_{JS}$"] == named
+
+
+def test_what_a_cylinder_is_pushed_to_is_given_and_not_measured():
+    assert ["$l_{CB}$ = $s_{23}$ = 520 mm"] == [*lengths_measured(*drawn("hydraulic-cylinder"))]
+
+
+@pytest.mark.parametrize("name", ["whitworth", "four-bar-coupler-point", "shaper-scheme-2"])
+def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(name):
+    sheet = draft(mechanism_of(name), instrument=pencil(Tools(), 3))
+    acts = [step.act for step in sheet.steps]
+    said = {act.link: rate_sum(sheet, act).rsplit(" = ", 1)[-1].split()[0] for act in acts
+            if isinstance(act, MeasuredRate) and act.rate == "omega"}  # fmt: skip
+    sizes = [act.size for act in acts if isinstance(act, LaidOff) and isinstance(act.size, RateTimes)]
+    used = [(said[sheet.omega[size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
+            for size in sizes if size.rate == "omega" and sheet.omega[size.links[0]].vector]  # fmt: skip
+    assert used
+    assert [] == [(one, other) for one, other in used if one != other]
+
+
+def test_with_a_pencil_a_product_carries_the_figures_of_what_was_measured():
+    sheet = draft(mechanism_of("whitworth"), instrument=pencil(Tools(), 0), room=sheet_room(mechanism_of("whitworth")))
+    sizes = {str(a.symbol): a.size for a in (s.act for s in sheet.steps) if isinstance(a, LaidOff)}
+    assert "4.538² × 156.6 = 3225 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")

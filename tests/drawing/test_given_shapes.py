@@ -1,0 +1,104 @@
+"""What a sheet says of guides that links carry and of how links sit on their guides: given data and dimensions."""
+
+import pytest
+
+from graphkin import draw, handout
+from graphkin.construction import draft
+from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.given_shapes import given_shapes
+from graphkin.drawing.primitives import Text, walk
+from graphkin.scene import mechanism_of
+
+OLDHAM = {
+    "frame": {"name": "4", "points": {"A": [0, 0], "B": [30, 0]}},
+    "links": {
+        "1": {"points": ["A"]},
+        "2": {"points": ["M"], "on": ["1", "3"], "angle_on": [0, -60]},
+        "3": {"points": ["B"]},
+    },
+    "driver": {"link": "1", "angle": 70, "omega": 12},
+    "sketch": {"M": [10, 30]},
+}
+YOKE = {
+    "units": {"length": "in"},
+    "frame": {"name": "4", "points": {"A": [0, 0]}, "guides": {"x": {"through": [0, -1], "angle": 10}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 2.5},
+        "2": {"points": ["B"], "on": "3.s"},
+        "3": {"points": ["C"], "on": "4.x", "guides": {"s": {"through": [-6, 0.5], "angle": 70}}},
+    },
+    "driver": {"link": "1", "angle": 40, "rpm": 90},
+}
+CARRIAGE = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"h": {"through": [0, -60], "angle": 15}}},
+    "links": {
+        "1": {"points": ["P"], "on": "0.h", "at": {"Q": [70, 30]}},
+        "2": {"points": ["A", "B"], "length": 80},
+        "3": {"points": ["B", "Q"], "length": 90},
+    },
+    "driver": {"slide": "1", "travel": 20, "velocity": 50, "acceleration": -100},
+    "sketch": {"B": [-20, 70]},
+}
+ARM = {  # a guide bar with an arm beside its axis
+    "frame": {"points": {"A": [0, 80], "C": [0, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 30},
+        "2": {"points": ["B"], "on": "3"},
+        "3": {"points": ["C"], "at": {"D": {"from": "C", "r": 60, "angle": -130}}},
+    },
+    "driver": {"link": "1", "angle": 20, "omega": 5},
+}
+
+
+def given(scene, language="en"):
+    sheet = draft(mechanism_of(scene))
+    return given_shapes(sheet.scene, letters_of(sheet, "chinese"), language)
+
+
+@pytest.mark.parametrize(
+    ("told", "scene"),
+    [
+        (["guide 3 at 60° to guide 1"], OLDHAM),
+        (["guide $s$ on 3: (−6, 0.5) in from $C$ along $x$, 70° to it"], YOKE),
+        (["$Q$ (70, 30) mm from $P$ along $h$"], CARRIAGE),
+        (["$CD$ at −130° to the axis of 3"], ARM),
+        (["guide $s$ on 3: (−140, 0) mm from $C$ along $x$, 90° to it"], "scotch-yoke"),
+        (["the axis of 3 at 90° to $y$"], "sine-mechanism"),
+        ([], "whitworth"),
+    ],
+)
+def test_the_given_data_say_how_links_are_shaped_beyond_their_lengths(told, scene):
+    assert told == given(scene)
+
+
+def test_they_say_it_in_chinese():
+    assert ["构件 3 的导路 $s$：沿 $x$ 距 $C$ (−6, 0.5) in，与其成 70°"] == given(YOKE, "zh")
+
+
+def test_the_problem_sheet_says_it_in_both_languages():
+    text = handout(YOKE, language="both").files["problem.html"].decode()
+    assert "构件 3 的导路" in text
+    assert "in from" in text
+
+
+@pytest.mark.parametrize(
+    ("wanted", "scene"),
+    [
+        ({"60°", "30", "70°"}, OLDHAM),
+        ({"10°", "1"}, YOKE),
+        ({"15°", "60", "70", "30", "s1=20"}, CARRIAGE),
+        ({"140", "90°"}, "scotch-yoke"),
+        ({"90°"}, "sine-mechanism"),
+        ({"s1=120"}, "elliptic-trammel"),
+        ({"s23=520"}, "hydraulic-cylinder"),
+    ],
+)
+def test_slanted_guides_places_on_links_and_driven_travels_are_dimensioned(wanted, scene):
+    figure = draw(scene, figures=("mechanism",)).figures["mechanism"]
+    shown = {thing.string.replace(" ", "") for thing in walk(figure.children) if isinstance(thing, Text)}
+    assert set() == wanted - shown
+
+
+def test_a_point_beside_its_guide_is_dimensioned_along_it_and_not_by_its_distance():
+    figure = draw(CARRIAGE, figures=("mechanism",)).figures["mechanism"]
+    assert "76.158" not in {thing.string for thing in walk(figure.children) if isinstance(thing, Text)}
