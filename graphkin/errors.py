@@ -6,7 +6,7 @@ Text for the terminal, the notebook and the tests is made here and nowhere else.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,10 +36,15 @@ class Problem:
     wanted: str = ""
 
     def __str__(self) -> str:
-        text = printable(f"{_shortened(self.where)}: {_shortened(self.found)}")
+        return self.text()
+
+    def text(self, said: Callable[[str], str] = str, colon: str = ": ", semicolon: str = "; ") -> str:
+        """The problem in a sentence; ``said`` puts each part of it into another language."""
+        where, found = said(self.where), said(self.found)
+        text = printable(f"{_shortened(where)}{colon}{_shortened(found)}")
         # what would be right may be several lines, to be pasted
-        wanted = "\n".join(map(printable, _shortened(self.wanted).split("\n")))
-        return f"{text}; {wanted}" if wanted else text
+        wanted = "\n".join(printable(said(line)) for line in _shortened(self.wanted).split("\n"))
+        return f"{text}{semicolon}{wanted}" if wanted else text
 
 
 def _shortened(text: str) -> str:

@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path
 
 from graphkin.api.arguments import SceneLike, as_scene, known_words, own_unit, write_files
-from graphkin.api.report_text import show
+from graphkin.api.report_text import plain_said
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
@@ -22,7 +22,7 @@ from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, mobility_of
 from graphkin.table import Table
-from graphkin.words import Phrase, class_of, say, word
+from graphkin.words import Phrase, class_of, word
 
 __all__ = ["Explained", "explain"]
 
@@ -54,14 +54,14 @@ class Explained(Result, OfScene):
         for about, phrase in self.sentences:
             if about != before:
                 lines += ["", word(about, self.language)]
-            lines.append(f"  {say(phrase, self.language, show)}")
+            lines.append(f"  {plain_said(phrase, self.language)}")
             before = about
         return "\n".join(lines)
 
     @cached_property
     def table(self) -> Table:
         """A row for each sentence, with what it is about."""
-        rows = [(word(about, self.language), say(phrase, self.language, show)) for about, phrase in self.sentences]
+        rows = [(word(about, self.language), plain_said(phrase, self.language)) for about, phrase in self.sentences]
         return Table.of(("about", "sentence"), rows)
 
     @cached_property
@@ -69,7 +69,7 @@ class Explained(Result, OfScene):
         """The sentences by what they are about, in English."""
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:
-            found.setdefault(about.removeprefix("explained "), []).append(say(phrase, "en", show))
+            found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
         return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": self.why} if self.why else {})}
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:

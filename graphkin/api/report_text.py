@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import own_unit, passed_words
@@ -15,6 +15,7 @@ from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.report import deviation, exact, measured, paper
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
+from graphkin.construction.sizes import plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
@@ -24,27 +25,27 @@ if TYPE_CHECKING:
     from graphkin.study.extremes import Extreme
     from graphkin.study.turn import Output, TurnStudy
 
-__all__ = ["contact_lines", "lever_lines", "reading_words", "report_text", "show", "turn_text"]
+__all__ = ["contact_lines", "lever_lines", "plain_said", "reading_words", "report_text", "turn_text"]
 
 
-def show(argument: object) -> str:
-    """An argument of a phrase in plain text."""
-    return str(argument).replace("{", "").replace("}", "")
+def plain_said(phrase: Phrase, language: str) -> str:
+    """A sentence in plain text, symbols without marks of markup: ω_32 = v_B/A / AB."""
+    return say(phrase, language, plain_in(language)).replace("{", "").replace("}", "")
 
 
 def report_text(checked: Checked, language: str) -> str:
     """The whole report."""
     sheet, scene = checked.sheet, checked.mechanism
     title, colon = scene.title_in(language), word("colon", language)
-    lines = [title, "=" * sum(2 if ord(c) > 0x2E7F else 1 for c in title), ""]
-    if scene.source:
-        lines.append(f"{word('source', language)}{colon}{scene.source}")
+    lines = [title, "=" * _width(title), ""]
+    if scene.source_in(language):
+        lines.append(f"{word('source', language)}{colon}{scene.source_in(language)}")
     count = sheet.structure.mobility
     lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
     drivers = [f"{d.key}: {own_unit(scene, d, sheet.drivers[d.key])}" for d in scene.drivers]
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
-        lines.append(f"{word('group', language)} {links}{colon}{say(phrase, language, show)}")
+        lines.append(f"{word('group', language)} {links}{colon}{plain_said(phrase, language)}")
     lines += [say(said, language) for said in passed_words(scene, checked.passed)]
     unit, scales = scene.units.rates.length, checked.scales
     lines += [
@@ -53,7 +54,7 @@ def report_text(checked: Checked, language: str) -> str:
         "",
         *_held_still(sheet, language),
         word("steps", language),
-        *(f"{s.number:3}  {say(s.phrase, language, show)}" for s in sheet.steps),
+        *(f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.steps),
         "",
         word("equations", language),
     ]
@@ -69,8 +70,8 @@ def report_text(checked: Checked, language: str) -> str:
     lines += ["", *lever_lines(checked, language), *contact_lines(checked, language)]
     if checked.at_contacts is not None:
         steps = (s for s in checked.at_contacts.sheet.steps if s.diagram in ("velocity", "acceleration"))
-        lines += ["", *(f"{s.number:3}  {say(s.phrase, language, show)}" for s in steps), ""]
-    lines += [say(note, language, show) for note in (*sheet.left_out, *sheet.notes)]
+        lines += ["", *(f"{s.number:3}  {plain_said(s.phrase, language)}" for s in steps), ""]
+    lines += [plain_said(note, language) for note in (*sheet.left_out, *sheet.notes)]
     lines.append(verdict(checked, language))
     return "\n".join(lines) + "\n"
 
@@ -121,7 +122,7 @@ def _held_still(sheet: Sheet, language: str) -> list[str]:
     """What was drawn apart, with one link for a frame."""
     if not sheet.held_still:
         return []
-    steps = [f"{s.number:3}  {say(s.phrase, language, show)}" for s in sheet.held_still]
+    steps = [f"{s.number:3}  {plain_said(s.phrase, language)}" for s in sheet.held_still]
     return [word("held still", language), *steps, ""]
 
 
@@ -174,29 +175,33 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
 def _rows(equation: Equation, language: str) -> list[str]:
     """An equation over its rows of sizes and directions, in columns."""
     columns: list[tuple[str, str, str]] = []
+    plain = plain_in(language)
     for i, side in enumerate(equation.sides):
         if i:
             columns.append(("=", "", ""))
         for j, term in enumerate(side):
             if j:
                 columns.append(("+", "", ""))
-            columns.append((str(term.symbol), _size(term), _direction(term)))
-    widths = [max(len(cell) for cell in column) for column in columns]
+            columns.append((plain(term.symbol), _size(term, plain), _direction(term, plain)))
+    widths = [max(map(_width, column)) for column in columns]
     heads = ("", word("size", language), word("direction of", language))
-    return [
-        f"{head:<11}" + "  ".join(f"{c[i]:<{w}}" for c, w in zip(columns, widths, strict=True)).rstrip()
-        for i, head in enumerate(heads)
-    ]
+    rows = ([c[i] + " " * (w - _width(c[i])) for c, w in zip(columns, widths, strict=True)] for i in range(len(heads)))
+    return [f"{head:<11}" + "  ".join(row).rstrip() for head, row in zip(heads, rows, strict=True)]
 
 
-def _size(term: Term) -> str:
-    return (show(term.size) if term.size else "√") if term.size_known else "?"
+def _width(text: str) -> int:
+    """In columns of a terminal, of which a Chinese sign takes two."""
+    return sum(2 if ord(c) > 0x2E7F else 1 for c in text)
 
 
-def _direction(term: Term) -> str:
+def _size(term: Term, plain: Callable[[object], str]) -> str:
+    return (plain(term.size) if term.size else "√") if term.size_known else "?"
+
+
+def _direction(term: Term, plain: Callable[[object], str]) -> str:
     if not term.direction_known:
         return "?"
-    return (show(term.direction) if term.direction else "") or "√"
+    return (plain(term.direction) if term.direction else "") or "√"
 
 
 MOST_CURVES = 40

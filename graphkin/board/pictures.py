@@ -14,7 +14,7 @@ from graphkin import solver
 from graphkin.api.arguments import driver_values, known_words, own_unit, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
-from graphkin.api.report_text import reading_words, show
+from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.moving import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
@@ -32,7 +32,7 @@ from graphkin.solver import Motion
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.reach import driver_range
 from graphkin.structure import Structure, mobility_of
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages
 from graphkin.words.written import in_markup
 
 __all__ = [
@@ -118,10 +118,10 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
     found, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
     numbers = (str(found.links), str(found.lower), str(found.higher), str(found.value))
     if not count:
-        return say(Phrase("page freedom", numbers), language, show)
+        return plain_said(Phrase("page freedom", numbers), language)
     if found.value == count:
-        return say(Phrase("explained count", numbers), language, show)
-    return say(Phrase("explained miscount", (*numbers, str(count))), language, show)
+        return plain_said(Phrase("explained count", numbers), language)
+    return plain_said(Phrase("explained miscount", (*numbers, str(count))), language)
 
 
 class Reach(NamedTuple):

@@ -86,7 +86,7 @@ def print_check(checked: Checked, language: str, as_json: bool, quiet: bool) -> 
 
 def _print_readings(checked: Checked, language: str) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.api.report_text import contact_lines, lever_lines, reading_words, show, verdict
+    from graphkin.api.report_text import contact_lines, lever_lines, plain_said, reading_words, verdict
     from graphkin.words import say, word
 
     rows = [
@@ -98,9 +98,9 @@ def _print_readings(checked: Checked, language: str) -> None:
     for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
         tell(line)
     for note in checked.sheet.notes:
-        tell(say(note, language, show))
+        tell(plain_said(note, language))
     if checked.advice:
-        tell(say(checked.advice.phrase(), language, show))
+        tell(plain_said(checked.advice.phrase(), language))
     for said in passed_words(checked.mechanism, checked.passed):
         tell(say(said, language))
     tell(verdict(checked, language))

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 import typer
 
 from graphkin import __version__
-from graphkin.cli.output import tell
+from graphkin.cli.output import asked_languages, complain
 from graphkin.errors import GraphkinError
 
 if TYPE_CHECKING:
@@ -28,6 +28,9 @@ __all__ = ["app_of", "main"]
 
 INTERRUPTED = 130
 """Exit status of what was interrupted, as shells have it."""
+
+_WRONG_CALL = typer.BadParameter.__mro__[1]
+"""What is raised where an option or an argument is wrong (click's UsageError, whether typer brings click or not)."""
 
 PLACES = {
     "scenes": "scenes",
@@ -152,7 +155,7 @@ def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -
         sys.stdout.flush()
     except Unwritable as error:
         with suppress(OSError):
-            tell(f"graphkin: what is printed cannot be written: {error.strerror}", err=True)
+            complain(f"what is printed cannot be written: {error.strerror}")
         status = 2
     except KeyboardInterrupt:  # a second one, while the first was answered, or at the very end
         status = INTERRUPTED
@@ -168,12 +171,22 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         app = app_of(sys.argv[1:])
         if interrupted is not None:
             signal.signal(signal.SIGINT, interrupted)
-        app()
+        if asked_languages(sys.argv[1:]) == ("en",):
+            app()
+        else:
+            return int(app(standalone_mode=False) or 0)
     except SystemExit as end:
         return end.code
     except GraphkinError as error:
-        tell("\n".join(f"graphkin: {problem}" for problem in error.problems), err=True)
+        complain(*error.problems)
         return error.exit_code
+    except typer.Abort:
+        return 1
+    except Exception as error:
+        if not isinstance(error, _WRONG_CALL):
+            raise
+        complain(str(error.format_message()))  # type: ignore[attr-defined]
+        return 2
     return 0
 
 

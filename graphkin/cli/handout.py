@@ -22,7 +22,7 @@ from graphkin.cli.options import (
     processes,
     split_words,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar, short_bar, tell, tell_unused
+from graphkin.cli.output import complain, print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem, did_you_mean
 
 if TYPE_CHECKING:
@@ -204,6 +204,6 @@ def _problem_set(
         tell(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
     tell_unused(made.unused)
     for failure in made.made.failures:
-        tell(f"graphkin: {failure.name}: {failure.why}", err=True)
+        complain(f"{failure.name}: {failure.why}")
     if not made.ok:
         raise typer.Exit(3)

@@ -12,17 +12,49 @@ from pathlib import Path
 
 import typer
 
-from graphkin.errors import Unsolvable, printable
+from graphkin.errors import Problem, Unsolvable, printable
 
 __all__ = [
-    "print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell", "tell_unused",
-    "unsolvable_as_json",
+    "asked_languages", "complain", "print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell",
+    "tell_unused", "unsolvable_as_json",
 ]  # fmt: skip
 
 
 def tell(text: str, err: bool = False) -> None:
     """Print lines of text, on stderr if it is no result; what in them would command the terminal is written out."""
     typer.echo("\n".join(map(printable, text.split("\n"))), err=err)
+
+
+def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
+    """The languages that a command is asked to speak, English where it is not said or not known.
+
+    >>> asked_languages(["draw", "four-bar", "--lang", "zh"]), asked_languages(["check", "--lang=both"])
+    (('zh',), ('en', 'zh'))
+    """
+    from graphkin.words import BOTH, LANGUAGES, languages
+
+    given, asked = "", list(arguments)
+    for word, following in zip(asked, [*asked[1:], ""], strict=True):
+        given = following if word == "--lang" else word[7:] if word.startswith("--lang=") else given
+    return languages(given) if given in (*LANGUAGES, BOTH) else LANGUAGES[:1]
+
+
+def complain(*found: Problem | str) -> None:
+    """Say on stderr what is wrong, or was not done as asked, in the languages that the command is asked to speak."""
+    for language in asked_languages(sys.argv[1:]):
+        for one in found:
+            tell(f"graphkin: {_refused(one, language)}", err=True)
+
+
+def _refused(found: Problem | str, language: str) -> str:
+    if language == "en":
+        return str(found)
+    from graphkin.words.refused import refused
+
+    def said(text: str) -> str:
+        return refused(text, language)
+
+    return said(found) if isinstance(found, str) else found.text(said, "：", "；")
 
 
 def print_json(data: object) -> None:
@@ -90,7 +122,7 @@ def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> 
 def tell_unused(heads: Sequence[str]) -> None:
     """Say which columns of a table were not used."""
     if heads:
-        tell(f"graphkin: columns left alone: {', '.join(heads)[:300]}", err=True)
+        complain(f"columns left alone: {', '.join(heads)[:300]}")
 
 
 @contextmanager
@@ -100,7 +132,7 @@ def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], Non
         try:
             yield count
         except KeyboardInterrupt:
-            tell(f"graphkin: interrupted; what is done is kept in {target}, the same command goes on", err=True)
+            complain(f"interrupted; what is done is kept in {target}, the same command goes on")
             raise
 
 

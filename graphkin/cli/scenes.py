@@ -13,7 +13,7 @@ from typing import Annotated
 import typer
 
 from graphkin.cli.options import JsonOption, LangOption, QuietOption, SceneArgument
-from graphkin.cli.output import print_json, print_paths, print_table, tell
+from graphkin.cli.output import complain, print_json, print_paths, print_table, tell
 from graphkin.errors import CallError, Problem
 
 __all__ = ["convert", "explain", "open_page", "scenes"]
@@ -113,7 +113,7 @@ def explain(scene: SceneArgument, lang: LangOption = None, as_json: JsonOption =
     else:
         tell(explained.text)
     if not explained.ok:
-        tell(f"graphkin: {explained.why}", err=True)
+        complain(explained.why)
         raise typer.Exit(3)
 
 

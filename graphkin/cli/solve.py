@@ -21,7 +21,7 @@ from graphkin.cli.options import (
     SceneArgument,
     driver_values,
 )
-from graphkin.cli.output import print_json, print_table, tell, unsolvable_as_json
+from graphkin.cli.output import complain, print_json, print_table, tell, unsolvable_as_json
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
@@ -79,7 +79,7 @@ def solve(
         _print_solution(solved, lang)
     if not solved.ok:
         first = solved.first.motion
-        tell(f"graphkin: {first.status[0]}: {first.why[0]}", err=True)
+        complain(f"{first.status[0]}: {first.why[0]}")
         raise typer.Exit(3)
 
 

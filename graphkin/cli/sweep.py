@@ -21,7 +21,7 @@ from graphkin.cli.options import (
     processes,
     split_words,
 )
-from graphkin.cli.output import print_json, print_paths, progress_bar, tell, unsolvable_as_json
+from graphkin.cli.output import complain, print_json, print_paths, progress_bar, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem
 
 __all__ = ["sweep"]
@@ -99,7 +99,7 @@ def sweep(
         tell(swept.text)
         print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
     if not swept.ok:
-        tell("graphkin: no position could be solved; designs.csv or table.csv says why", err=True)
+        complain("no position could be solved; designs.csv or table.csv says why")
         raise typer.Exit(3)
 
 

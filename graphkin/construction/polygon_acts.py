@@ -9,8 +9,8 @@ from typing import Literal, TypeAlias
 from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase
-from graphkin.words.written import amount, on_paper, true_minus
+from graphkin.words import Phrase, listed
+from graphkin.words.written import amount, on_paper, product, true_minus
 
 __all__ = [
     "Asked",
@@ -324,7 +324,7 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
             return Phrase("superposed", (open_at, rows, *_assumed(found)))
         case SeenFrom(held, links, order):
-            return Phrase(f"seen from {order}", (held, ", ".join(links)))
+            return Phrase(f"seen from {order}", (held, listed(links)))
         case ImageSeen(vector, between, points, link, on_line):
             key = "division seen" if on_line else "image seen"
             return Phrase(key, (vector, *map(end_of, between), link, "".join(points)))
@@ -361,8 +361,8 @@ def _on_plan(act: OnPlan) -> Phrase:
             if known:
                 told = true_minus(amount(value, 4))
                 return Phrase(f"plan line {rate}", (link, by[0], told, "−" * (value < 0.0) + on_paper(mm)))
-            read = on_paper(mm), amount(per_mm, 6), amount(abs(value), 4)
-            return Phrase(f"plan line {rate} {turning}", (link, *by, *read))
+            read = on_paper(mm), amount(per_mm, 6)
+            return Phrase(f"plan line {rate} {turning}", (link, *by, *read, product(*read)))
         case PlanTravel(_, slide, mm):
             return Phrase("plan travel", (slide, on_paper(mm)))
         case PlanTried(_, links, _, apart, found):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
 from graphkin.scene.symbol import Symbol
+from graphkin.words import word
 
-__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "RollingCurves", "Size", "SquareOverRadius"]
+__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "RollingCurves", "Size", "SquareOverRadius", "plain_in"]
 
 
 @dataclass(frozen=True)
@@ -121,3 +124,18 @@ class RollingCurves:
 
 
 Size = Given | RateTimes | SquareOverRadius | OffCurves | RollingCurves
+
+
+_SEEN = re.compile(r" seen from (\w+)")
+
+
+def plain_in(language: str) -> Callable[[object], str]:
+    """What writes symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
+
+    def written(thing: object) -> str:
+        text = str(thing).replace("{", "").replace("}", "")
+        if text == str(Given()):
+            return word("given size", language)
+        return _SEEN.sub(lambda found: word("symbol seen", language).format(found[1]), text)
+
+    return written

@@ -24,7 +24,7 @@ from graphkin.drawing.equations import SumTerm
 from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.headings import number, written
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, about, listed, say
+from graphkin.words import Phrase, about, listed, say, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
@@ -194,7 +194,7 @@ def lever_sum(
     unit = f"{units.force}·m" if moment else units.force
     shown = (f"{number(v / units.newtons, DIGITS)} {unit}" for v in values)
     return (
-        f"{say(Phrase('lever sum'), language)} {lead} {rest} = 0",
+        f"{say(Phrase('lever sum'), language)}{word('between sentences', language)}{lead} {rest} = 0",
         say(Phrase("lever balance", (name, *shown)), language),
     )
 

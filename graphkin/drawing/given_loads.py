@@ -10,7 +10,7 @@ from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.conventions import Letters, force_letters
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import number, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece
@@ -20,6 +20,7 @@ from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
+from graphkin.words.written import FINER, MOST, amount
 
 __all__ = ["given_loads", "spring_lines", "springs"]
 
@@ -123,6 +124,11 @@ def spring_given(scene: Mechanism, spring: SpringOn, letters: Letters, language:
     return say(Phrase("given spring", told), language)
 
 
+def _pull(start: str, rate: str, length: str, free: str) -> float:
+    """What the numbers come to as they are written, to as many figures as computed numbers have."""
+    return float(amount(float(start) + float(rate) * (float(length) - float(free)), MOST))
+
+
 def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters, language: str) -> Iterator[str]:
     """The force of each spring from its length as it was measured."""
     units = sheet.scene.units
@@ -131,10 +137,13 @@ def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters, language: s
         own, other = (one for one in forces.states[0].known if one.symbol == name)
         length = abs(other.at - own.at) * sheet.scales.length
         force = spring.preload + spring.rate * (length - spring.free)
-        preload = f"{number(spring.preload / units.newtons)} + " if spring.preload else ""
-        rate = number(spring.rate * units.metres / units.newtons)
-        stretch = f"({number(length / units.metres, 5)} − {number(spring.free / units.metres)})"
-        size = f"{number(force / units.newtons, 5)} {units.force}"
+        start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
+        free, pull = amount(spring.free / units.metres), amount(force / units.newtons, MOST)
+        tried = [amount(length / units.metres, carried) for carried in FINER]
+        told_length = next((one for one in tried if _pull(start, rate, one, free) == float(pull)), tried[0])
+        preload = f"{written(start)} + " if spring.preload else ""
+        stretch, rate = f"({written(told_length)} − {written(free)})", written(rate)
+        size = f"{written(pull)} {units.force}"
         markup = force_letters(letters.convention, name)
         ends = "".join(letters.point(p) for p in spring.points)
         told = (f"${markup}$ = {preload}{rate} × {stretch} = {size}", ends, spring.links[0])

@@ -7,13 +7,13 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sizes import Direction, plain_in
 from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.over_time import asked_time, moves_by_law
@@ -222,13 +222,16 @@ def spoken_vector(symbol: Symbol, language: str) -> str:
     return " / ".join(said)
 
 
-def _plain_symbol(thing: object) -> str:
-    """A symbol, point or direction as plain text: ``v_B3/B2``, ``⊥BC``."""
-    if isinstance(thing, Direction):
-        if thing.relation == "towards":
-            return "→".join(thing.names)
-        return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
-    return str(thing).replace("@", "").replace("{", "").replace("}", "")
+def _plain_symbol(language: str) -> Callable[[object], str]:
+    """The same without marks between point and link, ``v_B3/B2``, and a direction that was found as a line."""
+    plain = plain_in(language)
+
+    def written(thing: object) -> str:
+        if isinstance(thing, Direction) and thing.relation != "towards":
+            return ("∥" if thing.relation == "along" else "⊥") + "".join(thing.names)
+        return plain(thing).replace("@", "")
+
+    return written
 
 
 def figure_title(sheet: Sheet, figure: str, language: str) -> str:
@@ -252,7 +255,8 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
-                said.append(f"{step.number}. {_sentence(say(step.phrase, language, _plain_symbol), language)}")
+                sentence = say(step.phrase, language, _plain_symbol(language))
+                said.append(f"{step.number}. {_sentence(sentence, language)}")
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
     said += remarks(sheet, language)
@@ -264,7 +268,7 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
     ``letters``, symbols stand between dollar signs as a convention writes them."""
     notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
     if letters is None:
-        return [_sentence(say(n, language, _plain_symbol), language) for n in notes]
+        return [_sentence(say(n, language, _plain_symbol(language)), language) for n in notes]
 
     def written(thing: object) -> str:
         try:

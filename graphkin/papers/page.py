@@ -73,6 +73,10 @@ def handout_page(
         )
     )  # fmt: skip
     names = _attribute(said("the figures", lesson.language))
+    keys = said("keys", lesson.language)
+    hints = zip(keys, said("positions words", lesson.language, len(views)), said("print hint", lesson.language, paper),
+                strict=True)  # fmt: skip
+    hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
     body = f"""<header>
 <h1>{said_html(scene_title(lesson))}</h1>
 <div class="given" id="given">{blocks_html(given(lesson), first)}</div>
@@ -98,7 +102,7 @@ def handout_page(
 <output id="trial-said" aria-live="polite"></output>
 </form>
 </div>
-<p class="hint">{words("keys")} {words("positions words", len(views))} {words("print hint", paper)}</p>
+<p class="hint">{said_html(hint)}</p>
 <div class="stage">
 <div id="list" class="list" role="region" aria-label="{_attribute(said("steps", lesson.language))}"></div>
 <div class="pinned"><div id="tabs" class="tabs" role="group" aria-label="{names}"></div>

@@ -9,7 +9,7 @@ from decimal import Decimal
 
 import pytest
 
-from graphkin import draw
+from graphkin import draw, read
 from graphkin.construction import draft, pencil
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, SeenByRate, Superposed
@@ -30,6 +30,7 @@ from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.words import say
 from tests.drawn import drafted
 
 
@@ -117,6 +118,24 @@ def test_a_rate_read_off_the_plan_of_a_train_is_the_product_of_what_it_shows(ins
     assert sums
     for length, _, _, scale, _, _, value, *_ in sums:
         assert Decimal(value) == Decimal(length) * Decimal(scale)
+
+
+@pytest.mark.parametrize(("name", "seed"), [("gears-epicyclic", 1), ("geared-five-bar", 2), ("gears-epicyclic", 5)])
+def test_the_sentence_of_a_rate_read_off_a_plan_says_the_product_of_its_numbers(name, seed):
+    sheet = draft(mechanism_of(name), instrument=pencil(Tools(), seed))
+    said = " ".join(say(step.phrase) for step in sheet.steps if isinstance(step.act, PlanDrawn))
+    sums = re.findall(r"= ([\d.]+) × ([\d.]+) = ([\d.]+)", said)
+    assert sums
+    assert [Decimal(value) for _, _, value in sums] == [Decimal(one) * Decimal(other) for one, other, _ in sums]
+
+
+@pytest.mark.parametrize("length", [70.0, 80.0, 85.0])
+def test_the_pull_of_a_spring_is_what_its_numbers_come_to(length):
+    scene = read("rocker-return-spring").replace("links.1.length", length)
+    whole = "".join(ET.fromstring(draw(scene).figures["forces"].content("svg")).itertext()).replace("\u00a0", " ")
+    start, rate, now, free, pull = map(Decimal, re.search(
+        r"= ([\d.]+) \+ ([\d.]+) × \(([\d.]+) − ([\d.]+)\) = ([\d.]+)", whole).groups())  # fmt: skip
+    assert abs(start + rate * (now - free) - pull) <= Decimal("0.5") * Decimal(1).scaleb(pull.as_tuple().exponent)
 
 
 @pytest.mark.parametrize("name", ["sixbar-420rpm", "shaper-scheme-2"])
