@@ -64,8 +64,10 @@ def centres_text(centred: Centred) -> CentresText:
     letter = "P" if (centred.convention or centred.mechanism.sheet.convention) in ("chinese", "russian") else "I"
 
     def name(pair: object) -> str:
+        if isinstance(pair, PointRef):
+            return pair.point
         if not isinstance(pair, tuple):
-            return pair.point if isinstance(pair, PointRef) else str(pair)
+            return str(pair)
         a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
         return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
 

@@ -112,20 +112,20 @@ class _Search:
 
     def ways(self, start: PointRef, most: int, stop: Callable[[PointRef], bool]) -> Iterator[Path]:
         """Ways from a known point through unknown ones to where they stop, with so many unknowns at most."""
-        stack: list[Path] = [(self.seen(e),) for e in self.net.edges[start]]
+        stack: list[Path] = [(e,) for e in self.net.edges[start]]
         while stack:
             path = stack.pop()
             at = path[-1].end
-            open_ = [e.unknown for e in path if e.unknown]
+            open_ = [unknown for e in path if (unknown := self.open(e))]
             if len(open_) > most or len(set(open_)) < len(open_):
                 continue
             if stop(at):
-                yield path
+                yield tuple(map(self.seen, path))
                 continue
             if at in self.nodes or len(path) >= LONGEST:
                 continue
             visited = {start, *(e.end for e in path)}
-            stack += [(*path, self.seen(e)) for e in self.net.edges[at] if e.end not in visited or (
+            stack += [(*path, e) for e in self.net.edges[at] if e.end not in visited or (
                 e.end == start and len(path) > 1)]
 
     def _strange(self, path: Path) -> int:

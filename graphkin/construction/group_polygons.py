@@ -31,6 +31,7 @@ from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, dr
 __all__ = ["GroupPolygons"]
 
 MOST_WAYS = 12  # choices of held links that are tried
+MUCH_BETTER = 2.0  # so many times as well must another plan find the rates
 
 
 class GroupPolygons(TrialPolygons):
@@ -80,18 +81,21 @@ class GroupPolygons(TrialPolygons):
             self._see(order, group)
             self._take(order, group, shorter)
         else:
-            self._take(order, group, [replace(p, far=p.far or far) for p in (first, *plain)])
+            self._take(order, group, (replace(p, far=p.far or far) for p in chain((first,), plain)))
 
     def _take(self, order: Order, group: Cluster, plans: Iterable[GroupPlan]) -> None:
-        """Draw a group by the first plan without trials, else by that whose trials find the rates best."""
+        """Draw a group by the first plan without trials, else by that whose trials find the rates best; all have as
+        many."""
         best: tuple[float, GroupPlan] | None = None
         for found in plans:
             if not found.tried:
                 best = 1.0, found
                 break
             quality, made = self._judged(order, group, found)
-            if best is None or quality > 2.0 * best[0]:
+            if best is None or quality > MUCH_BETTER * best[0]:
                 best = quality, made
+            if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
+                break  # none can be so much better
         if best is None or not best[0]:
             names = ", ".join(group.links)
             raise Unsolvable("dead point", Problem(f"links {names}", "no drawing tells how this group moves here"))

@@ -46,7 +46,7 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
         axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
     trials = []
     for values in product(*axes):
-        for branches, gaps in _gaps(reduced, known, values).items():
+        for branches, gaps in _gaps(reduced, known, values)[0].items():
             trials.append((max(abs(g) for g in gaps), values, branches))
     trials.sort(key=lambda one: one[0])
     for _, values, branches in trials[:200]:
@@ -65,14 +65,19 @@ def fits_between(
     parts = max(1, round(GRID * (end - start) / (high - low)))
     grid = [start + (end - start) * i / parts for i in range(parts + 1)]
     # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
-    gaps_at = cache(lambda value: {b: gaps[0] for b, gaps in _gaps(reduced, known, (value,)).items()})
+    drawn_at = cache(lambda value: _gaps(reduced, known, (value,)))
     for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
 
         def gap(value: float, branches: Branches = branches) -> float:
-            return gaps_at(value).get(branches, math.nan)
+            gaps, _ = drawn_at(value)
+            return gaps[branches][0] if branches in gaps else math.nan
+
+        def rooms(value: float, branches: Branches = branches) -> list[float]:
+            _, found = drawn_at(value)
+            return [found[before] for k in range(len(branches)) if (before := branches[:k]) in found]
 
         for pair in pairwise((value, gap(value)) for value in grid):
-            (a, one), (b, two) = _inside(gap, *pair)
+            (a, one), (b, two) = _inside(gap, rooms, *pair)
             # nan compares false; a gap that leaps has passed half a turn, not zero
             if not one * two <= 0.0 or abs(one - two) > 1.0:
                 continue
@@ -81,13 +86,17 @@ def fits_between(
                 yield reduced.put_back(frame)
 
 
-def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branches, list[float]]:
-    """The gaps in every assembly of the trial dyads at some values; those that cannot be drawn are left out.
+def _gaps(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]
+) -> tuple[dict[Branches, list[float]], dict[Branches, float]]:
+    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; and how far
+    the loci of each dyad reach over each other (negative: they do not meet), by the assemblies of those before it.
 
     A dyad is drawn once for all assemblies of those after it.
     """
     frame = reduced.opened(known, values)
     found: dict[Branches, list[float]] = {}
+    rooms: dict[Branches, float] = {}
 
     def draw(elements: Sequence[Driven | Dyad], branches: Branches) -> None:
         if not elements:
@@ -98,12 +107,14 @@ def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]
             frame.poses[element.link], _ = drive(frame, element)
             draw(elements[1:], branches)
             return
-        for branch, poses in enumerate(meet(frame, element).poses):
+        meeting = meet(frame, element)
+        rooms[branches] = meeting.gap
+        for branch, poses in enumerate(meeting.poses):
             frame.poses.update(poses)
             draw(elements[1:], (*branches, branch))
 
     draw(reduced.elements, ())
-    return found
+    return found, rooms
 
 
 def _drawn(
@@ -124,20 +135,38 @@ def _drawn(
 
 
 def _inside(
-    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
+    gap: Callable[[float], float],
+    rooms: Callable[[float], Sequence[float]],
+    one: tuple[float, float],
+    two: tuple[float, float],
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Two trial values with their gaps; where only one can be drawn, the other is moved to the last that can."""
+    """Two trial values with their gaps; where only one can be drawn, the other is moved to the last that can: by
+    proportional division of how far the loci of the dyad reach over each other that cannot be drawn first, halving
+    where that is slow (as `_root`).
+
+    rooms : how far those of each dyad do at a value, as far as they can be drawn
+    """
     if math.isnan(one[1]) == math.isnan(two[1]):
         return one, two
     good, bad = (one, two[0]) if math.isnan(two[1]) else (two, one[0])
-    last = good
-    for _ in range(45):
+    last, near = good, abs(good[0] - bad) * 2.0**-45
+    share, side, stopped = 1.0, 0, -1
+    for count in range(180):
+        if abs(last[0] - bad) <= near:
+            break
+        apart = rooms(bad)
+        if len(apart) - 1 != stopped:
+            share, side, stopped = 1.0, 0, len(apart) - 1
+        room, short = rooms(last[0])[stopped], apart[stopped]
+        room, short = (room * share, short) if side < 0 else (room, short * share)
         middle = (last[0] + bad) / 2
+        if room > 0.0 > short and count % 4 < 3:
+            middle = (room * bad - short * last[0]) / (room - short)
         there = gap(middle)
         if math.isnan(there):
-            bad = middle
+            share, side, bad = share / 2 if side < 0 else 1.0, -1, middle
         else:
-            last = middle, there
+            share, side, last = share / 2 if side > 0 else 1.0, 1, (middle, there)
     return good, last
 
 

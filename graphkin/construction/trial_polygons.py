@@ -112,7 +112,8 @@ class TrialPolygons(GroupMoves):
                 yield TakenOff(p.symbol, p.size, dot(p.span, way))
 
     def _judged(self, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
-        """How well a group is found by some trials (0: not at all), and the ends by which the true rates are known."""
+        """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
+        the ends by which the true rates are known."""
         try:
             trials = [
                 self._tried(order, group, plan, i + 1, rates)

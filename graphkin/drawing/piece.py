@@ -93,34 +93,36 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
             if inside is not None and inside[0] != inside[1]:
                 kept.append(replace(thing, start=inside[0], end=inside[1]))
         else:
-            reach = _reach(thing)
-            if reach is not None and box.holds(reach):
+            reach = _outermost(thing)
+            if reach and box.holds(Box.around(reach)):
                 kept.append(thing)
     return tuple(kept)
 
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:
     """The box around everything drawn, line widths left out; None where nothing is."""
-    boxes = [box for thing in walk(tuple(children)) if (box := _reach(thing)) is not None]
-    if not boxes:
-        return None
-    left, top, right, bottom = zip(*boxes, strict=True)
-    return Box(min(left), min(top), max(right), max(bottom))
+    held = [z for thing in walk(tuple(children)) for z in _outermost(thing)]
+    return Box.around(held) if held else None
 
 
-def _reach(thing: Primitive) -> Box | None:
+def _outermost(thing: Primitive) -> Sequence[complex]:
+    """Points that a primitive does not reach beyond; none of a group."""
     if isinstance(thing, Line):
-        return Box.around((thing.start, thing.end))
+        return thing.start, thing.end
+    if isinstance(thing, Text):
+        if not thing.runs:
+            return ()
+        box = text_box(thing)
+        return complex(box.left, box.top), complex(box.right, box.bottom)
     if isinstance(thing, Polyline | Polygon):
-        return Box.around(thing.points)
+        return thing.points
     if isinstance(thing, Circle):
-        return Box.around((thing.centre,)).grown(thing.radius)
+        corner = complex(thing.radius, thing.radius)
+        return thing.centre - corner, thing.centre + corner
     if isinstance(thing, Arc):
         steps = [thing.start + (thing.end - thing.start) * i / 12 for i in range(13)]
-        return Box.around(thing.at(angle) for angle in steps)
-    if isinstance(thing, Text) and thing.runs:
-        return text_box(thing)
-    return None
+        return [thing.at(angle) for angle in steps]
+    return ()
 
 
 def moved_piece(piece: Piece, by: complex) -> Piece:

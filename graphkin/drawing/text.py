@@ -113,9 +113,11 @@ def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[
         def line(end: int, start: int = start) -> tuple[Run, ...]:
             return rich("".join(pieces[start:end]).strip(), size, bold)
 
-        # more pieces are never narrower, so that those that fit are found by halving
-        fitting = bisect_right(range(start + 1, len(pieces) + 1), width, key=lambda end: runs_width(line(end)))
-        end = start + max(1, fitting)
+        end = len(pieces)
+        if runs_width(line(end)) > width:
+            # more pieces are never narrower, so that those that fit are found by halving
+            fitting = bisect_right(range(start + 1, end), width, key=lambda end: runs_width(line(end)))
+            end = start + max(1, fitting)
         lines += [runs for runs in (line(end),) if runs]
         start = end
     return lines
@@ -128,7 +130,8 @@ def stacked(lines: Sequence[str], size: float = LETTER) -> tuple[Run, ...]:
     )
 
 
-def _pieces(markup: str) -> list[str]:
+@lru_cache(maxsize=1024)
+def _pieces(markup: str) -> Sequence[str]:
     """Words with the space before them; symbols between dollar signs stay whole."""
     pieces: list[str] = []
     word, inside = "", False

@@ -9,7 +9,7 @@ import math
 import re
 from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from graphkin.errors import Problem
 from graphkin.scene.tables import Units
@@ -108,8 +108,7 @@ _LONGEST_FIRST = sorted(KINDS, key=len, reverse=True)
 _ELSEWHERE = re.compile(r"(.*\S)\s+at\s+(\S+)", re.DOTALL)
 
 
-@dataclass(frozen=True, order=True)
-class PointRef:
+class PointRef(NamedTuple):  # looked up by the ten thousand
     """A point as a point of a link: ``B@3`` is the point of link 3 that lies at B at this moment.
 
     ``link`` is "" for the pin itself (``B``).

@@ -220,9 +220,8 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
     free = set(nodes)
     rows = []
     for equation in system.equations():
-        inside = [u for u in sorted(equation) if u[0] in free]
-        outside = {n for n, _ in equation} - free
-        if inside and all(_settled(system, n, placed) for n in outside):
+        inside = sorted(u for u in equation if u[0] in free)
+        if inside and all(n in free or _settled(system, n, placed) for n, _ in equation):
             rows.append(inside)
     given = match(rows)
     if len(given) < len(rows) or len(rows) != sum(3 if kind == "link" else 2 for kind, _ in nodes):

@@ -46,6 +46,7 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
     dict from the index of an equation to the unknown it gives; equations left out cannot be served
     """
     given: dict[N, int] = {}
+    held: dict[int, N] = {}
     for start in range(len(equations)):
         # breadth-first search for a free unknown, so that depth is no limit
         came_from: dict[N, int] = {}
@@ -63,12 +64,11 @@ def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
                 queue.append(given[unknown])
         if free is None:
             continue
-        held = {equation: unknown for unknown, equation in given.items()}
         step: N | None = free
         while step is not None:
             equation = came_from[step]
             given[step] = equation
-            step = held.get(equation)
+            held[equation], step = step, held.get(equation)
     return {equation: unknown for unknown, equation in given.items()}
 
 
