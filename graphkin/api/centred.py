@@ -267,8 +267,8 @@ class Centred(Result, OfScene):
         self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs",
         motion: bool = False,
     ) -> list[Path]:  # fmt: skip
-        """Write centres.svg (or other formats) and centres.csv, and with ``motion`` centres-motion.svg, which plays;
-        returns the paths.  Files appear whole or not at all.
+        """Write centres.svg (or other formats), with centres-2.svg where it goes on, centres.csv, and with ``motion``
+        centres-motion.svg, which plays; returns the paths.  Files appear whole or not at all.
 
         ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
 
@@ -278,6 +278,8 @@ class Centred(Result, OfScene):
         """
         known_words(formats, text=text)
         files = {f"centres.{kind}": self.figure.content(kind, text=text) for kind in formats}
+        for number, page in enumerate(self.figure.further, 2):  # in a PDF they follow the first
+            files |= {f"centres-{number}.{kind}": page.content(kind, text=text) for kind in formats if kind != "pdf"}
         files["centres.csv"] = self.table.csv().encode()
         if motion:
             files["centres-motion.svg"] = self.in_motion.content("svg", text=text)

@@ -12,11 +12,13 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import centre_marks, line_name, mark_of, near_box, pale
+from graphkin.drawing.centre_steps import centre_steps, untold
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
@@ -119,6 +121,7 @@ def _knots(
 MARGIN, ROOM, LINE, FOOT = 8.0, 9.0, 5.0, 14.0
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
 SMALLEST = (70.0, 60.0)
+SMALL = Room(mechanism=(60.0, 50.0))  # mm, of the mechanism where each centre is drawn by itself
 SIDE = 62.0  # width of the column beside the mechanism
 ROW = 4.4
 RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
@@ -127,7 +130,8 @@ RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
 def centres_figure(
     centres: Centres, turning: Mapping[str, Turning], *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
-    """Draw all centres of a position on a page of its own.
+    """Draw all centres of a position on a page of its own; those whose lines have no room for their names there again
+    on further pages, each in a picture of its own.
 
     Parameters
     ----------
@@ -164,6 +168,13 @@ def centres_figure(
     words.append(Text(complex(MARGIN, height - 6.0), rich(statement, 3.5)))
     words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
     page = joined((piece, Piece({"centres": side.drawn, "labels": (*side.words, *words)})))
+    some = untold(centres, piece.drawn)
+    further: tuple[Drawing, ...] = ()
+    if some:
+        small = centres.in_room(SMALL)
+        further = centre_steps(
+            small, [small.of(*c.pair) for c in some], _mechanism_behind(small, letters), letters, spoken
+        )
     return Drawing(
         width,
         height,
@@ -172,7 +183,14 @@ def centres_figure(
         describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
         languages(spoken)[0],
         facts(sheet, "centres"),
+        further,
     )
+
+
+def _mechanism_behind(centres: Centres, letters: Letters) -> Piece:
+    """The mechanism of a drawing, pale, without names."""
+    pale = background(bare_mechanism(centres.sheet, letters), "touch")
+    return Piece(pale.layers)
 
 
 def _heading(centres: Centres, at: str, language: str, width: float) -> list[tuple[Run, ...]]:

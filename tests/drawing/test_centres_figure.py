@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import pytest
 
+import graphkin
 from graphkin.api.centred import found_centres
 from graphkin.api.centroded import centrodes
 from graphkin.construction.centres import Centres, speeds
@@ -132,3 +134,47 @@ def test_a_formula_of_a_bilingual_figure_is_written_once():
 
     svg = centres("shaper-scheme-2", language="both").figure.content("svg").decode()
     assert 1 == svg.split("</desc>")[1].count("603 mm/s")
+
+
+@pytest.mark.parametrize("name", ["single-flier", "double-butterfly", "whitworth", "fourbar-150-500-300-400"])
+def test_the_lines_of_every_centre_in_the_figure_are_named_there_or_in_a_picture_of_its_own(name: str) -> None:
+    found = graphkin.centres(name)
+    texts = {thing.id for thing in walk(found.figure.children) if isinstance(thing, Text)}
+    pictures = {one.id for page in found.figure.further for one in walk(page.children) if isinstance(one, Group)}
+    groups = [one for one in walk(found.figure.children) if isinstance(one, Group) and "centre" in one.classes]
+    near = {one.id for one in groups if "far" not in one.classes}
+    crossing = {"centre-" + "-".join(sorted(c.pair)): c.number for c in found.centres.found if c.lines}
+    wanted = {name: f"{name}-{number}" for name, number in crossing.items() if name in near}
+    assert wanted
+    assert [] == [n for n, picture in wanted.items() if f"label-lines-{n}" not in texts and picture not in pictures]
+
+
+def test_a_picture_of_one_centre_has_its_two_lines_through_the_centres_that_are_known() -> None:
+    found = graphkin.centres("single-flier")
+    small: dict[int, list[Line]] = {}
+    for page in found.figure.further:
+        for group in (g for g in walk(page.children) if isinstance(g, Group) and g.id.startswith("centre-lines-")):
+            small[int(group.id.removeprefix("centre-lines-"))] = [t for t in group.children if isinstance(t, Line)]
+    numbers = {c.number: c for c in found.centres.found if c.lines}
+    assert len(small) >= 10
+    for number, lines in small.items():
+        assert 2 == len(lines)
+        ways = [complex(-one.line[1], one.line[0]) for one in numbers[number].lines]
+        for line, way in zip(lines, ways, strict=True):
+            drawn = (line.end - line.start).conjugate()
+            assert abs(drawn.real * way.imag - drawn.imag * way.real) < 1e-6 * abs(drawn) * abs(way)
+
+
+def test_the_pages_of_single_centres_are_files_beside_the_figure(tmp_path: Path) -> None:
+    written = {path.name for path in graphkin.centres("single-flier").write(tmp_path, ("svg", "pdf"))}
+    assert {"centres.svg", "centres-2.svg", "centres-3.svg", "centres.pdf", "centres.csv"} <= written
+    assert "centres-2.pdf" not in written
+
+
+@pytest.mark.parametrize("name", ["single-flier", "sixbar-rotating-guide-35rpm", "scissor-lift"])
+def test_no_label_of_a_picture_is_overlapped_crossed_or_cut(
+    name: str, violations: Callable[[bytes], list[str]]
+) -> None:
+    pages = graphkin.centres(name, language="both").figure.further
+    assert pages
+    assert [[] for _ in pages] == [violations(svg_bytes(page)) for page in pages]

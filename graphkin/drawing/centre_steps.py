@@ -1,0 +1,100 @@
+"""The lines on which centres lie, each centre in a small picture of its own: of those whose lines have no room for
+their names in the figure of all centres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from graphkin.construction.centres import Centre, Centres
+from graphkin.drawing import strokes
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import centre_marks, line_name, near_box
+from graphkin.drawing.conventions import Letters, scale_statement
+from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.headings import facts, figure_title, term
+from graphkin.drawing.page_text import MARGIN, WIDTH, foot, titled
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, renamed, with_labels
+from graphkin.drawing.primitives import Group, Line, Primitive, Text, walk
+from graphkin.drawing.text import plain, rich
+from graphkin.words import languages
+
+__all__ = ["centre_steps", "untold"]
+
+HEIGHT = 297.0
+COLUMNS, ROWS = 2, 3
+GAP, CAPTION = 3.0, 6.0  # mm between pictures, and above each
+CLEAR, INSIDE = 1.0, 3.0  # mm from the frame of a picture to names, and to what it shows
+LETTER = 3.0
+
+
+def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
+    """The found centres within a figure whose lines are not named in what is drawn of it."""
+    things = [*walk(tuple(drawn))]
+    ids = {thing.id for thing in things if isinstance(thing, Text)}
+    near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
+            and "far" not in thing.classes}  # fmt: skip
+    names = {centre: "centre-" + "-".join(sorted(centre.pair)) for centre in centres.found if centre.lines}
+    return tuple(c for c, name in names.items() if name in near and f"label-lines-{name}" not in ids)
+
+
+def centre_steps(
+    centres: Centres, some: Sequence[Centre], behind: Piece, letters: Letters, language: str
+) -> tuple[Drawing, ...]:
+    """Pages with a picture of some centres each: the mechanism, the two lines through the centres that are known, and
+    where they meet.
+
+    Parameters
+    ----------
+    centres : on a drawing of a scale that a picture has room for
+    behind : its mechanism, pale
+    """
+    each = COLUMNS * ROWS
+    return tuple(
+        _page(centres, some[i : i + each], behind, letters, language) for i in range(0, len(some), each)
+    )
+
+
+def _page(
+    centres: Centres, some: Sequence[Centre], behind: Piece, letters: Letters, language: str
+) -> Drawing:
+    words, y = titled(centres.sheet, language, term("lines of centres", language))
+    top, rows = y + 4.0, -(-len(some) // COLUMNS)
+    wide = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS
+    high = (HEIGHT - top - MARGIN - ROWS * (CAPTION + GAP) - 6.0) / ROWS
+    pieces, said = [], []
+    for i, centre in enumerate(some):
+        corner = complex(MARGIN + (i % COLUMNS) * (wide + GAP), top + (i // COLUMNS) * (high + CAPTION + GAP))
+        by = " × ".join(line_name(line, letters) for line in centre.lines)
+        told = f"${letters.centre(centre.pair)}$ = {by}"
+        numeral = plain(str(centre.number), LETTER, bold=True)
+        words.append(Text(corner + complex(4.5, LETTER + 1.0), numeral, "end", classes=("told",)))
+        words.append(Text(corner + complex(6.5, LETTER + 1.0), rich(told, LETTER), classes=("told",)))
+        said.append(f"{centre.number}. " + told.replace("$", "").replace("_{", "").replace("}", ""))
+        panel = Box(corner.real, corner.imag + CAPTION, corner.real + wide, corner.imag + CAPTION + high)
+        pieces.append(renamed(_picture(centres, centre, behind, letters, panel), f"-{centre.number}"))
+    end = top + rows * (high + CAPTION + GAP)
+    words += foot(scale_statement(centres.sheet, letters.convention, "mechanism"), end + 8.0, LETTER, language)
+    page = joined((*pieces, Piece({"labels": tuple(words)})))
+    title = figure_title(centres.sheet, "lines of centres", language)
+    described = title + "\n" + "\n".join(said)
+    return Drawing(
+        WIDTH, end + 14.0, layer_groups(page), title, described, languages(language)[0], facts(centres.sheet, "centres")
+    )
+
+
+def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, panel: Box) -> Piece:
+    """One centre with its two lines and the centres through which they lead, in a frame."""
+    through = {pair for line in centre.lines for pair in line.through if not isinstance(pair, str)}
+    known = (centres.of(*pair) for pair in through)
+    table = {c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre}
+    alone = replace(centres, table=table)
+    inside = panel.grown(-INSIDE)
+    content = near_box(alone, ink_box(behind.drawn) or Box(-10.0, -10.0, 10.0, 10.0), (inside.width, inside.height))
+    origin = inside.centre - content.centre
+    around = panel.grown(-CLEAR).moved(-origin)
+    piece = with_labels(joined((behind, centre_marks(alone, letters, around, behind.drawn))), around)
+    corners = panel.corners
+    frame = tuple(Line(a, b, strokes.DIMENSION) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
+    return joined((moved_piece(piece, origin), Piece({"centres": frame})))
