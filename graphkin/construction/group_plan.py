@@ -300,6 +300,11 @@ class _Search:
                 return False
         return True
 
+    @property
+    def points(self) -> list[tuple[str, str]]:
+        """The special points that are used, by base ("": none) and link."""
+        return [(m.base, m.link) for m in self.moves if isinstance(m, Special)]
+
     def done(self) -> bool:
         return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.net.inside)
 
@@ -342,21 +347,26 @@ def plan_group(
                 return
 
 
-def _searched(
-    start: _Search,
-    tried: Sequence[str],
-    letters: Sequence[str],
-    relative: bool,
-    left_out: Collection[tuple[str, str]] = (),
+def _searched(start: _Search, tried: Sequence[str], letters: Sequence[str], relative: bool) -> _Search | None:
+    """A search that found all; with points of two moving links, of those met with where one point after the other is
+    left out that can be spared, the first with the fewest."""
+    left_out: tuple[tuple[str, str], ...] = ()
+    best = search = _run(start, tried, letters, relative, left_out)
+    while relative and search is not None and best is not None:
+        if len(search.points) < len(best.points):
+            best = search
+        points, search = search.points, None
+        for point in points if len(points) > 1 else ():
+            search = _run(start, tried, letters, relative, (*left_out, point))
+            if search is not None:
+                left_out = (*left_out, point)
+                break
+    return best
+
+
+def _run(
+    start: _Search, tried: Sequence[str], letters: Sequence[str], relative: bool, left_out: Collection[tuple[str, str]]
 ) -> _Search | None:
-    """A search that found all; with points of two moving links one that has no special point that is not needed."""
     search = start.copy(tried)
     search.letters = iter(letters)
-    if not search.run(relative, left_out):
-        return None
-    points = [(m.base, m.link) for m in search.moves if isinstance(m, Special)] if relative else []
-    for point in points if len(points) > 1 else ():
-        fewer = _searched(start, tried, letters, relative, (*left_out, point))
-        if fewer is not None:
-            return fewer
-    return search
+    return search if search.run(relative, left_out) else None

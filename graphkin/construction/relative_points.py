@@ -88,10 +88,9 @@ class RelativePoints:
         return best[1] if best else None, far
 
     def _legs(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
-        """For each two links that are not hinged together the shortest way by each unknown that joins them."""
+        """For each two links the shortest way by each unknown that joins them."""
         owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
-        of = {name: [n for n in self.net.nodes if name in owners[n] and n not in self.settled] for name in names}
-        hinged = {frozenset(p) for n in self.net.nodes for p in combinations(self.net.owners[n], 2)}
+        of = {name: [n for n in self.net.nodes if name in owners[n]] for name in names}
         found: dict[tuple[str, str], dict[str, Path]] = {}
         for i, one in enumerate(names):
             others = {n: [two for two in names[i + 1 :] if two in self.net.owners[n]] for n in self.net.nodes}
@@ -99,16 +98,16 @@ class RelativePoints:
             for path in self._ways(of[one], one):
                 names_of = [e.unknown for e in path if e.unknown]
                 for two in others[path[-1].end]:
-                    if (one, two) in left_out or frozenset((one, two)) in hinged or len(names_of) != 1:
+                    if (one, two) in left_out or len(names_of) != 1:
                         continue
                     (unknown,) = names_of
                     turned = (own, f"omega {self.turn.get(two, two)}")
-                    if unknown in turned or any(e.link == two for e in path):
+                    if unknown in turned:
                         continue
                     old = found.setdefault((one, two), {}).get(unknown)
                     if (old is None or len(path) < len(old)) and self._straight(path):
                         found[one, two][unknown] = path
-        return {links: list(legs.values()) for links, legs in found.items() if len(legs) > 1}
+        return {links: list(legs.values()) for links, legs in found.items()}
 
     def _ways(self, starts: Sequence[PointRef], link: str) -> Iterator[Path]:
         """Ways that leave a link, with one unknown at most."""
@@ -117,14 +116,14 @@ class RelativePoints:
             path = stack.pop()
             for start in (path[-1].end,) if path else starts:
                 for edge in self.net.edges[start]:
-                    if edge.link == link or edge.end in self.settled or edge.end in {e.start for e in path}:
+                    if edge.link == link or edge.end in self.settled:
                         continue
                     seen = replace(edge, unknown="") if edge.unknown in self.known else edge
                     if seen.unknown and any(e.unknown for e in path):
                         continue
                     longer = (*path, seen)
                     yield longer
-                    if len(longer) < LONGEST and link not in self.net.owners[edge.end]:
+                    if len(longer) < LONGEST:
                         stack.append(longer)
 
     def _line(self, leg: Path) -> tuple[complex, complex]:
