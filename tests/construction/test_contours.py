@@ -244,3 +244,7 @@ def test_how_large_and_how_turned_a_contour_is_drawn_changes_nothing(size: float
         way = by / size * cmath.rect(1.0, math.pi / 2 + off)
         block = [Joint(("3", "4"), by * (0.6 + 0.3j), None, False), Joint(("4", "1"), by * (0.6 + 0.3j), way, False)]
         assert found == contours("1234", [crank, bar, *block], [])
+
+
+def test_links_that_drivers_hold_one_after_the_other_are_no_contour() -> None:
+    assert [] == contours("123", [Joint(("2", "3"), 20 + 30j, None, True), Joint(("1", "2"), 0j, None, True)], [])

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,6 +14,8 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
+from graphkin.solver.continuity import At, _turns_back
+from graphkin.solver.pose import Array
 from tests import scenes
 
 ROCKER = (
@@ -250,3 +254,27 @@ def test_a_larger_group_goes_on_where_the_rocker_that_moves_it_turns_back() -> N
     assert dead < math.degrees(other) < 60
     for link in "34567":
         assert complex(before.poses[link].u[0]) == pytest.approx(complex(after.poses[link].u[0]), abs=1e-9)
+
+
+def along(bend: str) -> At:
+    """A group of one coordinate that stops at 0 and goes back: along a parabola, one not quite even, or with a leap."""
+    ways = {
+        "even": (lambda t: t * t, lambda t: 2 * t),
+        "nearly even": (lambda t: t * t + 0.03 * t**3, lambda t: 2 * t + 0.09 * t * t),
+        "leaps": (abs, np.sign),
+        "uneven": (lambda t: t**4, lambda t: 4 * t**3),
+    }
+    place, rate = ways[bend]
+
+    def at(t: float, _: Array) -> tuple[Any, Array]:
+        return SimpleNamespace(missed=[0.0], place=np.array([[place(t)]])), np.array([rate(t)])
+
+    return at
+
+
+@pytest.mark.parametrize(("bend", "on"), [("even", True), ("nearly even", True), ("leaps", False), ("uneven", False)])
+def test_a_group_goes_on_where_its_rates_change_evenly_and_not_where_they_leap(bend: str, on: bool) -> None:
+    at = along(bend)
+    (one, rate), (two, later) = at(-1.0, np.zeros(1)), at(1.0, np.zeros(1))
+    places = [one.place[0], two.place[0]]
+    assert on == _turns_back(at, -1.0, places, rate, 2.0, later - rate, np.ones(1))
