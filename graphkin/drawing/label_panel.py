@@ -25,7 +25,7 @@ from graphkin.drawing.label_candidates import (
     ends,
     led_candidates,
 )
-from graphkin.drawing.label_positions import LEADER_SPACE, Columns, LabelPosition, LabelPositions
+from graphkin.drawing.label_positions import LEADER_SPACE, Columns, LabelForms, LabelPosition, LabelPositions
 from graphkin.drawing.meeting import (
     Flags,
     Floats,
@@ -221,8 +221,9 @@ class LabelPanel:
         order = order[columns.costs[order] < FORBIDDEN]
         columns, owners = columns.at(order), owners[order]
         bounds = np.searchsorted(owners, np.arange(len(who) + 1)).tolist()
+        forms = LabelForms(columns)
         return [
-            LabelPositions(half, columns.at(slice(first, last)))
+            LabelPositions(half, columns.at(slice(first, last)), forms, first)
             for half, first, last in zip(self.requests.half[who].tolist(), bounds[:-1], bounds[1:], strict=True)
         ]
 

@@ -1,24 +1,24 @@
-"""Places for labels, one, many of one label, and those that labels hold; and whether labels there are in each other's
-way.
-"""
+"""Places for labels, one and many of one label; and whether labels at two are in each other's way."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Iterator
+from functools import cached_property
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.meeting import Flags, Floats, Indices, Points, crosses, near, separated, sides, sides_around
+from graphkin.drawing.meeting import Flags, Floats, Indices, Points
 from graphkin.drawing.primitives import Segment
 from graphkin.plane import cross
 
-__all__ = ["LEADER_SPACE", "Columns", "HeldPositions", "LabelPosition", "LabelPositions"]
+__all__ = ["LEADER_SPACE", "LOTS", "Columns", "LabelForms", "LabelPosition", "LabelPositions", "leader_forms"]
 
 LOTS = (0, 48, 240, 720)
 """First places of the lots in which places are judged, the cheapest first."""
+T = TypeVar("T", float, Floats)
+
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 
 
@@ -91,31 +91,90 @@ class Columns(NamedTuple):
         return Columns(self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some])
 
 
-class LabelPositions:
-    """Places of one label, whose box has a half size, cheapest first."""
+class LabelForms:
+    """Linear forms of places, of one label or of several: in columns 1 and the middles of boxes, feet and tips of
+    leaders; and of each leader, by factor, form and place, what `leader_forms` says."""
 
-    def __init__(self, half: complex, columns: Columns) -> None:
-        self.half, self.columns = half, columns
-        self.centres, self.costs, self.feet, self.tips, self.led = columns
+    def __init__(self, columns: Columns) -> None:
+        self.columns = columns
+
+    @cached_property
+    def middles(self) -> Floats:
+        return _points(self.columns.centres)
+
+    @cached_property
+    def feet(self) -> Floats:
+        return _points(self.columns.feet)
+
+    @cached_property
+    def tips(self) -> Floats:
+        return _points(self.columns.tips)
+
+    @cached_property
+    def leaders(self) -> tuple[Floats, Floats]:
+        _, x, y = self.feet
+        _, tip_x, tip_y = self.tips
+        distances, reaches = np.empty((2, 3, 3, len(x)))
+        for forms, found in zip((distances, reaches), leader_forms(x, y, tip_x - x, tip_y - y), strict=True):
+            for k, factor in enumerate(found):
+                forms[k % 3, k // 3] = factor
+        return distances, reaches
+
+
+def leader_forms(x: T, y: T, along_x: T, along_y: T) -> tuple[tuple[T | float, ...], tuple[T | float, ...]]:
+    """For a leader from a foot along a way: the distances of a point from its middle, across and down, and from its
+    line, each as factors of 1 and the point, the last times its length; and below what distances it meets a box there,
+    as factors of 1, half width and half height.  No way meets none."""
+    wide, high, one, none = abs(along_x), abs(along_y), 1.0, 0.0
+    distances = (
+        -x - along_x / 2, one, none, -y - along_y / 2, none, one, along_y * x - along_x * y, -along_y, along_x
+    )  # fmt: skip
+    reaches = (
+        wide / 2 + LEADER_SPACE, one, none, high / 2 + LEADER_SPACE, none, one, (wide + high) * LEADER_SPACE, high, wide
+    )  # fmt: skip
+    return distances, reaches
+
+
+class LabelPositions:
+    """Places of one label, whose box has a half size, cheapest first: a part of many places, of which the forms are
+    known."""
+
+    def __init__(self, half: complex, columns: Columns, forms: LabelForms | None = None, first: int = 0) -> None:
+        self.half, self.columns, self.costs = half, columns, columns.costs
+        self.forms, self.first = forms or LabelForms(columns), first
         self._made: dict[int, LabelPosition] = {}
-        self._parts: dict[tuple[int, int], LabelPositions] = {}
 
     def __len__(self) -> int:
         return len(self.costs)
+
+    @cached_property
+    def _listed(self) -> tuple[list[complex], list[float], list[complex], list[complex], list[bool]]:
+        centres, costs, feet, tips, led = self.columns
+        return centres.tolist(), costs.tolist(), feet.tolist(), tips.tolist(), led.tolist()
+
+    @cached_property
+    def first_led(self) -> int:
+        """The index of the first place that has a leader."""
+        return int(self.columns.led.argmax()) if self.columns.led.any() else len(self)
+
+    def middles(self, first: int, last: int) -> Floats:
+        """1 and the middles of the boxes from ``first`` to ``last``, in columns."""
+        return self.forms.middles[:, self.first + first : self.first + last]
 
     def position(self, index: int) -> LabelPosition:
         """The place of an index."""
         made = self._made.get(index)
         if made is None:
-            centre, half, leader = self.centres[index].item(), self.half, None
+            centres, costs, feet, tips, led = self._listed
+            centre, half, leader = centres[index], self.half, None
             left, top, right, bottom = reach = (
                 centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag
             )  # fmt: skip
-            if self.led[index]:
-                leader = foot, _ = self.feet[index].item(), self.tips[index].item()
+            if led[index]:
+                leader = foot, _ = feet[index], tips[index]
                 x, y = foot.real, foot.imag
                 reach = min(left, x), min(top, y), max(right, x), max(bottom, y)
-            made = LabelPosition(left, top, right, bottom, self.costs[index].item(), leader, reach)
+            made = LabelPosition(left, top, right, bottom, costs[index], leader, reach)
             self._made[index] = made
         return made
 
@@ -123,140 +182,11 @@ class LabelPositions:
         """How many cost less."""
         return int(np.searchsorted(self.costs, cost))
 
-    def lots(self, count: int) -> Iterator[tuple[int, LabelPositions]]:
-        """Lots of them that hold the first ``count``, each with the number of its first place."""
+    def lots(self, count: int) -> Iterator[tuple[int, int]]:
+        """First and end of the lots that hold the first ``count``."""
         for first, last in zip(LOTS, (*LOTS[1:], len(self)), strict=True):
             if first < count:
-                yield first, self.part(first, last)
-
-    def part(self, first: int, last: int) -> LabelPositions:
-        """Those of some indices."""
-        part = self._parts.get((first, last))
-        if part is None:
-            part = self._parts[first, last] = LabelPositions(self.half, self.columns.at(slice(first, last)))
-        return part
-
-
-@dataclass
-class _Known:
-    """Which of some places meet which labels, as it was at a time."""
-
-    over: Flags
-    at: int
-
-
-class HeldPositions:
-    """The positions that labels hold, also as arrays by label: middles and half sizes of boxes, feet and tips of
-    leaders (nan of a label that has held none)."""
-
-    def __init__(self, count: int) -> None:
-        self.middles, self.halves, self.feet, self.tips = np.full((4, count), complex(np.nan, np.nan))
-        self.stands = np.zeros(count, dtype=bool)
-        self.standing: dict[int, LabelPosition] = {}
-        self.leaders: dict[int, LabelPosition] = {}  # those of them that have one
-        self.last: dict[int, LabelPosition] = {}  # those that labels hold or have held
-        self.time, self.since = 0, np.zeros(count, dtype=np.intp)  # when they took it
-        self.known: dict[tuple[LabelPositions, complex], _Known] = {}
-
-    def take(self, label: int, position: LabelPosition) -> None:
-        self.standing[label] = position
-        self.stands[label] = True
-        self.leaders.pop(label, None)
-        if position.leader is not None:
-            self.leaders[label] = position
-        if self.last.get(label) is position:
-            return
-        self.last[label] = position
-        self.time += 1
-        self.since[label] = self.time
-        low, high = complex(position.left, position.top), complex(position.right, position.bottom)
-        self.middles[label], self.halves[label] = (low + high) / 2, (high - low) / 2
-        if position.leader is not None:
-            self.feet[label], self.tips[label] = position.leader
-
-    def leave(self, label: int) -> None:
-        del self.standing[label]
-        self.stands[label] = False
-        self.leaders.pop(label, None)
-
-    def put_back(self, standing: Mapping[int, LabelPosition]) -> None:
-        """Let the labels hold positions that they have held at a time."""
-        for label in tuple(self.standing):
-            self.leave(label)
-        for label, position in standing.items():
-            self.take(label, position)
-
-    def met(self, places: LabelPositions, space: complex) -> Flags:
-        """Which of some places (rows) meet the positions of which labels (columns), as `LabelPosition.meets` says."""
-        known = self.known.get((places, space))
-        if known is None:
-            over = np.zeros((len(places), len(self.since)), dtype=bool)
-            known = self.known[places, space] = _Known(over, 0)
-        some = (self.since > known.at).nonzero()[0]
-        if some.size:
-            known.over[:, some] = self._met(places, space, some)
-            known.at = self.time
-        return known.over & self.stands
-
-    def _met(self, places: LabelPositions, space: complex, labels: Indices) -> Flags:
-        """Which of some places meet the last positions of some labels."""
-        middles, halves = self.middles[labels], self.halves[labels]
-        over = self._overlapped(places, space, labels)
-        theirs = np.array([k for k, j in enumerate(labels.tolist()) if self.last[j].leader is not None], dtype=np.intp)
-        if theirs.size:
-            start, end = self.feet[labels[theirs]], self.tips[labels[theirs]]
-            around = sides_around(start, end)
-            reach = places.half + complex(LEADER_SPACE, LEADER_SPACE)
-            for i, j in near(sides(places.centres - reach, places.centres + reach), around):
-                hit = ~separated(places.centres[i], reach, start[j], end[j])
-                over[i[hit], theirs[j[hit]]] = True
-        own = places.led.nonzero()[0]
-        if own.size:
-            feet, tips = places.feet[own], places.tips[own]
-            along, spaces = sides_around(feet, tips), halves + complex(LEADER_SPACE, LEADER_SPACE)
-            for i, j in near(along, sides(middles - spaces, middles + spaces)):
-                hit = ~separated(middles[j], spaces[j], feet[i], tips[i])
-                over[own[i[hit]], j[hit]] = True
-            if theirs.size:
-                for i, j in near(along, around):
-                    hit = crosses(feet[i], tips[i], start[j], end[j])
-                    over[own[i[hit]], theirs[j[hit]]] = True
-        return over
-
-    def _overlapped(self, places: LabelPositions, space: complex, labels: Indices | slice) -> Flags:
-        """Which of some places come nearer than a space (mm, across and down) to the last positions of some labels."""
-        middles, room = self.middles[labels], self.halves[labels] + places.half + space
-        over: Flags = np.abs(places.centres.real[:, None] - middles.real) < room.real
-        over &= np.abs(places.centres.imag[:, None] - middles.imag) < room.imag
-        return over
-
-    def first_free(self, places: LabelPositions, count: int, space: complex) -> int | None:
-        """The index of the cheapest of the first ``count`` places that meets no label; None where all do."""
-        for k in self._promising(places, count, space):
-            position = places.position(k)
-            for other in (self.standing if k == 0 or position.leader is not None else self.leaders).values():
-                if position.meets(other, space):
-                    break
-            else:
-                return k
-        return None
-
-    def first_known_free(self, places: LabelPositions, count: int, space: complex) -> int | None:
-        """As `first_free`, for places of which is asked again what they meet."""
-        for first, lot in places.lots(count):
-            free = np.flatnonzero(~self.met(lot, space).any(axis=1))
-            if free.size:
-                found = first + int(free[0])
-                return found if found < count else None
-        return None
-
-    def _promising(self, places: LabelPositions, count: int, space: complex) -> Iterator[int]:
-        """The cheapest of some places, which is mostly free, and those of them whose boxes overlap none."""
-        if count:
-            yield 0
-        for first, lot in places.lots(count):
-            over = self._overlapped(lot, space, slice(None)) & self.stands
-            yield from (k for k in (first + np.flatnonzero(~over.any(axis=1))).tolist() if 0 < k < count)
+                yield first, min(last, len(self))
 
 
 def _crosses(one: Segment, other: Segment) -> bool:
@@ -264,3 +194,8 @@ def _crosses(one: Segment, other: Segment) -> bool:
     (a, b), (c, d) = one, other
     apart = cross(b - a, c - a) * cross(b - a, d - a)
     return apart < 0 and cross(d - c, a - c) * cross(d - c, b - c) < 0
+
+
+def _points(points: Points) -> Floats:
+    """1 and the points, across and down, in columns."""
+    return np.array((np.ones(len(points)), points.real, points.imag))

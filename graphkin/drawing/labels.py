@@ -18,9 +18,10 @@ import numpy as np
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import box_about
+from graphkin.drawing.held_positions import HeldPositions
 from graphkin.drawing.label_candidates import LED_RINGS, RINGS, Label, Mark
 from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
-from graphkin.drawing.label_positions import HeldPositions, LabelPosition, LabelPositions
+from graphkin.drawing.label_positions import LabelPosition, LabelPositions
 from graphkin.drawing.meeting import Flags
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
@@ -87,7 +88,7 @@ class Placement:
         self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
         self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
         self.seen = [0] * len(labels)  # rings looked at
-        self.held = HeldPositions(len(labels))
+        self.held = HeldPositions(len(labels), _SPACE)
         self.clear = [True] * len(labels)
         self.keys: dict[int, int] = {}  # the request for the key of a label
         self.keyed: set[int] = set()  # labels for which their keys stand
@@ -153,7 +154,7 @@ class Placement:
     def _stand(self, i: int) -> bool:
         """Take the cheapest place that no other label holds."""
         positions = self.found[i]
-        k = self.held.first_free(positions, len(positions), _SPACE)
+        k = self.held.first_free(positions, len(positions))
         if k is None:
             return False
         self.held.take(i, positions.position(k))
@@ -175,13 +176,13 @@ class Placement:
             i = queue.pop(0)
             self._look([i], len(RINGS))
             positions = self.found[i]
-            met = self.held.met(positions, _SPACE)
-            lost = met @ weight
+            met = self.held.met(positions, len(positions))
+            lost = weight @ met
             if not len(positions) or (self.ranks[i] and lost.min() > weight[i]):
                 hopeless.append(i)
                 continue
             chosen = int(np.lexsort((positions.costs, lost))[0])
-            for j in [j for j in self.held.standing if met[chosen, j]]:
+            for j in [j for j in self.held.standing if met[j, chosen]]:
                 self.held.leave(j)
                 weight[j] += worth[j]
                 queue.append(j)
@@ -205,7 +206,7 @@ class Placement:
             better = positions.cheaper(position.cost)
             if better:
                 self.held.leave(i)
-                k = self.held.first_free(positions, better, _SPACE)
+                k = self.held.first_free(positions, better)
                 self.held.take(i, position if k is None else positions.position(k))
                 freed = freed or k is not None
 
@@ -302,7 +303,7 @@ class Placement:
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
             positions = self._places(form)
-            free = self.held.first_known_free(positions, positions.cheaper(best - extra), _SPACE)
+            free = self.held.first_known_free(positions, positions.cheaper(best - extra))
             if free is not None:
                 position = positions.position(free)
                 chosen, best = {i: (form, position)}, position.cost + extra
@@ -363,13 +364,14 @@ class Placement:
                 break
             j = queue.pop(0)
             self._look([j], len(RINGS))
-            positions = self.found[j].part(0, self.found[j].cheaper(TANGLED))
-            if not len(positions):
+            positions = self.found[j]
+            count = positions.cheaper(TANGLED)
+            if not count:
                 queue.append(j)
                 break
-            met = self.held.met(positions, _SPACE)
-            chosen = int(np.argmin(positions.costs + met @ pushed))
-            for k in np.flatnonzero(met[chosen]).tolist():
+            met = self.held.met(positions, count)
+            chosen = int(np.argmin(positions.costs[:count] + pushed @ met))
+            for k in met[:, chosen].nonzero()[0].tolist():
                 self.held.leave(k)
                 pushed[k] += _PUSHED
                 queue.append(k)
@@ -390,9 +392,9 @@ class Placement:
         """Places of a label that no other is in the way of: what they cost, their request and index."""
         found = []
         for form, extra in self._forms(j):
-            positions = self._places(form).part(0, _LOOKED_AT)
-            met = self.held.met(positions, _SPACE)
-            free = np.flatnonzero(met.sum(axis=1) == met[:, j])
+            positions = self._places(form)
+            met = self.held.met(positions, min(_LOOKED_AT, len(positions)))
+            free = (met.sum(axis=0) == met[j]).nonzero()[0]
             costs = (positions.costs[free] + extra).tolist()
             found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
         if self._tellable(j):
@@ -401,18 +403,18 @@ class Placement:
 
     def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:
         """Of the first places those that meet few other labels, cheapest first, with what they meet."""
-        for first, lot in positions.lots(count):
-            met = self.held.met(lot, _SPACE)
-            for k in (met.sum(axis=1) <= _MOVED)[: count - first].nonzero()[0].tolist():
-                yield positions.position(first + k), met[k]
+        for first, last in positions.lots(count):
+            met = self.held.met(positions, last)[:, first:]
+            for k in (met.sum(axis=0) <= _MOVED)[: count - first].nonzero()[0].tolist():
+                yield positions.position(first + k), met[:, k]
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
         (positions, faults), important = self.panel.everywhere(i), np.array(self.ranks) == 0
-        met = self.held.met(positions, 0.0)
-        faults = faults + met[:, important].sum(axis=1)
-        chosen = int(np.lexsort((positions.costs, met.sum(axis=1), faults))[0])
-        for j in np.flatnonzero(met[chosen] & ~important):
+        met = self.held.covered(positions)
+        faults = faults + met[important].sum(axis=0)
+        chosen = int(np.lexsort((positions.costs, met.sum(axis=0), faults))[0])
+        for j in np.flatnonzero(met[:, chosen] & ~important):
             self.held.leave(int(j))
         self.clear[i] = bool(faults[chosen] == 0)
         self.held.take(i, positions.position(chosen))
