@@ -258,12 +258,14 @@ def _inside(places: Points, reach: Points, panel: Box) -> Flags:
 def _covered(places: Points, reach: Points, around: Obstacles) -> Flags:
     """Whether anything drawn meets a box at a place."""
     lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
-    at, size = places[..., None], np.broadcast_to(reach, places.shape)[..., None]
-    covered: Flags = np.asarray(meets(lines, at, size).any(axis=-1))
+    size = np.broadcast_to(reach, places.shape)
+    covered: Flags = np.zeros(places.size, dtype=bool)
+    covered[meets(lines, places.ravel(), size.ravel())[1]] = True
+    covered = covered.reshape(places.shape)
     if around.areas:
         middles = np.array([box.centre for box in around.areas])
         sizes = np.array([complex(box.width, box.height) / 2 for box in around.areas])
-        off, room = at - middles, size + sizes
+        off, room = places[..., None] - middles, size[..., None] + sizes
         over = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
         covered = covered | np.asarray(over.any(axis=-1))
     return covered

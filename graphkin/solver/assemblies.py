@@ -261,17 +261,23 @@ def _descended(system: System, place: Array) -> Array:
             active, damping, matrix, turned, slope, open_ = (
                 x[on] for x in (active, damping, matrix, turned, slope, open_)
             )
-            system = replace(system, drive=system.drive[: len(active)])
+            all_, system = replace(all_, z=all_.z[on], u=all_.u[on]), system.part(on)
             if not len(active):
                 return missed
-        normal = turned @ matrix + damping[:, None, None] * 1e-3 * np.eye(matrix.shape[2])
+        normal = turned @ matrix
+        diagonal = np.arange(matrix.shape[2])
+        normal[:, diagonal, diagonal] += damping[:, None] * 1e-3
         trial = place[active] - system.scaled(solve_all(normal, slope))
-        new_open = system.open_(system.at(trial))
+        new = system.at(trial)
+        new_open = system.open_(new)
         better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
         place[active[better]] = trial[better]
         damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
-        open_ = np.where(better[:, None], new_open, open_)
-        all_ = system.at(place[active])
+        open_, z, u = (
+            np.where(better[:, None], there, here)
+            for there, here in ((new_open, open_), (new.z, all_.z), (new.u, all_.u))
+        )
+        all_ = replace(all_, z=z, u=u)
     missed[active] = np.abs(open_).max(axis=1)
     return missed
 
