@@ -20,7 +20,8 @@ from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.words.written import MOST, product
 
 __all__ = [
-    "LEAST_LETTERS", "LineToSet", "SumTerm", "Written", "WrittenLine", "equations_in_room", "line_to_set", "rule_alone",
+    "LEAST_LETTERS", "LineToSet", "SumTerm", "Written", "WrittenLine", "equations_in_room",
+    "equations_on_page", "line_to_set", "rule_alone",
     "write_equation", "write_sum",
 ]  # fmt: skip
 
@@ -31,6 +32,7 @@ LEAST_ROW = 2.3  # mm, of the letters in rows: below it a square over an index r
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
 GAP = 1.3  # mm beside a column of terms
 COLUMN_GAP = 5.0  # mm between two columns of equations
+WIDE = 150.0  # mm: a page that holds two of them
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,24 @@ def equations_in_room(
         fullest = max(fullest, placed, key=len)
         if len(placed) == len(lines):
             return _written(placed), len(placed)
+    return _written(fullest), len(fullest)
+
+
+def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -> tuple[tuple[Primitive, ...], int]:
+    """Lines on a page of their own (mm), as ``equations_in_room``, in columns of one height where it is wide."""
+    columns = 2 if width >= WIDE else 1
+    wide = (width - (columns - 1) * COLUMN_GAP) / columns
+    fullest: list[tuple[Written, complex]] = []
+    for size in dict.fromkeys(size for size, _ in WAYS):
+        blocks = [line(wide, size) for line in lines]
+        whole = sum(block.height for block in blocks)
+        high = min(height, whole / columns)
+        while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
+            high = min(height, high + size)
+        placed = _in_columns(blocks, wide, high, columns)
+        fullest = max(fullest, placed, key=len)
+        if len(placed) == len(lines):
+            break
     return _written(fullest), len(fullest)
 
 

@@ -58,8 +58,8 @@ def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
     return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
 
 
-def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[str]:
-    """Each length that enters an equation and is not given, in the order of use, with its millimetres:
+def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str, str], str]]:
+    """Each length that enters an equation and is not given, in the order of use, by its ends, with its millimetres:
     ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
     bars: dict[frozenset[str], tuple[str, str]] = {}
     for step in sheet.steps:
@@ -78,10 +78,10 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[str]:
         if pushed is not None:
             value = f"{number(pushed / sheet.scene.units.metres)} {sheet.scene.units.length}"
             driver = next(d for d in sheet.scene.drivers if _ends_of(sheet, d) == {one, other})
-            yield f"${letters.length((one, other))}$ = $s_{{{slide_index(sheet, driver.key)}}}$ = {value}"
+            yield (one, other), f"${letters.length((one, other))}$ = $s_{{{slide_index(sheet, driver.key)}}}$ = {value}"
             continue
         mm = abs(sheet.points[PointRef(one)] - sheet.points[PointRef(other)])
-        yield f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
+        yield (one, other), f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
 
 
 def pushed_by_driver(sheet: Sheet, bar: tuple[str, str]) -> float | None:

@@ -12,7 +12,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room
+from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.insets import INSET, coriolis_row, per_row
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved
@@ -140,8 +140,10 @@ def _equations(
     if not rest.equations:
         return Piece(), rest, room
     box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
-    most = {"most": LEAST_LETTERS} if begun else {}
-    blocks, count = equations_in_room(rest.equations, box.width, box.height, **most)
+    if begun:
+        blocks, count = equations_in_room(rest.equations, box.width, box.height, LEAST_LETTERS)
+    else:
+        blocks, count = equations_on_page(rest.equations, box.width, box.height)
     if not count:
         return Piece(), rest, room
     written = moved(blocks, complex(box.left, box.top))

@@ -10,6 +10,7 @@ from itertools import islice, product
 
 from graphkin.checking.report import Report
 from graphkin.checking.scans import judge_scans
+from graphkin.construction.polygon_acts import TrialDrawn
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -35,8 +36,8 @@ from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text
-from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism
+from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, walk
+from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.train import train_figure
@@ -48,6 +49,8 @@ __all__ = ["background_piece", "scan_piece", "sheet_page"]
 LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
+NAMES = 7.0  # mm above and below a polygon that gives room to the equations
+POLYGONS: tuple[DiagramName, DiagramName] = ("velocity", "acceleration")
 EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
 
 
@@ -67,23 +70,28 @@ def sheet_page(
     spoken = language or scene.sheet.language
     letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
     plan = sheet_plan(sheet)
-    velocity, _ = _polygon(sheet, "velocity", letters, spoken, plan.velocity)
-    drawn: list[DiagramName] = ["mechanism", "velocity"]
-    homeless: list[CoriolisTerm] = []
-    pieces = []
-    if sheet.vectors("acceleration"):
-        drawn.append("acceleration")
-        acceleration, homeless = _polygon(sheet, "acceleration", letters, spoken, plan.acceleration)
-        pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
+    polygons = _Polygons(sheet, letters, spoken)
+    velocity, acceleration, homeless = polygons.on(plan)
     lines = [line_to_set(line, sheet, letters, spoken) for line in written_lines(sheet, letters, spoken)]
     words = _Writing(sheet, table_rows(sheet, report), letters, spoken, lines, homeless)
     writing, rest = words.on(plan, GIVEN[0])
-    closer = product((plan, *with_less_mechanism(plan, sheet)), GIVEN) if rest and plan.equations else ()
-    for each, size in islice(closer, 1, None):
-        there, left = words.on(each, size)
-        if not left:
-            plan, writing, rest = each, there, left
-            break
+    if rest and plan.equations:
+        usual = (plan, *with_less_mechanism(plan, sheet))
+        closer = (*usual, *(less for each in usual for less in with_less_polygons(each, polygons.heights(plan))))
+        for each, size in islice(product(closer, GIVEN), 1, None):
+            there, left = words.on(each, size)
+            if left:
+                continue
+            drawn = polygons.on(each) if each.beside else (velocity, acceleration, homeless)
+            if drawn[2] == homeless and _insets(drawn) == _insets((velocity, acceleration)):
+                plan, writing, rest = each, there, left
+                velocity, acceleration, _ = drawn
+                break
+    drawn_diagrams: list[DiagramName] = ["mechanism", "velocity"]
+    pieces = []
+    if acceleration is not None:
+        drawn_diagrams.append("acceleration")
+        pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
     pieces += [
         heading(sheet, letters, spoken, plan.page),
         _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
@@ -107,7 +115,7 @@ def sheet_page(
         plan.height,
         layer_groups(joined(pieces)),
         figure_title(sheet, "sheet", spoken),
-        describe(sheet, tuple(drawn), spoken),
+        describe(sheet, tuple(drawn_diagrams), spoken),
         languages(spoken)[0],
         facts(sheet, "sheet"),
         further,
@@ -140,6 +148,8 @@ class _Writing:
         rest = Remainder(lines_left, senses, given_rest, self.rows[count:])
         places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
         rooms = [below(box, piece.drawn) for box, piece in places]
+        if plan.beside is not None:  # what is written there goes on from the equations
+            rooms.insert(0, plan.beside)
         more = continued(sheet, rest, rooms, letters, language)
         if more is None:
             return [data, equations, readings], rest
@@ -147,7 +157,7 @@ class _Writing:
         before = len(rest.readings)
         if before:
             first = replace(rest, readings=self.rows[:before], readings_begin=True)
-            turned = continued(sheet, first, rooms[:2], letters, language)
+            turned = continued(sheet, first, rooms[:-1], letters, language)
             last, count = self._set_last(plan.readings, before)
             if turned is not None and count == len(self.rows) - before:
                 readings, more = last, turned
@@ -223,12 +233,40 @@ def _mechanism(sheet: Sheet, letters: Letters, language: str, panel: Box) -> Pie
     return joined((under, named, mechanism_detail(sheet, letters, language, room, named.drawn)))
 
 
-def _polygon(
-    sheet: Sheet, diagram: DiagramName, letters: Letters, language: str, panel: Box
-) -> tuple[Piece, list[CoriolisTerm]]:
-    content = extent(sheet, diagram, panel.grown(-3.0))
-    origin = panel.centre - content.centre
-    return polygon_with_insets(sheet, diagram, letters, language, panel.grown(-0.8), origin)
+class _Polygons:
+    """Both polygons of a sheet, as they stand on its plans."""
+
+    def __init__(self, sheet: Sheet, letters: Letters, language: str) -> None:
+        self.sheet, self.letters, self.language = sheet, letters, language
+
+    def on(self, plan: SheetPlan) -> tuple[Piece, Piece | None, list[CoriolisTerm]]:
+        """The polygons on a plan, that of accelerations where there is one, and the Coriolis terms for whose insets
+        there was no room."""
+        velocity, _ = self._in("velocity", plan.velocity)
+        if not self.sheet.vectors("acceleration"):
+            return velocity, None, []
+        return velocity, *self._in("acceleration", plan.acceleration)
+
+    def _in(self, diagram: DiagramName, panel: Box) -> tuple[Piece, list[CoriolisTerm]]:
+        content = extent(self.sheet, diagram, panel.grown(-3.0))
+        origin = panel.centre - content.centre
+        return polygon_with_insets(self.sheet, diagram, self.letters, self.language, panel.grown(-0.8), origin)
+
+    def heights(self, plan: SheetPlan) -> tuple[float, float]:
+        """How high (mm) the polygons are on a plan with their names; trial polygons may take all of their panel."""
+        panels = plan.velocity, plan.acceleration
+        tried = {step.diagram for step in self.sheet.steps if isinstance(step.act, TrialDrawn)}
+        one, other = (
+            box.height if d in tried else extent(self.sheet, d, box.grown(-3.0)).height + 2 * NAMES
+            for d, box in zip(POLYGONS, panels, strict=True)
+        )
+        return one, other
+
+
+def _insets(pieces: Sequence[object]) -> list[str]:
+    """The insets that stand in polygons."""
+    drawn = (piece.drawn for piece in pieces if isinstance(piece, Piece))
+    return [one.id for each in drawn for one in walk(each) if isinstance(one, Group) and "inset" in one.classes]
 
 
 def _equations(

@@ -6,7 +6,7 @@ scene wishes for scales that none of them holds, writing goes overleaf, and afte
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
@@ -16,13 +16,17 @@ from graphkin.drawing.box import Box
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 
-__all__ = ["BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room", "with_less_mechanism"]
+__all__ = [
+    "BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room", "with_less_mechanism",
+    "with_less_polygons",
+]  # fmt: skip
 
 MARGIN, GUTTER, CAPTION = 10.0, 2.0, 5.5
 HEAD, BLOCK = 11.0, 16.0  # heading above, title block below
 FILL = 0.87  # of a panel, by the polygon with the finest scale
 AROUND_MECHANISM = (13.0, 15.0)  # mm for symbols and names
 FOR_DIMENSIONS = 14.0  # mm above and below a mechanism that gives room to the equations
+LEAST_POLYGON, LEAST_BESIDE = 40.0, 14.0  # mm: height of a polygon's panel, and of writing below both
 # Width of the mechanism's panel by that of the page: the usual one, others, and one with nothing below it.
 SPLITS, SLENDER = (0.483, 0.36, 0.6), 0.28
 # Height of a polygon's panel by that of the page: the usual one, and that beside which few readings have room.
@@ -50,6 +54,7 @@ class SheetPlan:
     readings: Box | None
     block: Box
     cost: float = 0.0
+    beside: Box | None = None  # room for writing below polygons that leave some of theirs
 
     @property
     def page(self) -> Box:
@@ -98,6 +103,25 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
             mechanism=Box(panel.left, panel.top, panel.right, panel.bottom - up),
             equations=Box(equations.left, equations.top - up, equations.right, equations.bottom),
         )
+
+
+def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[SheetPlan]:
+    """Plans whose polygons, so high (mm) with their names, leave room for writing below them."""
+    velocity, acceleration = plan.velocity, plan.acceleration
+    if plan.equations is None or velocity.left != acceleration.left:
+        return
+    spare = [
+        max(0.0, panel.height - max(LEAST_POLYGON, high))
+        for panel, high in zip((velocity, acceleration), heights, strict=True)
+    ]
+    for chosen in ((0,), (1,), (0, 1)):
+        less = [spare[i] if i in chosen else 0.0 for i in (0, 1)]
+        if not all(less[i] for i in chosen) or sum(less) < LEAST_BESIDE:
+            continue
+        upper = Box(velocity.left, velocity.top, velocity.right, velocity.bottom - less[0])
+        lower = Box(acceleration.left, acceleration.top - less[0], acceleration.right, acceleration.bottom - sum(less))
+        room = Box(lower.left, lower.bottom + GUTTER, lower.right, acceleration.bottom)
+        yield replace(plan, velocity=upper, acceleration=lower, beside=room)
 
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:

@@ -120,10 +120,13 @@ def divisions(sheet: Sheet, step: Step, act: Superposed) -> list[Division]:
         if len(act.found) == 1:
             one, two = (on_paper(row[0]) for row in act.apart)
             over, under = on_paper(abs(act.apart[0][0])), on_paper(float(difference(one, two)))
+            less, most = (written(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
+            whole = f"({less} + {most})" if one.startswith("-") != two.startswith("-") else f"({most} − {less})"
             if under == "0":  # the trials differ by less than a ruler shows
                 under = amount(abs(act.apart[0][0] - act.apart[1][0]), 3)
+                whole = written(under)
             added = quotient(product(over, size), under, figures(over, under))
-            part = f"{written(over)} / {written(under)}"
+            part = f"{written(over)} / {whole}"
         else:
             share = amount(abs((rate - low) / more), 4)
             added, part = product(share, size, carried=figures(share)), written(share)

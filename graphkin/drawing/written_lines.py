@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 
-from graphkin.construction.mechanism_acts import HeldStill, SpecialPoint, TrialPositions
+from graphkin.construction.mechanism_acts import HeldStill, PitchPoint, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import (
+    ByImage,
     ByRate,
     Carried,
+    ImageSeen,
     LaidOff,
     MeasuredRate,
     PlanDrawn,
     RateSeen,
     SeenByRate,
+    SeenFrom,
     Superposed,
 )
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import WrittenLine, rule_alone
-from graphkin.drawing.headings import number, term, written
+from graphkin.drawing.group_lines import GroupLines
+from graphkin.drawing.headings import number, term
 from graphkin.drawing.measured_lengths import lengths_measured
 from graphkin.drawing.sums import (
     bound,
-    divisions,
     factors_of,
     parts_by_rates,
     plan_sum,
     rate_sum,
     rule_sum,
-    trials_of,
 )
-from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, languages, say
-from graphkin.words.written import on_paper
+from graphkin.words import languages
 
 __all__ = ["by_rates", "written_lines"]
 
@@ -41,18 +41,31 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
     """Everything that is written to repeat a construction, in its order: what is measured on the mechanism, each vector
     equation with its products in numbers, and the angular rates where they are known."""
     spoken = languages(language)[0]
-    lines: list[WrittenLine] = [bound(line) for line in lengths_measured(sheet, letters)]
+    lines: list[WrittenLine] = []
     written: set[int] = set()
+    lengths = [*lengths_measured(sheet, letters)]
+    to_come = {s.act.point for s in sheet.steps if isinstance(s.act, SpecialPoint | PitchPoint)}
+    group = GroupLines(sheet, letters, spoken)
+    before: object = None
     for step in sheet.steps:
+        if step.diagram != "mechanism":  # what is measured from the mechanism stands there by now
+            ready = [one for one in lengths if to_come.isdisjoint(one[0])]
+            lines += [bound(line) for _, line in ready]
+            lengths = [one for one in lengths if one not in ready]
+        elif isinstance(step.act, SpecialPoint | PitchPoint):
+            to_come.discard(step.act.point)
         if step.equation is not None and step.equation not in written:
             written.add(step.equation)
             equation = sheet.equations[step.equation - 1]
             if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
                 lines += _shared_with_drivers(sheet, equation)
+            if isinstance(step.act, SeenFrom):
+                lines.append(group.seen_from(step.act))
             lines.append(equation)
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
+            lines += group.rates_of_contour(step, step.act)
         elif isinstance(step.act, RateSeen):
             lines.append(_seen(sheet, step.act, letters, language))
         elif isinstance(step.act, HeldStill) and step.act.gives in ("omega", "alpha"):
@@ -62,52 +75,20 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
         elif isinstance(step.act, PlanDrawn) and not step.act.known:
             lines.append(_off_plan(step.act, language))
         elif isinstance(step.act, SpecialPoint):
-            act = step.act
-            names = _in_dollars(act.point, *act.joints)
-            key = "written relative special" if act.base and not act.driven else "written special"
-            lines.append(say(Phrase(key, (*names, act.base, act.link)), spoken))
+            lines.append(group.special(step.act))
         elif isinstance(step.act, TrialPositions):
-            out, moved, rolled = (", ".join(n) for n in (step.act.left_out, step.act.driven, step.act.rolling))
-            if rolled:
-                lines.append(say(Phrase("written trial rolling", (moved, rolled)), spoken))
-            else:
-                lines.append(say(Phrase("written trial", (out, moved)), spoken))
+            lines.append(group.position(step, step.act))
         elif isinstance(step.act, Superposed):
-            lines += _trials(sheet, step, letters, spoken)
+            lines += group.trials(step, step.act)
+        elif isinstance(step.act, LaidOff):
+            said = group.carried_over(step, step.act)
+            lines += [said] if said else []
+        elif isinstance(step.act, ByImage | ImageSeen):
+            said = group.image(step, step.act)
+            last = isinstance(before, ByImage | ImageSeen) and lines and isinstance(lines[-1], str)
+            lines = [*lines[:-1], f"{lines[-1]};  {said}"] if said and last else [*lines, *filter(None, [said])]
+        before = step.act
     return lines
-
-
-def _in_dollars(*letters: str) -> tuple[str, ...]:
-    return tuple(f"${name}$" for name in letters)
-
-
-def _trials(sheet: Sheet, last: Step, letters: Letters, language: str) -> Iterator[str]:
-    """``I: ω_3 = 0.2 rad/s; left open at 8: 3.21 mm``, a line for each trial, and the proportional division."""
-    act = last.act
-    assert isinstance(act, Superposed)
-    units = {"omega": "rad/s", "alpha": "rad/s²", "v": f"{sheet.scene.units.rates.length}/s"}
-
-    push = f"{sheet.scene.units.rates.length}/s²"
-
-    def rates(found: Sequence[tuple[Symbol, float]]) -> str:
-        return ", ".join(
-            f"${letters.vector(s)}$ = {number(value, 5)} {units.get(s.kind, push)}" for s, value in found
-        )
-
-    frame = sheet.scene.frame.name
-    open_at = ", ".join(
-        f"{name} (${letters.direction(way, frame)}$)" for name, way in zip(act.closing, act.ways, strict=True)
-    )
-    for trial, row in zip(trials_of(sheet, last, act), act.apart, strict=True):
-        apart = ", ".join(written(on_paper(mm)) for mm in row)
-        numeral = "I" * trial.number if trial.number < 4 else str(trial.number)
-        args = numeral, rates(trial.assumed), open_at, apart
-        yield say(Phrase("written trial polygon", args), language)
-    sums = "; ".join(
-        bound(f"${letters.vector(s)}$ = {one.terms} = {one.value} {units.get(s.kind, push)}")
-        for (s, _), one in zip(act.found, divisions(sheet, last, act), strict=True)
-    )
-    yield say(Phrase("written superposed", (sums,)), language)
 
 
 def _measured(sheet: Sheet, act: MeasuredRate, letters: Letters, language: str) -> str:
@@ -145,7 +126,7 @@ def by_rates(sheet: Sheet, step: Step, act: ByRate | SeenByRate, letters: Letter
     for part in parts_by_rates(sheet, step.diagram, act):
         way = letters.direction(part.direction, sheet.scene.frame.name)
         rule = f"${letters.size(part.rule)}$ =\u00a0{bound(rule_sum(sheet, part.rule, step.diagram))}"
-        yield f"${letters.vector(part.symbol)}$ =\u00a0{rule},  {way}"
+        yield f"${letters.vector(part.symbol)}$ =\u00a0{rule},  ${way}$"
 
 
 def _off_plan(act: PlanDrawn, language: str) -> str:

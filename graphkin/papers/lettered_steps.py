@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 
@@ -22,14 +21,13 @@ from graphkin.construction.polygon_acts import (
     Superposed,
     TrialDrawn,
 )
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.sizes import Direction, Given, Size
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
-from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, pole
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.end_letters import EndLetters, Markup
 from graphkin.drawing.headings import number
-from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage
-from graphkin.drawing.polygon_points import NamedPoint, named_points
+from graphkin.drawing.polygon_on_page import SAME
 from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
 from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
@@ -37,14 +35,9 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper, pointing
 
-__all__ = ["LetteredSteps", "Markup"]
+__all__ = ["LetteredSteps"]
 
-EVERYWHERE = Box(-math.inf, -math.inf, math.inf, math.inf)
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
-
-
-class Markup(str):
-    """A symbol in the notation of `graphkin.drawing.text`."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +64,7 @@ class LetteredSteps:
         if isinstance(act, DirectionLine) and ray is not None:
             return self._line(step, act, ray)
         if isinstance(act, LinesMeet | Named):
-            letter = self._of(step.diagram, act.point)
+            letter = self._ends.of(step.diagram, act.point)
             key = "meet in" if isinstance(act, LinesMeet) else "name letter"
             return Phrase(key, (letter, act.point)) if letter else None
         if isinstance(act, Resultant | Asked) and vector is not None:
@@ -84,9 +77,9 @@ class LetteredSteps:
         if isinstance(act, TrialDrawn):
             return tried(self.sheet, step, act)
         if isinstance(act, Superposed):
-            return divided(self.sheet, step, act, self._of)
+            return divided(self.sheet, step, act, self._ends)
         if isinstance(act, ByRate | SeenByRate):
-            return laid_off_by_rate(self.sheet, step, act, self._of)
+            return laid_off_by_rate(self.sheet, step, act, self._ends)
         return self._by_image(step, act) if isinstance(act, ByImage) else PositionSteps(self.sheet).phrase(step)
 
     def _carried(self, step: Step, act: Carried) -> Phrase | None:
@@ -141,7 +134,7 @@ class LetteredSteps:
         """The division of a line, with its ratio, or the similar triangle."""
         refs = (act.point, *act.between)
         places = [self.sheet.points.get(PointRef(ref.point)) for ref in refs]
-        ends = [self._of(step.diagram, ref) for ref in refs]
+        ends = [self._ends.of(step.diagram, ref) for ref in refs]
         bars = [self.letters.point(ref.point) for ref in refs]
         if not act.on_line:
             if None in ends:
@@ -157,7 +150,7 @@ class LetteredSteps:
         unit = self.sheet.scales.length / self.sheet.scene.units.metres
         lengths = [number(abs(z - a) * unit, 4) for z in (at, b)]
         whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *lengths, number(abs(along), 4))
-        if None in ends or self._at(step, self._place(step.diagram, act.point)) is None:
+        if None in ends or self._at(step, self._ends.place(step.diagram, act.point)) is None:
             return Phrase(f"division {where}", (act.point, *act.between, act.link, *whole))
         names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])
         return Phrase(f"division lettered {where}", (*names, act.link, *whole))
@@ -177,26 +170,12 @@ class LetteredSteps:
     # -- letters -----------------------------------------------------------------------------------------------------
 
     @cached_property
-    def _points(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
-        diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
-        pages = {d: PolygonOnPage(self.sheet, d, self.letters, "en", EVERYWHERE, 0j, ()) for d in diagrams}
-        return {diagram: named_points(page) for diagram, page in pages.items()}
+    def _ends(self) -> EndLetters:
+        return EndLetters(self.sheet, self.letters)
 
     def _at(self, step: Step, at: complex | None) -> Markup | None:
         """The letter of a place of a polygon."""
-        points = self._points.get(step.diagram, ())
-        letter = next((p.letter for p in points if at is not None and abs(p.at - at) <= SAME), "")
-        return Markup(letter) if letter else None
-
-    def _place(self, diagram: DiagramName, ref: PointRef) -> complex | None:
-        return next((p.at for p in self._points.get(diagram, ()) if p.ref == ref), None)
-
-    def _of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
-        """The letter of an end point; what is at rest is the pole."""
-        if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
-            return Markup(pole(self.letters.convention, diagram))
-        letter = next((p.letter for p in self._points.get(diagram, ()) if p.ref == ref), "")
-        return Markup(letter) if letter else None
+        return self._ends.at(step.diagram, at)
 
     def _between(self, step: Step, vector: Vector | Aid) -> Markup | None:
         """A vector by the letters of its ends: ``pb``; None where the convention has no letters, and where it is so

@@ -16,19 +16,19 @@ from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.conventions import Letters
+from graphkin.drawing.end_letters import Markup, names_in_letters
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.measured_lengths import scale_of, times_scale, unit_of
 from graphkin.drawing.sums import laid_sum, parts_by_rates, plan_sum, rate_sum
 from graphkin.drawing.written_lines import by_rates
 from graphkin.papers.blocks import whole_sentence
-from graphkin.papers.lettered_steps import LetteredSteps, Markup
+from graphkin.papers.lettered_steps import LetteredSteps
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import MOST, in_markup, on_paper, pointing
 
 __all__ = ["Speaker"]
 
-_POINT_NAMES = re.compile(r"(?:[A-Z][a-z]*\d*)+")
 _RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
 _MARKED_RATE = re.compile("([ωα]_{)\x02([^\x03}]*)\x03}")
 _OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
@@ -75,10 +75,8 @@ class Speaker:
         if isinstance(thing, RateTimes | SquareOverRadius | OffCurves | RollingCurves):
             return self._marked(self.letters.size(thing))
         text = str(thing)
-        names = text.split(", ")
-        if all(map(_POINT_NAMES.fullmatch, names)):
-            return ", ".join(self._marked(self.bar(name)) for name in names)
-        return in_markup(text)
+        names = names_in_letters(self.letters, text)
+        return in_markup(text) if names is None else ", ".join(map(self._marked, names))
 
     def _marked(self, markup: str) -> str:
         return f"{_OPEN}{markup}{_CLOSE}"
@@ -90,10 +88,6 @@ class Speaker:
         if not link:
             return base
         return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
-
-    def bar(self, names: str) -> str:
-        """Letters of a bar as they are written: ``O_{4}A``."""
-        return "".join(self.letters.point(name) for name in re.findall(r"[A-Z][a-z]*\d*", names))
 
     # -- numbers -----------------------------------------------------------------------------------------------------
 
