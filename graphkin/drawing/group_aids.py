@@ -1,29 +1,49 @@
-"""What only leads on where a group is larger than a dyad: trial positions with the curve of the free end, lines to
-special points, trial polygons in line kinds of their own.
+"""What only leads on: compass arcs; and where a group is larger than a dyad, trial positions with the curve of the free
+end, lines to special points, trial polygons in line kinds of their own.
 """
 
 from __future__ import annotations
 
+import math
 from cmath import phase
 from collections.abc import Iterator
 
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.strokes import Aid, Bar, TrialCurve
+from graphkin.construction.strokes import Aid, Bar, CompassArc, TrialCurve
 from graphkin.drawing import strokes
 from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import page
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text
+from graphkin.drawing.primitives import Arc, Group, Line, Polyline, Primitive, Text
 from graphkin.drawing.symbols import arrowhead
 from graphkin.drawing.text import symbol
 
-__all__ = ["aids_in_mechanism", "aids_in_polygon"]
+__all__ = ["aids_in_mechanism", "aids_in_polygon", "compass_arcs"]
+
+COMPASS = 7.0  # mm of arc to either side of what it finds
 
 CROSS = 0.9  # mm: half a cross that marks a trial position
 NUMERALS = ("I", "II", "III", "IV", "V")
+
+
+def compass_arcs(here: MechanismOnPaper) -> Piece:
+    """Compass arcs near the points that they find, over a block that would leave but their ends."""
+    under: list[Primitive] = []
+    over: list[Primitive] = []
+    for step in here.sheet.steps:
+        if step.diagram != "mechanism":
+            continue
+        for arc in (s for s in step.strokes if isinstance(s, CompassArc)):
+            if arc.radius < 1e-9:
+                continue
+            middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
+            shape = Arc(page(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
+            covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
+            (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
+    return Piece({"construction": tuple(under), "mechanism": tuple(over)})
 
 
 def aids_in_mechanism(sheet: Sheet) -> Piece:

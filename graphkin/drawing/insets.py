@@ -4,7 +4,7 @@ overlap, drawn again larger."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import EXACT_NAME, DiagramName, Scales, Sheet
@@ -12,13 +12,14 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import page
 from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels
-from graphkin.drawing.polygon import polygon_piece, step_numbers
+from graphkin.drawing.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels, without
+from graphkin.drawing.polygon import polygon_piece, rings, step_numbers
 from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
 from graphkin.drawing.polygon_points import END_RADIUS
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
@@ -61,14 +62,19 @@ def polygon_with_insets(
     here = replace(bare, enlarged=tuple(enlarged))
     figure, pieces, crowd = _with_details(here, boxes[len(shown) :], boxes)
     crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
-    for size in (INSET, SMALL_INSET) if crowded else ():
-        more = [*boxes, *_boxes(bare, strip, len(crowded), size, boxes)]
-        if len(more) > len(boxes):
-            there = replace(bare, enlarged=(*enlarged, *crowded[: len(more) - len(boxes)]))
-            clearer = _with_details(there, more[len(shown) :], more)
+    if crowded:
+        there = replace(here, enlarged=(*enlarged, *crowded))
+        added = _in_the_room_left(there, figure, len(enlarged), strip, boxes)
+        if added:
+            here, figure, boxes, pieces = there, added[0], [*boxes, *added[2]], [*pieces, *added[1]]
+        else:
+            more = boxes + (
+                _boxes(bare, strip, len(crowded), INSET, boxes) or _boxes(bare, strip, len(crowded), SMALL_INSET, boxes)
+            )
+            there = replace(here, enlarged=there.enlarged[: len(more) - len(shown)])
+            clearer = _with_details(there, more[len(shown) :], more) if len(more) > len(boxes) else (figure, [], crowd)
             if len(clearer[2]) < len(crowd):
                 here, boxes, (figure, pieces, _) = there, more, clearer
-            break
     pieces = [*(_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
@@ -78,9 +84,11 @@ def polygon_with_insets(
 
 
 def _boxes(
-    bare: PolygonOnPage, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = ()
-) -> list[Box]:
-    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first."""
+    here: PolygonOnPage, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = (),
+    figure: Piece | None = None,
+) -> list[Box]:  # fmt: skip
+    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first; clear of the
+    polygon, or of a figure with its names."""
     found: list[Box] = []
     if count < 1:
         return found
@@ -88,8 +96,8 @@ def _boxes(
         many = per_row(strip.width) * int((strip.height + ROUNDING) // (INSET[1] + GUTTER))
         found = _in_rows(strip, many)[len(taken) : len(taken) + count]
     if count > len(found):
-        around = obstacles_of(polygon_piece(bare).drawn) + Obstacles(areas=(*taken, *found))
-        found += free_boxes(count - len(found), size, bare.panel, around)
+        around = obstacles_of((figure or polygon_piece(here)).drawn) + Obstacles(areas=(*taken, *found))
+        found += free_boxes(count - len(found), size, here.panel, around)
     return found
 
 
@@ -102,20 +110,48 @@ def _with_details(
     shown: set[str] = set()
     again: set[str] = set()  # with the letters that stand at other vectors too
     for number, (one, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
-        pieces.append(with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one))))
-        letters = {text.id for text in pieces[-1].layers["labels"] if isinstance(text, Text)}
-        again |= {id.replace("label-detail-", "label-") for id in letters}
-        shown |= {id.replace("label-detail-", "label-") for id in letters if one.crowd is not None or "-foot-" in id}
-    figure, crowd = with_crowd(_without(own, shown), here.panel, fences)
+        pieces.append(_named_detail(here, own, one, box, number))
+        letters = _shown_in(pieces[-1])
+        again |= letters
+        shown |= {id for id in letters if one.crowd is not None or id.startswith("label-foot-")}
+    own = replace(own, labels=tuple(label for label in own.labels if label.text.id not in shown))
+    figure, crowd = with_crowd(own, here.panel, fences)
     again &= {label.text.id for label in crowd}
-    if again:  # the inset has them
-        figure, crowd = with_crowd(_without(own, shown | again), here.panel, fences)
-    return figure, pieces, crowd
+    return without(figure, again), pieces, tuple(label for label in crowd if label.text.id not in again)
 
 
-def _without(piece: Piece, shown: Collection[str]) -> Piece:
-    """A piece without some labels."""
-    return replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in shown))
+def _in_the_room_left(
+    here: PolygonOnPage, figure: Piece, first: int, strip: Box | None, taken: Sequence[Box]
+) -> tuple[Piece, list[Piece], list[Box]] | None:
+    """A figure with its names, those left out that insets in boxes beside them have, the insets from the number
+    ``first`` on, and their boxes; None where there is no room for all of them and their rings."""
+    crowded, own = here.enlarged[first:], polygon_piece(here)
+    for size in (INSET, SMALL_INSET):
+        boxes = _boxes(here, strip, len(crowded), size, taken, figure)
+        if len(boxes) < len(crowded):
+            continue
+        pieces = [
+            _named_detail(here, own, one, box, number)
+            for number, (one, box) in enumerate(zip(crowded, boxes, strict=True), first + 1)
+        ]
+        figure = without(figure, set().union(*map(_shown_in, pieces)))
+        written = [text_box(thing) for thing in figure.layers["labels"] if isinstance(thing, Text)]
+        if any(one.strikes(here.at(one.centre), box) for one in crowded for box in written):
+            return None
+        construction = (*figure.layers["construction"], *list(rings(here))[first:])
+        return replace(figure, layers={**figure.layers, "construction": construction}), pieces, boxes
+    return None
+
+
+def _named_detail(here: PolygonOnPage, own: Piece, one: Detail, box: Box, number: int) -> Piece:
+    return with_labels(*_detail_inset(here, one, box, number, _points_in(own, here, one)))
+
+
+def _shown_in(inset: Piece) -> set[str]:
+    """The ids of the names in the figure that an inset has."""
+    return {
+        text.id.replace("label-detail-", "label-") for text in inset.layers["labels"] if isinstance(text, Text)
+    }
 
 
 def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, TypeVar
 
@@ -10,10 +11,10 @@ import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.meeting import Flags, Floats, Indices, Points
-from graphkin.drawing.primitives import Segment
+from graphkin.drawing.primitives import Line, Segment, Text
 from graphkin.plane import cross
 
-__all__ = ["LEADER_SPACE", "LOTS", "Columns", "LabelForms", "LabelPosition", "LabelPositions", "leader_forms"]
+__all__ = ["LEADER_SPACE", "LOTS", "Columns", "LabelForms", "LabelPosition", "LabelPositions", "Placed", "leader_forms"]
 
 LOTS = (0, 48, 240, 720)
 """First places of the lots in which places are judged, the cheapest first."""
@@ -75,6 +76,20 @@ class LabelPosition(NamedTuple):
         dx, dy = x2 - x1, y2 - y1
         off = abs(dx * ((top + bottom) / 2 - y1) - dy * ((left + right) / 2 - x1))
         return off <= (right - left) / 2 * abs(dy) + (bottom - top) / 2 * abs(dx)
+
+
+@dataclass(frozen=True)
+class Placed:
+    """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
+
+    ``clear`` is False where no place without a fault was found; ``keyed`` says that its key stands for it.
+    """
+
+    text: Text
+    box: Box
+    leader: Line | None = None
+    clear: bool = True
+    keyed: bool = False
 
 
 class Columns(NamedTuple):

@@ -10,7 +10,7 @@ point-feature label placement, ACM Trans. Graphics 14, 1995).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -21,12 +21,12 @@ from graphkin.drawing.font_widths import box_about
 from graphkin.drawing.held_positions import HeldPositions
 from graphkin.drawing.label_candidates import LED_RINGS, RINGS, Label, Mark
 from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
-from graphkin.drawing.label_positions import LabelPosition, LabelPositions
+from graphkin.drawing.label_positions import LabelPosition, LabelPositions, Placed
 from graphkin.drawing.meeting import Flags
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
 
-__all__ = ["Label", "Mark", "Placed", "Placement", "place"]
+__all__ = ["Label", "Mark", "Placement", "place"]
 
 # Rings looked at, one stage after the other, for the labels that have no place yet.
 _STAGES = (0, 2, 5, len(RINGS))
@@ -40,25 +40,10 @@ _LOOKED_AT = 120  # places of a label that is to make room
 _PUSHES, _PUSHED, _DROPPED = 40, 8.0, 60.0
 _MOVED = 2  # labels that make room for another at most
 _DISPENSABLE = 4  # the rank from which labels may be missing
-# What it costs, beside what places cost, that a key stands for a name, that a list tells a label by its ends, and that
-# it stands nowhere.
+# What it costs that a key stands for a name, that a list tells a label by its ends, that it stands nowhere.
 _KEY_COST, _TOLD_COST, _MISSING_COST = 10.0, 70.0, TANGLED
 _TOLD = -1  # in place of a request
 _NOTHING = Obstacles()
-
-
-@dataclass(frozen=True)
-class Placed:
-    """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
-
-    ``clear`` is False where no place without a fault was found; ``keyed`` says that its key stands for it.
-    """
-
-    text: Text
-    box: Box
-    leader: Line | None = None
-    clear: bool = True
-    keyed: bool = False
 
 
 def place(
@@ -235,7 +220,7 @@ class Placement:
         return position.cost > TANGLED and self.panel.tangled(position)
 
     def shorten(self) -> None:
-        """Put keys in place of names in a crowd: of those that stand badly, and of those in the way of such."""
+        """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
         having = [i for i, label in enumerate(self.labels) if label.key is not None]
         crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
         asked = self._ask_for_keys([i for i in having if i in crowded])
@@ -248,10 +233,6 @@ class Placement:
             self._ask_for_keys([i for i in having if i not in self.keys])
             for i in crowded:
                 self._make_room(i)
-        self._tell()
-
-    def _tell(self) -> None:
-        """Have labels that stand badly still, or are in the way of such, told by their ends."""
         self.telling = True
         self.stuck.clear()
         for i in sorted(self.crowded, key=lambda i: (bool(self.labels[i].between), -self._cost(i), i)):
@@ -298,7 +279,7 @@ class Placement:
         if here is not None:
             self.held.leave(i)
         chosen: dict[int, tuple[int, LabelPosition | None]] = {}
-        if self._tellable(i) and best > _TOLD_COST:
+        if self.telling and self.labels[i].between and best > _TOLD_COST:
             chosen, best = {i: (_TOLD, None)}, _TOLD_COST
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
         for form, extra in self._forms(i):
@@ -349,9 +330,6 @@ class Placement:
             for kind, belongs in ((self.told, form == _TOLD), (self.keyed, form not in (label, _TOLD))):
                 (kind.add if belongs else kind.discard)(label)
 
-    def _tellable(self, i: int) -> bool:
-        return self.telling and bool(self.labels[i].between)
-
     def _push(self, i: int) -> None:
         """Put a label where its leader crosses nothing, and whoever stands there elsewhere in the same way; everything
         back where that comes to no end, or costs more."""
@@ -397,7 +375,7 @@ class Placement:
             free = (met.sum(axis=0) == met[j]).nonzero()[0]
             costs = (positions.costs[free] + extra).tolist()
             found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
-        if self._tellable(j):
+        if self.telling and self.labels[j].between:
             found.append((_TOLD_COST, _TOLD, 0))
         return sorted(found)
 

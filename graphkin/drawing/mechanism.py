@@ -9,13 +9,12 @@ from cmath import phase, rect
 from collections.abc import Collection, Iterator
 
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.strokes import CompassArc
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.dimensioning import drawn_lengths
 from graphkin.drawing.given_loads import springs
-from graphkin.drawing.group_aids import aids_in_mechanism
+from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import (
     GUIDE_LENGTH,
@@ -27,7 +26,7 @@ from graphkin.drawing.mechanism_on_paper import (
     page,
 )
 from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
 from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
@@ -321,9 +320,6 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
         yield Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
 
 
-COMPASS = 7.0  # mm of arc to either side of what it finds
-
-
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
     """Draw the mechanism about the world's origin.
 
@@ -373,7 +369,7 @@ def _marks(here: MechanismOnPaper) -> Piece:
 def _without_lengths(here: MechanismOnPaper) -> Piece:
     clear = clearance(here)
     bodies = joined((links(here), springs(here)))
-    placed = joined((_construction(here), contact_marks(here), bodies, aids_in_mechanism(here.sheet)))
+    placed = joined((contact_marks(here), bodies, compass_arcs(here), aids_in_mechanism(here.sheet)))
     return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
 
 
@@ -383,18 +379,3 @@ def _with_lengths(
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
     lengths = drawn_lengths(here.sheet, drawn, panel, most)
     return None if lengths is None else joined((bare, lengths, link_names(here), _marks(here)))
-
-
-def _construction(here: MechanismOnPaper) -> Piece:
-    """Compass arcs near the points that they find."""
-    drawn = []
-    for step in here.sheet.steps:
-        if step.diagram != "mechanism":
-            continue
-        for arc in (s for s in step.strokes if isinstance(s, CompassArc)):
-            if arc.radius < 1e-9:
-                continue
-            middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
-            shape = Arc(page(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
-            drawn.append(Group((shape,), classes=("compass",), step=step.number))
-    return Piece({"construction": tuple(drawn)})

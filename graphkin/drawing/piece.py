@@ -7,20 +7,21 @@ step that drew the vector, and the name behind the key in a free place of the pa
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate
+from itertools import accumulate, zip_longest
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width, text_box
-from graphkin.drawing.labels import Label, Mark, Placed, Placement
+from graphkin.drawing.label_positions import Placed
+from graphkin.drawing.labels import Label, Mark, Placement
 from graphkin.drawing.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Scan, Text, walk
 from graphkin.drawing.text import rich
 
 __all__ = [
     "LAYERS", "Piece", "cut_to", "ink_box", "joined", "layer_groups", "middle_of", "moved", "moved_piece", "renamed",
-    "with_crowd", "with_labels",
+    "with_crowd", "with_labels", "without",
 ]  # fmt: skip
 
 # In the order of drawing.
@@ -70,6 +71,16 @@ def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Pi
     written, crowded = named(labels, panel, obstacles, piece.marks)
     layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
     return Piece(layers, (), piece.marks), crowded
+
+
+def without(piece: Piece, ids: Collection[str]) -> Piece:
+    """A piece without some of its written labels and their leaders."""
+    written = piece.layers["labels"]
+    kept = tuple(
+        one for one, after in zip_longest(written, written[1:])
+        if not any(isinstance(text, Text) and text.id in ids for text in (one, isinstance(one, Line) and after))
+    )  # fmt: skip
+    return replace(piece, layers={**piece.layers, "labels": kept}) if len(kept) < len(written) else piece
 
 
 def _most(count: int) -> int:

@@ -28,7 +28,7 @@ from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, v
 from graphkin.drawing.text import SMALLEST, plain, symbol
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["polygon_piece", "step_numbers"]
+__all__ = ["polygon_piece", "rings", "step_numbers"]
 
 SHADE, SHADED = 0.09, 12.0  # how much of its colour an image has within, from which size (mm) on
 BEYOND = 9.0  # mm: how far a direction line runs past the crossing
@@ -41,13 +41,14 @@ def polygon_piece(here: PolygonOnPage) -> Piece:
 
 def _construction(here: PolygonOnPage) -> Piece:
     """Everything thin, with its names."""
-    shapes = Piece({"construction": (*_rings(here), *_images(here))})
+    shapes = Piece({"construction": (*rings(here), *_images(here))})
     return joined((shapes, *aids_in_polygon(here), *_bars(here), *_rays(here)))
 
 
-def _rings(here: PolygonOnPage) -> Iterator[Primitive]:
+def rings(here: PolygonOnPage) -> Iterator[Group]:
+    """A ring about each place that is drawn again larger."""
     for number, d in enumerate(here.enlarged, 1):
-        ring = Circle(here.at(d.centre), d.radius + 0.8, stroke=strokes.CONSTRUCTION)
+        ring = Circle(here.at(d.centre), d.ring, stroke=strokes.CONSTRUCTION)
         yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd)
 
 

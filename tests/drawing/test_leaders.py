@@ -139,3 +139,9 @@ def test_a_letter_without_a_clear_place_stands_in_an_inset_with_a_ring_about_its
 @pytest.mark.parametrize("scene", ["boom-lifted", "toggle-press-force"])
 def test_letters_of_corners_stand_clear_of_the_forces_of_their_polygon(scene):
     assert crossed(scene, "forces") == 0
+
+
+def test_a_compass_arc_runs_over_the_block_whose_pin_it_finds_and_under_the_pin():
+    layers = {group.id: group for group in drawn("slider-crank-offset").figures["mechanism"].children}
+    order = [one.id or " ".join(one.classes) for one in layers["mechanism"].children]
+    assert order.index("link-3") < order.index("compass") < order.index("point-C")
