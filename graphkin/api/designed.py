@@ -96,10 +96,9 @@ class Designed(Result):
         from graphkin.drawing.synthesis import Confirmed
 
         task, metres = self.given.task, self.given.units.metres
-        spoken = self._language
 
         def row(key: str, asked: float, found: float, size: float, *args: object) -> Confirmed:
-            return Confirmed(say(Phrase(key, args), spoken), asked, found, abs(found - asked) <= CONFIRMS * size)
+            return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size)
 
         made: list[Confirmed] = []
         if isinstance(task, SliderCrankTask | GuideBarTask | CrankRockerTask | LimitsTask):
@@ -194,8 +193,8 @@ class Designed(Result):
                 for row in self.rows
             ],
             "confirmed": [
-                {"what": one.what, "asked": one.asked, "found": one.found if math.isfinite(one.found) else None,
-                 "ok": one.ok}
+                {"what": say(one.what, self._language), "asked": one.asked,
+                 "found": one.found if math.isfinite(one.found) else None, "ok": one.ok}
                 for one in self.confirmed
             ],
         }  # fmt: skip

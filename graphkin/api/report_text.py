@@ -146,7 +146,7 @@ def verdict(checked: Checked, language: str) -> str:
         said.append(Phrase("check passed" if whole else "rest agrees", (agree,)))
     elif not report.rows and not checked.over_turn:
         said.append(Phrase("nothing checked"))
-    return " ".join(say(phrase, language) for phrase in said)
+    return word("between sentences", language).join(say(phrase, language) for phrase in said)
 
 
 def contact_lines(checked: Checked, language: str) -> list[str]:

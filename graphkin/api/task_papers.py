@@ -83,9 +83,14 @@ def write_design_papers(
 def _notes(designed: Designed, language: str) -> list[Said]:
     """What a turn of the found mechanism confirms, and what else is said of it."""
     made: list[Said] = []
-    told = "; ".join(f"{one.what}: {number(one.found)}" for one in designed.confirmed if math.isfinite(one.found))
-    if told:
-        made.append(_each(language, lambda each: labelled("confirmed", told, each)))
+    known = [one for one in designed.confirmed if math.isfinite(one.found)]
+
+    def told(each: str) -> str:
+        mark = word("colon", each)
+        return word("list comma", each).join(f"{say(one.what, each)}{mark}{number(one.found)}" for one in known)
+
+    if known:
+        made.append(_each(language, lambda each: labelled("confirmed", told(each), each)))
     spoken = {each: designed.sentences(each) for each in languages(language)}
     return [*made, *_by_sentence(spoken)]
 

@@ -36,7 +36,7 @@ def design(
 ) -> None:
     """Find the lengths of a mechanism for what it shall do: drawn, measured, checked; write it as a scene."""
     from graphkin.api.designed import design as designing
-    from graphkin.words import word
+    from graphkin.words import say, word
 
     wanted = split_words(formats)
     with unsolvable_as_json(as_json, _refused):
@@ -54,7 +54,8 @@ def design(
         heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact")]
         print_table([*heads, ""], rows, right=(1, 2, 3))
         told = [
-            [one.what, f"{one.asked:.7g}", f"{one.found:.7g}", "ok" if one.ok else "off"] for one in designed.confirmed
+            [say(one.what, language), f"{one.asked:.7g}", f"{one.found:.7g}", "ok" if one.ok else "off"]
+            for one in designed.confirmed
         ]
         print_table([word("confirmed", language), word("given wish", language), "", ""], told, right=(1, 2))
         for sentence in designed.sentences(language):

@@ -34,6 +34,9 @@ from graphkin.scene.synthesis import (
 
 __all__ = ["construct"]
 
+DECIMALS = range(2, 9)
+"""Of lengths (mm) from which others are reckoned, until that is true as it is written."""
+
 
 def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXACT) -> DesignSheet:
     """Draw a task at a scale (units of length for one mm of paper).
@@ -305,10 +308,21 @@ def _(task: FunctionTask, paper: DesignPaper) -> None:
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
     B = paper.hand.point(A + paper.hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
     C = paper.hand.point(D + paper.hand.length(abs(rocker)) * math.copysign(1.0, rocker) * psi[0])
-    told = (across, upward, abs(crank), abs(rocker), one)
-    paper.do("design reckoned", tuple(map(paper.shown, told)),
+    paper.do("design reckoned", _reckoned(frame, one, across, upward),
             DesignPoint("B", B), DesignPoint("C", C))  # fmt: skip
     _chain(paper, (("A", A), ("B", B), ("C", C), ("D", D)), close="CD")
+
+
+def _reckoned(frame: float, one: float, across: float, upward: float) -> tuple[str, ...]:
+    """The coordinates of Q, crank and rocker, and the unit (mm): with as many decimals as the quotients want that are
+    to be true as they are written."""
+    lengths = [abs(frame * one / side) for side in (across, upward)]
+    for decimals in DECIMALS:
+        base, unit, *sides = (round(value, decimals) for value in (frame, one, across, upward))
+        told = [f"{length:.2f}" for length in lengths]
+        if all(f"{abs(base * unit / side):.2f}" == text for side, text in zip(sides, told, strict=True) if side):
+            break
+    return (*tuple(f"{side:.{decimals}f}" for side in sides), *told, f"{unit:.{decimals}f}")
 
 
 def _trials(

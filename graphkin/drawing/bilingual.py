@@ -47,7 +47,7 @@ def in_both(said: Sequence[str]) -> tuple[str, ...]:
     for tokens, block in blocks:
         if _tells(tokens) or any(token[0] == "$" for token in tokens) or block.size == 0:
             between = _between(one[i : block.a], other[k : block.b])
-            if between is None:
+            if between is None or _numbers(one[i : block.a]) != _numbers(other[k : block.b]):
                 return lines
             parts += [between, *tokens]
             i, k = block.a + block.size, block.b + block.size
@@ -58,6 +58,10 @@ def in_both(said: Sequence[str]) -> tuple[str, ...]:
 def _tells(tokens: Sequence[str]) -> bool:
     """Whether tokens hold a formula, a number with its unit, or one of many figures."""
     return _DATA.search("".join(tokens)) is not None
+
+
+def _numbers(tokens: Sequence[str]) -> list[str]:
+    return sorted(token for token in tokens if re.fullmatch(r"\d+\.\d+", token))
 
 
 def _between(one: Sequence[str], other: Sequence[str]) -> str | None:

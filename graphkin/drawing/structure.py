@@ -167,7 +167,8 @@ def _taken_apart(
     groups = [*reversed(structure.groups)]
     driven = [e for e in structure.elements if isinstance(e, Driven)]
     shown: list[tuple[str, Sequence[Element]]] = [(str(k), (g,)) for k, g in enumerate(groups, 1)]
-    shown.append((str(len(shown) + 1), driven))
+    if driven:  # a driver inside a group has no part of its own
+        shown.append((str(len(shown) + 1), driven))
     x, bottom = MARGIN, y
     for number, elements in shown:
         if x + PART[0] > WIDTH - MARGIN + 0.1:
@@ -194,7 +195,7 @@ def _about(elements: Sequence[Element], spoken: str) -> list[str]:
                 continue
             inner, outer = _joints(element)
             args = (
-                ", ".join(element.links), "" if isinstance(element, Cluster) else element.kind,
+                ", ".join(element.links), "" if isinstance(element, Cluster) else f" {element.kind}",
                 class_of(_order(element)), ", ".join(map(_named, inner)), ", ".join(map(_named, outer)),
             )  # fmt: skip
             said.append(say(Phrase("structure group", args), each))

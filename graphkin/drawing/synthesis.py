@@ -26,7 +26,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import number, term
+from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
@@ -35,6 +35,7 @@ from graphkin.drawing.text import rich, wrapped
 from graphkin.scene.synthesis import Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
+from graphkin.words.written import amount, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -62,7 +63,7 @@ _SYMBOLS = re.compile(r"(?:(?<![A-Za-z])(?:[A-Z](?:_\{\d\})?)+(?![a-z]))|[θψ]"
 class Confirmed:
     """What was asked beside what the found mechanism does, in words and numbers."""
 
-    what: str
+    what: Phrase
     asked: float
     found: float
     ok: bool
@@ -122,7 +123,7 @@ def design_figure(
         steps, y = step_lines(((step.number, step_words(step.phrase, each)) for step in sheet.steps), y)
         words += steps
         y += 2.0
-    table, y = _tables(design, rows, confirmed, language, y + 1.0)
+    table, y = _tables(design, sheet.scale, rows, confirmed, language, y + 1.0)
     told, y = note_lines(notes, language, y)
     words += told
     height = y + FOOT
@@ -267,23 +268,31 @@ def _arcs(stroke: DesignCircle, panel: Box) -> list[Primitive]:
 
 
 def _tables(
-    design: Design, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str, y: float
+    design: Design, scale: float, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str, y: float
 ) -> tuple[tuple[Primitive, ...], float]:
     """Lengths on paper, measured, exact; beside them what a turn confirms.  Also where the next line may stand."""
-    unit = design.units.length
+    unit, per = design.units.length, amount(scale, 12)
+
+    def read(mm: float) -> str:
+        return written(product(on_paper(mm), per))
+
     heads = [term("length found", language), term("on paper", language), f"{term('measured', language)} ({unit})",
              f"{term('exact', language)} ({unit})"]  # fmt: skip
     cells = [
-        [row.symbol if row.symbol == "ram" else f"${row.symbol}$", f"{row.on_paper:.2f} mm", number(row.measured),
+        [row.symbol if row.symbol == "ram" else f"${row.symbol}$", on_paper(row.on_paper), read(row.on_paper),
          number(row.exact)]
         for row in rows
     ]  # fmt: skip
     left, low = _grid(heads, cells, MARGIN, y, (26.0, 24.0, 30.0, 30.0))
     if not confirmed:
         return left, low + 2.0
-    told = [[one.what, number(one.asked), number(one.found) if math.isfinite(one.found) else "–"] for one in confirmed]
-    right, other = _grid([term("confirmed", language), term("given wish", language), ""], told, MARGIN + 112.0, y,
-                         (42.0, 18.0, 16.0))  # fmt: skip
+    told = [
+        [" ".join(dict.fromkeys(say(one.what, each) for each in languages(language))), number(one.asked),
+         number(one.found) if math.isfinite(one.found) else "–"]
+        for one in confirmed
+    ]  # fmt: skip
+    right, other = _grid([term("confirmed", language), term("given wish", language), term("by the turn", language)],
+                         told, MARGIN + 112.0, y, (34.0, 20.0, 22.0))  # fmt: skip
     return (*left, *right), max(low, other) + 2.0
 
 

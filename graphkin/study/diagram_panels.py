@@ -22,7 +22,8 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Look
 
-__all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantity_title", "signs_of", "unit_words"]
+__all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantity_title", "signs_of", "span_of",
+           "unit_words"]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -144,7 +145,7 @@ def panel_of(
     title = quantity_title(scene, quantity)
     points, others = (_points(axis, quantity, some) for some in (dots, laid_over))
     curve = np.stack([x, values], axis=1)
-    low, high = _span(curve, points, bounded=reach.full or quantity.is_position)
+    low, high = span_of(curve, points, bounded=reach.full or quantity.is_position)
     low, high = min([low, *others[:, 1].tolist()]), max([high, *others[:, 1].tolist()])
     span = low - MARGIN * (high - low), high + MARGIN * (high - low)
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
@@ -231,8 +232,8 @@ def _gain(axis: DriverAxis, quantity: Quantity) -> float:
     return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
 
 
-def _span(curve: Array, dots: Array, bounded: bool) -> tuple[float, float]:
-    """The range of values worth showing: all of it, but of rates that grow without bound near the ends of a limited
+def span_of(curve: Array, dots: Array, bounded: bool) -> tuple[float, float]:
+    """The range of values worth showing: all of it, but of what grows without bound near the ends of a limited
     motion what most of the way needs, and what is measured."""
     x, good = curve[np.isfinite(curve[:, 1])].T
     if not len(good):

@@ -31,6 +31,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.external_forces import load_edges
+from graphkin.study.diagram_panels import EMPTY, span_of
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
 from graphkin.study.quantities import Quantity, force_quantity
 from graphkin.words import Phrase, say, word
@@ -104,22 +105,24 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     unit = quantity.unit(scene).replace(" m", "·m")
     name = _written(scene, quantity.of)
     title = say(Phrase("diagram of", (name,)), language)
-    marks = _extremes(axis, quantity, found, values)
-    jumps = _jumps(found, values)
+    every = _extremes(axis, quantity, found, values)
+    marks = [(m, k) for k, m in enumerate(every) if not _unbounded(reach, found.offsets, values, m[2], m[1])]
+    jumps, away = _jumps(found, values), len(marks) < len(every)
+    headed = f"{name} ({unit}){(word('list comma', language) + word('unbounded', language)) * away}"
 
     def paint(figure: Figure) -> None:
         add_words(figure, *heading(scene, title, [], language))
         entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
-        entries += [(marker("up"), word("greatest", language)), (marker("down"), word("least", language))]
+        entries += [(marker("down" if k else "up"), word("least" if k else "greatest", language)) for _, k in marks]
         entries += [(look(LEAP), word("load jumps", language))] if jumps else []
         add_legend(figure, complex(LEFT, TOP - 9.5), entries)
         box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + TALL)
-        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit})", axis.title)
-        draw_course(axes, axis, found, values)
-        for k, (x, value, _) in enumerate(marks):
+        axes = add_panel(figure, box, quantity.name.replace("/", "-"), headed, axis.title)
+        draw_course(axes, axis, found, values, bounded=not away)
+        for (x, value, _), k in marks:
             axes.plot([x], [value], **marker("down" if k else "up"))
-        labels = [(number(value), (x, value)) for x, value, _ in marks]
-        add_labels(axes, labels, toward=[(math.pi / 2,), (-math.pi / 2,)][: len(labels)])
+        labels = [(number(value), (x, value)) for (x, value, _), _ in marks]
+        add_labels(axes, labels, toward=[(-math.pi / 2 if k else math.pi / 2,) for _, k in marks])
 
     return ChartPage(
         WIDTH, TOP + TALL + 20.0, paint, title=f"{quantity.name}: {title_of(scene, language)}", desc=quantity.name,
@@ -127,10 +130,10 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     )  # fmt: skip
 
 
-def draw_course(axes: Axes, axis: DriverAxis, found: ForceRun, values: Array) -> None:
-    """The curve over the driver, its jumps dashed."""
-    good = values[np.isfinite(values)]
-    low, high = (min(0.0, good.min()), max(0.0, good.max())) if len(good) else (0.0, 1.0)
+def draw_course(axes: Axes, axis: DriverAxis, found: ForceRun, values: Array, bounded: bool = True) -> None:
+    """The curve over the driver, its jumps dashed; of one without bound what most of the way needs."""
+    low, high = span_of(np.stack([found.x, values], axis=1), EMPTY, bounded)
+    low, high = min(0.0, low), max(0.0, high)
     room = MARGIN * (high - low) or 0.5
     axes.set_xlim(axis.left, axis.right)
     axes.set_ylim(low - room, high + room)
@@ -227,10 +230,13 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     unit, name = quantity.unit(scene), _written(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
     k = int(np.nanargmax(sizes))
+    away = _unbounded(reach, found.offsets, sizes, float(found.offsets[k]), float(sizes[k]))
     mark = "°" if isinstance(scene.drivers[0], AngleDriver) else f" {scene.units.length}"
     greatest = f"{number(float(sizes[k]))} {unit}", f"{number(float(found.x[k]), 4)}{mark}"
-    facts = [say(Phrase("greatest force at", greatest), language)]
-    whole = np.concatenate([vector[np.isfinite(vector)], [0j]])
+    facts = [f"{name}{word('colon', language)}{word('unbounded', language)}" if away
+             else say(Phrase("greatest force at", greatest), language)]  # fmt: skip
+    most = span_of(np.stack([found.x, sizes], axis=1), EMPTY, bounded=not away)[1]
+    whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
     middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
     ticks = axis.ticks[:-1] if reach.full else axis.ticks
@@ -253,11 +259,11 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
             axes.plot(vector[piece].real, vector[piece].imag, **look(SOLID_AND_DASHED[0]))
         for j in jumps:
             axes.plot(vector[j : j + 2].real, vector[j : j + 2].imag, **look(LEAP))
-        for j in at:
+        for j in (j for j in at if sizes[j] <= most):
             axes.plot([vector[j].real], [vector[j].imag], **marker("circle"))
         labels = [(f"{number(float(x), 4)}{mark if mark == '°' else ''}", (vector[j].real, vector[j].imag)) for x, j in
-                  zip(ticks, at, strict=True) if np.isfinite(vector[j])]  # fmt: skip
-        toward = [(float(np.angle(vector[j])),) for j in at if np.isfinite(vector[j])]
+                  zip(ticks, at, strict=True) if sizes[j] <= most]  # fmt: skip
+        toward = [(float(np.angle(vector[j])),) for j in at if sizes[j] <= most]
         add_labels(axes, labels, toward=toward)
 
     return ChartPage(

@@ -198,3 +198,27 @@ def test_every_length_on_the_figure_is_that_of_the_drawing_at_its_scale():
     assert rocker * sheet.scale == pytest.approx(60)
     across = abs((sheet.points["C1"] - sheet.points["D"]).real)
     assert any(math.isclose(abs(b - a), across, abs_tol=2e-3) for a, b in ends)
+
+
+def test_measured_lengths_on_the_figure_are_what_the_paper_and_the_scale_come_to():
+    made = graphkin.design("function-three-pairs")
+    told = re.sub(r"<[^>]*>", "|", made.figures["design"].content("svg").decode())
+    for row in made.rows:
+        read = f"{row.on_paper:.2f}"
+        assert f"|{read}|" in told
+        assert f"|{float(read) * made.sheet.scale:.6g}|" in told
+
+
+@pytest.mark.parametrize("pairs", [PAIRS["pairs"], [[40, 30], [70, 50], [110, 80]], [[60, 25], [80, 45], [130, 120]]])
+def test_quotients_of_the_diagram_of_reciprocals_are_true_as_written(pairs):
+    made = graphkin.design({"design": {**PAIRS, "pairs": pairs}})
+    said = " ".join(graphkin.words.say(step.phrase) for step in made.sheet.steps)
+    base = re.search(r"draw AD, ([\d.]+) mm", said)[1]
+    sums = re.findall(r"AD·([\d.]+)/(-?[\d.]+) = ([\d.]+) mm", said)
+    assert 2 == len(sums)
+    assert [length for _, _, length in sums] == [f"{abs(float(base) * float(a) / float(b)):.2f}" for a, b, _ in sums]
+
+
+def test_what_a_turn_confirms_is_named_in_both_languages():
+    svg = graphkin.design("crank-rocker-swing-32", language="both").figures["design"].content("svg").decode()
+    assert "swing 摆角" in re.sub(r"<[^>]*>", "", svg)

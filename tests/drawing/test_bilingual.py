@@ -70,3 +70,9 @@ def test_numbers_of_forces_stand_once_on_a_sheet_in_two_languages(figure):
 def test_a_unit_that_both_languages_write_alike_stands_once():
     figure = draw("sixbar-420rpm", language="both", figures=["mechanism"]).figures["mechanism"]
     assert any("dimensions in / 尺寸单位 m" in text for text in texts(figure))
+
+
+def test_a_sentence_with_words_between_many_numbers_stands_in_each_language():
+    one = "frame may be chosen from 46.2 to 73.3 mm; the greatest angle, 44.02°, is had with 71.5 mm (here 43.36°)"
+    other = "机架可在 46.2 到 73.3 mm 之间选取；取 71.5 mm 时最小传动角最大，为 44.02°（本设计为 43.36°）"
+    assert (one, other) == in_both((one, other))

@@ -56,3 +56,10 @@ def test_a_cam_stays_in_its_panel_and_its_rollers_own_turning_is_told() -> None:
     assert max(x for x, _ in corners) < 110.0  # left of the words
     assert "own turning" in words(root)
     assert "in a slot" not in words(root)
+
+
+def test_a_driver_inside_a_group_has_no_empty_panel() -> None:
+    root = drawn("scissor-lift", language="zh")
+    panels = [e for e in root.iter("{http://www.w3.org/2000/svg}g") if e.get("class") == "panel"]
+    assert 1 == len(panels)
+    assert "级杆组，" in words(root)

@@ -145,3 +145,14 @@ def test_diagrams_of_forces_bear_the_letters_of_the_convention(convention, writt
     scene = graphkin.read("shaper-forces").replace("sheet.convention", convention)
     page = graphkin.sweep(scene, positions=12, find=["F_5/6"]).figures["polar-F_5-6"]
     assert f"diagramof{written}" in re.sub(r"<[^>]+>|\s", "", page.content("svg").decode())
+
+
+def test_a_force_that_grows_without_bound_is_shown_where_most_of_the_way_lies(tmp_path):
+    graphkin.sweep("boom-lifted", positions=12, find=["F_2"], language="zh").write(tmp_path)
+    svg = (tmp_path / "diagram-F_2.svg").read_text(encoding="utf-8")
+    texts = re.findall(r"<text[^>]*? x=\"([\d.e+-]+)\" y=\"([\d.e+-]+)\"[^>]*>([^<]*)", svg)
+    height = float(re.search(r'viewBox="0 0 [\d.]+ ([\d.]+)"', svg)[1])
+    assert texts
+    assert [] == [text for _, y, text in texts if not 0.0 <= float(y) <= height]
+    assert "趋于无穷" in re.sub("<[^>]*>", "", svg)
+    assert "极大值" not in re.sub("<[^>]*>", "", svg)
