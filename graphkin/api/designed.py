@@ -228,7 +228,7 @@ class Designed(Result):
         made = [say(Phrase("turned bar", (name,)), language) for name in self.found.turned]
         made += [say(Phrase("other assembly", (one.what,)), language) for one in self.confirmed if not one.ok]
         if self.found.least is not None:
-            made.append(f"{word('least angle', language)}: {self.found.least:.2f}°")
+            made.append(f"{word('least angle', language)}{word('colon', language)}{self.found.least:.2f}°")
         free = self.choice
         if free is not None and self.found.least is not None and free.least > self.found.least + 0.005:
             numbers = f"{free.low:.5g}", f"{free.high:.5g}", self.given.units.length, f"{free.least:.2f}"

@@ -32,7 +32,7 @@ from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, 
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import rich, wrapped
-from graphkin.scene.synthesis import Design
+from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import amount, on_paper, product
@@ -177,9 +177,21 @@ def asked_words(design: Design, language: str) -> str:
             parts += [f"{number(a)}° → {number(b)}°" for a, b in value]
         elif key == "angles" and value and task.kind == "limits":
             parts.append(f"{number(value[0])}°, {number(value[1])}°")
+        elif isinstance(task, BarPositionsTask) and key == "positions":
+            for k, place in enumerate(task.positions, 1):
+                lies = f", {number(task.angles[k - 1])}°" if task.BC else f", $C_{{{k}}}$ {_at(place.C)}"
+                parts.append(f"$B_{{{k}}}$ {_at(place.B)}{lies}")
         elif isinstance(value, complex):
-            parts.append(f"{key} ({number(value.real)}, {number(value.imag)})")
-    return f"{term('given wish', language)}: {', '.join(parts)}" if parts else term("design figure", language)
+            parts.append(f"{key} {_at(value)}")
+    if not parts:
+        return term("design figure", language)
+    last = languages(language)[-1] if len(languages(language)) == 1 else "en"
+    mark = word("list semicolon" if getattr(task, "positions", None) else "list comma", last)
+    return f"{term('given wish', language)}{word('colon', last)}{mark.join(parts)}"
+
+
+def _at(z: complex) -> str:
+    return f"({number(z.real)}, {number(z.imag)})"
 
 
 def _spoken(text: str) -> str:

@@ -222,3 +222,14 @@ def test_quotients_of_the_diagram_of_reciprocals_are_true_as_written(pairs):
 def test_what_a_turn_confirms_is_named_in_both_languages():
     svg = graphkin.design("crank-rocker-swing-32", language="both").figures["design"].content("svg").decode()
     assert "swing 摆角" in re.sub(r"<[^>]*>", "", svg)
+
+
+@pytest.mark.parametrize(("design", "said"), [
+    (PLACES, "B1 (10, 60), 10°; B2 (35, 80), −8°; B3 (70, 82), −35°"),
+    ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [40, 30]}, {"B": [10, 5], "C": [50, 35.0]},
+                                               {"B": [30, 5], "C": [30, 55]}]},
+     "B1 (0, 0), C1 (40, 30); B2 (10, 5), C2 (50, 35); B3 (30, 5), C3 (30, 55)"),
+])  # fmt: skip
+def test_places_of_a_bar_that_are_given_stand_on_the_figure(design, said):
+    drawn = re.sub(r"<[^>]*>|\s", "", found(design).figures["design"].content("svg").decode())
+    assert said.replace(" ", "") in drawn
