@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 __all__ = [
-    "CallError", "GraphkinError", "Problem", "SceneError", "Unsolvable", "as_list", "as_text", "did_you_mean",
-    "printable",
+    "CallError", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list", "as_text",
+    "did_you_mean", "printable",
 ]  # fmt: skip
 
 PAGE = 4000
@@ -93,6 +93,12 @@ class Unsolvable(GraphkinError):
     def why(self) -> str:
         """The reason in one line."""
         return " ".join(str(p) for p in self.problems)
+
+
+class NoDriver(Unsolvable):
+    """The scene file names no driver of a mechanism that can move: a fault of the file (exit status 2)."""
+
+    exit_code = 2
 
 
 # C0 and C1 codes and DEL, ends of lines that are none on paper, and marks that turn the direction of writing

@@ -34,13 +34,15 @@ Sentence = tuple[str, Phrase]
 class Explained(Result, OfScene):
     """What a scene says: its units, links, joints, mobility, drivers, groups with their assembly, and what is asked.
 
-    ``why`` is the reason why it cannot move as it is written, "" where it can.
+    ``why`` is the reason why it cannot move as it is written, "" where it can; ``exit_code`` is the
+    status of the command.
     """
 
     mechanism: Mechanism
     sentences: tuple[Sentence, ...]
     why: str
     language: str
+    exit_code: int = 0
 
     @property
     def ok(self) -> bool:
@@ -131,7 +133,7 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
     known_words(language=language)
     given = as_scene(scene)
     sentences = [*_units(given), *_links(given), *_joints(given), *_mobility(given), *_drivers(given)]
-    why = ""
+    why, exit_code = "", 0
     try:
         from graphkin.solver import structure_of
 
@@ -141,12 +143,12 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
         if pointed:
             sentences.append(("explained groups", Phrase("explained pointed", (", ".join(pointed),))))
     except Unsolvable as error:
-        why = error.why
+        why, exit_code = error.why, error.exit_code
     sentences += _loads(given)
     sentences += [("explained asked", Phrase("explained asked all"))] if not given.find else [
         ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.find)),)))
     ]  # fmt: skip
-    return Explained(given, tuple(sentences), why, language or given.sheet.language)
+    return Explained(given, tuple(sentences), why, language or given.sheet.language, exit_code)
 
 
 def _units(scene: Mechanism) -> Iterator[Sentence]:

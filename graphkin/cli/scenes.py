@@ -114,7 +114,7 @@ def explain(scene: SceneArgument, lang: LangOption = None, as_json: JsonOption =
         tell(explained.text)
     if not explained.ok:
         complain(explained.why)
-        raise typer.Exit(3)
+        raise typer.Exit(explained.exit_code)
 
 
 def convert(

@@ -306,7 +306,8 @@ def _set(
             across.append(middle)
         x += cell.width + gap
     if rows == "table":
-        children += _grid([-0.8, lead - gap / 2, *across, x], [y + CLEAR for y in edges_down[1:]])
+        first = [lead - gap / 2] if line[0].is_term else []  # a line goes on with its sign at the head of the table
+        children += _grid([-0.8, *first, *across, x], [y + CLEAR for y in edges_down[1:]])
     return Written(tuple(children), x + 0.2, max(edges_down) - top + 0.55 * size)
 
 

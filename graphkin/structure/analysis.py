@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
@@ -37,6 +37,8 @@ def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
     if idle and mobility.value > found:
         named = f"links {', '.join(idle)}, marked" if len(idle) > 1 else f"link {idle[0]}, marked"
         wanted += f"; {named} redundant, is not counted: only a link that repeats what others hold may be marked so"
+    if found == 0:
+        wanted += ": write in the file [driver] with link, angle and omega, or with slide, travel and velocity"
     if mobility.value <= 0:
         wanted = "it is a structure, no driver can move it"
         loop = _sliding_loop(system)
@@ -113,6 +115,8 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     Unsolvable
         status "mobility": the number of drivers is not the mobility, or a part of the mechanism is held too much
         while another is free.
+    NoDriver
+        of that status: a mechanism that can move has no driver at all.
     """
     if isinstance(scene, Structure):
         return scene
@@ -120,7 +124,8 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     mobility = system.mobility()
     if mobility.value != len(scene.drivers):
         loose = _loose_ends(system) if mobility.value > len(scene.drivers) else ()
-        raise Unsolvable("mobility", _wrong_count(system, mobility), *loose)
+        refusal = Unsolvable if scene.drivers or mobility.value <= 0 else NoDriver
+        raise refusal("mobility", _wrong_count(system, mobility), *loose)
     equations = system.equations()
     unknowns = [sorted(e) for e in equations]
     given = match(unknowns)

@@ -255,10 +255,18 @@ NO_DRIVER = '[frame]\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nl
 def test_solve_prints_its_object_for_a_wrong_mobility_too(tmp_path):
     (tmp_path / "loose.toml").write_text(NO_DRIVER)
     done = run("solve", "loose.toml", "--json", cwd=tmp_path)
-    assert 3 == done.returncode
+    assert 2 == done.returncode
     data = json.loads(done.stdout)
     assert 1 == data["mobility"]
     assert "no driver" in data["positions"][0]["why"]
+
+
+@pytest.mark.parametrize("command", ["solve", "check", "draw", "centres", "sweep", "handout", "explain"])
+def test_a_file_without_a_driver_is_at_fault_and_told_what_to_write(command, tmp_path):
+    (tmp_path / "loose.toml").write_text(NO_DRIVER)
+    done = run(command, "loose.toml", cwd=tmp_path)
+    assert 2 == done.returncode
+    assert "[driver]" in done.stderr
 
 
 @pytest.mark.parametrize("command", ["solve", "check", "draw"])
