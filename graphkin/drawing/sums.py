@@ -6,6 +6,7 @@ same; its figures are those that the drawing carries.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -104,7 +105,7 @@ class Division:
 
 def trials_of(sheet: Sheet, step: Step, act: Superposed) -> list[TrialDrawn]:
     """The trial polygons from which a step divides."""
-    before = [s.act for s in sheet.steps if s.diagram == step.diagram and s.number < step.number]
+    before = [s.act for s in sheet.steps if s.number < step.number]
     return [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
 
 
@@ -150,8 +151,7 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
     """The numbers whose product a size is, as they are written to so many figures, those that a hand has measured as
     they stand on the sheet; none where no such rule is known."""
     if isinstance(rule, RollingCurves):
-        rates = [sheet.omega[name].value for name in rule.turning]
-        turning = amount(abs(rates[0] - sum(rates[1:])), most)
+        turning = amount(abs(_turning(sheet, "omega", rule.turning)), most)
         return turning, turning, amount(rule.radius / sheet.scene.units.metres, most)
     if not isinstance(rule, RateTimes):
         return ()
@@ -159,7 +159,8 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
     factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
     if factor is None:
         return ()
-    rate = (_rate_read(sheet, rule) if most == MOST else "") or amount(abs(_turning(sheet, rule)), most)
+    read = _rate_read(sheet, rule) if most == MOST else ""
+    rate = read or amount(abs(_turning(sheet, rule.rate, rule.links)), most)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
 
 
@@ -188,9 +189,9 @@ def _rate_read(sheet: Sheet, rule: RateTimes) -> str:
     return "" if divided is None else divided[2]
 
 
-def _turning(sheet: Sheet, rule: RateTimes) -> float:
+def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]) -> float:
     """How a link turns (rad/s, rad/s2), or the first of two as seen from the second."""
-    rates = [(sheet.omega if rule.rate == "omega" else sheet.alpha)[name].value for name in rule.links]
+    rates = [(sheet.omega if rate == "omega" else sheet.alpha)[name].value for name in links]
     turning = rates[0] - sum(rates[1:])
     return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
 
@@ -278,7 +279,7 @@ def parts_by_rates(sheet: Sheet, diagram: DiagramName, act: ByRate | SeenByRate)
         rules = [("an", inwards, "towards"), ("at", RateTimes("alpha", links, ends), way)]
     found = []
     for kind, rule, relation in rules:
-        rate = _turning(sheet, rule)
+        rate = _turning(sheet, rule.rate, links)
         span = arm * (-rate * rate if rule.square else 1j * rate) / sheet.scales.of(diagram)
         if span:
             symbol = replace(Symbol(kind, point, start), seen=held)

@@ -5,15 +5,26 @@ from __future__ import annotations
 import math
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from decimal import Decimal
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from graphkin import draw, read
 from graphkin.construction import draft, pencil
 from graphkin.construction.board import EXACT
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate, PlanDrawn, SeenByRate, Superposed
-from graphkin.construction.sizes import RateTimes
+from graphkin.construction.polygon_acts import (
+    ByRate,
+    LaidOff,
+    MeasuredRate,
+    PlanDrawn,
+    SeenByRate,
+    Superposed,
+    TrialDrawn,
+)
+from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
 from graphkin.construction.strokes import Aid
 from graphkin.drawing import sheet_room
 from graphkin.drawing.conventions import letters_of
@@ -21,15 +32,17 @@ from graphkin.drawing.measured_lengths import lengths_measured
 from graphkin.drawing.sums import (
     divisions,
     factors_of,
+    laid_sum,
     parts_by_rates,
     plan_sum,
     rate_sum,
     rule_sum,
+    trials_of,
 )
 from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
 from tests.drawn import drafted
 
@@ -229,3 +242,111 @@ def test_with_a_pencil_a_product_carries_the_figures_of_what_was_measured():
     sheet = draft(mechanism_of("whitworth"), instrument=pencil(Tools(), 0), room=sheet_room(mechanism_of("whitworth")))
     sizes = {str(a.symbol): a.size for a in (s.act for s in sheet.steps) if isinstance(a, LaidOff)}
     assert "4.538² × 156.6 = 3225 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")
+
+
+def superposed_twice():
+    """Two rates at once, from what three trials leave open: both times the way to what is right is along slopes."""
+    slopes, right = np.array([[2.0, -0.7], [0.4, 1.5]]), np.array([-3.2, 1.64])
+    tried = np.array([[-2.0, 4.0], [-5.0, 4.0], [-2.0, 6.0]])
+    names = [Symbol("omega", link=name) for name in "57"]
+    apart = tuple(tuple((slopes @ (row - right)).tolist()) for row in tried)
+    found = tuple(zip(names, right.tolist(), strict=True))
+    way, ref = Direction("along", ("A", "B")), PointRef("A")
+    act = Superposed(found, ("3", "4"), apart, (way, way), ((ref, ref),) * 2, ((), ()))
+    # others before them, of the same polygon and of the other
+    trials = [TrialDrawn(1, tuple((name, 9.0) for name in names))] * 2
+    trials += [TrialDrawn(i, tuple(zip(names, row, strict=True))) for i, row in enumerate(tried.tolist(), 1)]
+    last = SimpleNamespace(number=9, diagram="velocity", act=act)
+    steps = [SimpleNamespace(number=i, diagram="velocity", act=one) for i, one in enumerate(trials)]
+    later = SimpleNamespace(number=10, diagram="velocity", act=trials[0])
+    return SimpleNamespace(steps=[*steps, last, later], instrument=EXACT.name), last, right, tried
+
+
+def test_several_trial_rates_are_divided_each_by_its_part_of_its_step():
+    sheet, step, right, tried = superposed_twice()
+    assert tried.tolist() == [[value for _, value in act.assumed] for act in trials_of(sheet, step, step.act)]
+    for i, one in enumerate(divisions(sheet, step, step.act)):
+        share = (right[i] - tried[0][i]) / (tried[i + 1][i] - tried[0][i])
+        assert share == pytest.approx(float(one.part.replace("−", "-")), abs=0.00005)
+        assert right[i] == pytest.approx(eval(one.terms.replace("×", "*").replace("−", "-")), abs=0.0005)
+
+
+def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_do():
+    sheet, _ = drawn("contour-four-bars")
+    step = next(step for step in sheet.steps if isinstance(step.act, Superposed))
+    (one,) = divisions(sheet, step, replace(step.act, apart=((10.001,), (10.002,))))
+    assert "/ 0.001 ×" in one.terms
+
+
+def test_a_hand_writes_no_more_than_its_ruler_shows():
+    hand = pencil(Tools(), 1)
+    sheet = draft(mechanism_of("sixbar-guide-40deg"), instrument=hand)
+    measured = [told.split(" = ")[-1] for told in lengths_measured(sheet, letters_of(sheet, "chinese"))]
+    assert [] == [told for told in measured if "(" in told]
+    sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
+    steps = [step for step in sheet.steps if isinstance(step.act, Superposed)]
+    assert [] == [one for step in steps for one in divisions(sheet, step, step.act) if "(" in one.value]
+
+
+@pytest.mark.parametrize(("mm", "carried"), [(0.06, 1), (0.5, 2), (9.87, 3), (12.34, 4), (123.45, 4)])
+def test_a_rate_has_as_many_figures_as_the_line_that_it_is_read_from(mm, carried):
+    sheet, _ = drawn("sixbar-guide-40deg")
+    act = next(step.act for step in sheet.steps if isinstance(step.act, MeasuredRate))
+    rate = sheet.omega[act.link]
+    value = mm * sheet.scales.velocity / (rate.arm_mm * sheet.scales.length)
+    short = replace(sheet, omega={**sheet.omega, act.link: replace(rate, value=value, mm=mm)})
+    told = rate_sum(short, act, units=False).split(" = ")[1].split(" ")[0]
+    assert value == pytest.approx(float(told), rel=0.6 * 10.0 ** (1 - carried))
+    assert len(told.replace(".", "").lstrip("0")) <= carried
+
+
+def turning(sheet, **rates):
+    """The sheet of links that turn at other rates."""
+    return replace(sheet, omega={**sheet.omega, **{n: replace(sheet.omega[n], value=r) for n, r in rates.items()}})
+
+
+@pytest.mark.parametrize(("more", "told"), [(1e-15, 0.0), (1e-4, 7e-4), (-2.0, 14.0)])
+def test_two_links_turn_on_each_other_by_the_difference_of_their_rates(more, told):
+    sheet, _ = drawn("sixbar-guide-40deg")
+    one, other = (link.name for link in sheet.scene.links[:2])
+    seen = turning(sheet, **{one: 7.0, other: 7.0 * (1.0 + more)})
+    rate, *_ = factors_of(seen, RateTimes("omega", (one, other), sheet.scene.links[0].bar))
+    assert told == pytest.approx(float(rate), rel=1e-4, abs=1e-20)
+    once, again, radius = factors_of(seen, RollingCurves((one, other), (one, other), False, 0.025))
+    assert (once, 25.0) == (again, float(radius))
+    assert told == pytest.approx(float(once), rel=1e-4, abs=1e-20)
+
+
+def test_by_rates_that_are_nought_or_unknown_nothing_is_laid_off():
+    sheet, _ = drawn("sixbar-guide-40deg")
+    link = next(link for link in sheet.scene.links if len(link.points) > 1 and link.name in sheet.alpha)
+    start, end = map(PointRef, link.bar[:2])
+    act = ByRate(end, start, link.name)
+    (velocity,) = parts_by_rates(sheet, "velocity", act)
+    arm = (sheet.points[end] - sheet.points[start]) * sheet.scales.length / sheet.scales.velocity
+    assert 1j * sheet.omega[link.name].value * arm == pytest.approx(velocity.span)
+    assert [] == parts_by_rates(turning(sheet, **{link.name: 0.0}), "velocity", act)
+    assert [] == parts_by_rates(replace(sheet, alpha={}), "acceleration", act)
+
+
+def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length():
+    sheet, _ = drawn("sixbar-guide-40deg")
+    act = next(step.act for step in sheet.steps if isinstance(step.act, MeasuredRate) and step.act.rate == "omega")
+    rate, rng = sheet.omega[act.link], np.random.default_rng(5)
+    carried = []
+    for mm, arm in rng.uniform((10.0, 30.0), (180.0, 200.0), (60, 2)).tolist():
+        value = mm * sheet.scales.velocity / (arm * sheet.scales.length)
+        other = replace(sheet, omega={**sheet.omega, act.link: replace(rate, value=value, mm=mm, arm_mm=arm)})
+        quotient, told = rate_sum(other, replace(act, bar=("?", "!")), units=False).split(" = ")
+        over, under = quotient.split(" / ")
+        assert float(f"{value:.4g}") == float(told.split(" ")[0])
+        assert float(f"{float(over) / float(under):.4g}") == float(told.split(" ")[0])
+        carried.append(len(over.replace(".", "")))
+    assert 45 < carried.count(5)  # one more than the length on paper has
+    sheet = replace(sheet, scales=replace(sheet.scales, velocity=0.0025))
+    for mm in rng.uniform(100.0, 180.0, 200).tolist():
+        product, length = laid_sum(sheet, "velocity", None, mm)
+        value, _, per, _, told = re.match(r"([\d.]+) (\S+) ÷ ([\d.]+) (\S+) = ([\d.]+) mm", length).groups()
+        assert product.startswith(value)
+        assert f"{mm:.2f}" == told
+        assert abs(Decimal(value) / Decimal(per) - Decimal(told)) <= Decimal("0.005")
