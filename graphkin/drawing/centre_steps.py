@@ -86,7 +86,7 @@ def _page(
 
 def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, panel: Box) -> Piece:
     """One centre with its two lines and the centres through which they lead, in a frame."""
-    through = {pair for line in centre.lines for pair in line.through if not isinstance(pair, str)}
+    through = dict.fromkeys(pair for line in centre.lines for pair in line.through if not isinstance(pair, str))
     known = (centres.of(*pair) for pair in through)
     table = {c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre}
     alone = replace(centres, table=table)

@@ -68,7 +68,12 @@ LineToSet = Callable[[float, float], Written]
 
 def line_to_set(line: WrittenLine, sheet: Sheet, letters: Letters, language: str) -> LineToSet:
     """A line that is set once for each width and size, however many places are tried for it."""
-    return cache(partial(_write_line, line, sheet, letters, language))
+    short = _short(sheet, line, letters) if isinstance(line, Equation) else line
+    if short is not None:
+        return cache(lambda width, size: _sentence(short, size, width))
+    assert isinstance(line, Equation)
+    cells = cache(partial(_cells, sheet, line, letters))
+    return cache(lambda width, size: _written_cells(cells(size), letters, language, width, size))
 
 
 def equations_in_room(
@@ -126,12 +131,6 @@ def _in_columns(blocks: Iterable[Written], wide: float, height: float, columns: 
     return placed
 
 
-def _write_line(line: WrittenLine, sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> Written:
-    if isinstance(line, Equation):
-        return write_equation(sheet, line, letters, language, width, size)
-    return _sentence(line, size, width)
-
-
 def _sentence(markup: str, size: float, width: float) -> Written:
     """Words with symbols, in as many lines as they take."""
     lines = wrapped(markup, size, width)
@@ -143,10 +142,7 @@ def write_equation(
     sheet: Sheet, equation: Equation, letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
     """One equation, at most ``width`` mm wide: long ones are broken."""
-    short = _short(sheet, equation, letters)
-    if short is not None:
-        return _sentence(short, size, width)
-    return _written_cells(_cells(sheet, equation, letters, size), letters, language, width, size)
+    return line_to_set(equation, sheet, letters, language)(width, size)
 
 
 def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: float, size: float) -> Written:

@@ -87,9 +87,9 @@ def runs_width(runs: tuple[Run, ...]) -> float:
 
 def start_runs(text: Text) -> tuple[Run, ...]:
     """The runs of a text on the page: x and y become page coordinates (mm) of the start of each baseline."""
-    share = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
-    shift = share * runs_width(text.runs)
-    x, y = text.at.real - shift, text.at.imag
+    x, y = text.at.real, text.at.imag
+    if text.anchor != "start":
+        x -= (0.5 if text.anchor == "middle" else 1.0) * runs_width(text.runs)
     return tuple(Run(run.text, x + run.x, y + run.y, run.size, run.italic, run.bold) for run in text.runs)
 
 

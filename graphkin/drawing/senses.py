@@ -65,7 +65,7 @@ class SenseClearance:
         ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
         start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
         off = _off(np.array(centres, dtype=complex), start, along)
-        close = (off < reach).any(axis=0)
+        close = (off < reach**2).any(axis=0)
         return start[close], along[close]
 
 
@@ -73,16 +73,19 @@ def _distance(points: Points, segments: tuple[Points, Points]) -> Floats:
     """Least distance of each point to any segment."""
     if not len(segments[0]):
         return np.full(points.shape, np.inf)
-    least: Floats = _off(points, *segments).min(axis=-1)
+    least: Floats = np.sqrt(_off(points, *segments).min(axis=-1))
     return least
 
 
 def _off(points: Points, start: Points, along: Points) -> Floats:
-    """Distance of each point to each segment."""
-    length2 = np.maximum(np.abs(along) ** 2, 1e-18)
-    off = points[..., None] - start
-    share = np.clip((off * along.conjugate()).real / length2, 0.0, 1.0)
-    far: Floats = np.abs(off - share * along)
+    """Square of the distance of each point to each segment."""
+    # copies lie side by side in memory, which halves the time
+    way_x, way_y = along.real.copy(), along.imag.copy()
+    x, y = points.real[..., None] - start.real.copy(), points.imag[..., None] - start.imag.copy()
+    share = np.clip((x * way_x + y * way_y) / np.maximum(way_x**2 + way_y**2, 1e-18), 0.0, 1.0)
+    x -= share * way_x
+    y -= share * way_y
+    far: Floats = x * x + y * y
     return far
 
 
