@@ -78,7 +78,11 @@ def polygon_with_insets(
     pieces = [*(_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
-    arrows = [(step, here.drawn(vector)) for step, vector in here.in_order() if step not in keyed]
+    names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
+    arrows = [
+        (step, here.drawn(vector), names.get(f"label-{vector.symbol.id}"))
+        for step, vector in here.in_order() if step not in keyed
+    ]  # fmt: skip
     numbers = Piece({"labels": step_numbers(arrows, panel, around)})
     return joined((figure, numbers, *pieces)), senses[len(shown) :]
 

@@ -206,29 +206,35 @@ def _name(
 LEAST = 5.0  # mm: a shorter vector has no room for a number
 OFF = 0.9  # mm from the vector to its number
 CLEAR = 0.35  # mm around a number
-SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84))  # along the vector, in the order of liking
+BESIDE = 0.5  # mm from a name to the number beside it
+# Along the vector, in the order of liking.
+SHARES = np.array((0.5, 0.38, 0.62, 0.26, 0.74, 0.16, 0.84, 0.44, 0.56, 0.32, 0.68, 0.2, 0.8, 0.1, 0.9))
 
 
-def step_numbers(arrows: Sequence[tuple[int, Segment]], panel: Box, around: Obstacles) -> tuple[Text, ...]:
-    """A number in brackets beside each arrow for which there is room.
+def step_numbers(
+    arrows: Sequence[tuple[int, Segment, Box | None]], panel: Box, around: Obstacles
+) -> tuple[Text, ...]:
+    """A number in brackets beside each arrow, or beside its name, where there is room.
 
     Parameters
     ----------
-    arrows : number of the step, tail and tip (page points, mm)
+    arrows : number of the step, tail and tip (page points, mm), and the box of the name
     around : everything drawn and written
     """
-    shown = [(step, ends) for step, ends in arrows if abs(ends[1] - ends[0]) >= LEAST]
+    shown = [arrow for arrow in arrows if abs(arrow[1][1] - arrow[1][0]) >= LEAST]
     if not shown:
         return ()
-    texts = [step_number(step) for step, _ in shown]
+    texts = [step_number(step) for step, _, _ in shown]
     boxes = [text_box(text) for text in texts]
     half = np.array([complex(box.width, box.height) / 2 for box in boxes])
-    tails, tips = (np.array([ends[k] for _, ends in shown]) for k in (0, 1))
+    tails, tips = (np.array([ends[k] for _, ends, _ in shown]) for k in (0, 1))
     way = (tips - tails) / np.abs(tips - tails)
     off = OFF + np.abs(way.imag) * half.real + np.abs(way.real) * half.imag
     sides = np.array((1.0, -1.0))
     along = tails[:, None] + (tips - tails)[:, None] * SHARES
-    places = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
+    by_vectors = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
+    by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
+    places = np.hstack((by_vectors, np.array(by_names)))
     reach = half[:, None] + CLEAR * (1 + 1j)
     free = _inside(places, reach, panel) & ~_covered(places, reach, around)
     found: list[Text] = []
@@ -243,6 +249,14 @@ def step_numbers(arrows: Sequence[tuple[int, Segment]], panel: Box, around: Obst
                 found.append(replace(text, at=at))
                 break
     return tuple(found)
+
+
+def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
+    """Places for the middle of a number beside a name, nan of none."""
+    if name is None:
+        return (complex(np.nan, np.nan),) * 4
+    middle, x, y = name.centre, name.width / 2 + BESIDE + half.real, name.height / 2 + BESIDE + half.imag
+    return middle - x, middle + x, middle + 1j * y, middle - 1j * y
 
 
 def step_number(step: int, colour: str = strokes.GREY) -> Text:

@@ -145,3 +145,11 @@ def test_a_compass_arc_runs_over_the_block_whose_pin_it_finds_and_under_the_pin(
     layers = {group.id: group for group in drawn("slider-crank-offset").figures["mechanism"].children}
     order = [one.id or " ".join(one.classes) for one in layers["mechanism"].children]
     assert order.index("link-3") < order.index("compass") < order.index("point-C")
+
+
+def test_a_number_without_room_at_its_vector_stands_beside_its_name():
+    texts = [thing for thing in walk(drawn("disc-on-disc").figures["acceleration"].children) if isinstance(thing, Text)]
+    (number,) = [text_box(text) for text in texts if text.string == "(28)"]
+    (name,) = [text_box(text) for text in texts if text.id == "label-a_B"]
+    assert max(number.left - name.right, name.left - number.right, number.top - name.bottom,
+               name.top - number.bottom) == pytest.approx(0.5)  # fmt: skip
