@@ -49,14 +49,20 @@ class EndLetters:
 
     def place(self, diagram: DiagramName, ref: PointRef) -> complex | None:
         """Where an end point lies (mm from the pole)."""
-        return next((p.at for p in self._points.get(diagram, ()) if p.ref == ref), None)
+        point = self._named(diagram, ref)
+        return None if point is None else point.at
 
     def of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
         """The letter of an end point; what is at rest is the pole."""
         if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
             return Markup(pole(self.letters.convention, diagram))
-        letter = next((p.letter for p in self._points.get(diagram, ()) if p.ref == ref), "")
-        return Markup(letter) if letter else None
+        point = self._named(diagram, ref)
+        return None if point is None else Markup(point.letter)
+
+    def _named(self, diagram: DiagramName, ref: PointRef) -> NamedPoint | None:
+        # where coincident points are told apart the point alone is that of its block
+        refs = (ref, PointRef(ref.point)) if self.letters.blocks.get(ref.point) == ref.link else (ref,)
+        return next((p for one in refs for p in self._points.get(diagram, ()) if p.ref == one), None)
 
     @cached_property
     def _points(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:

@@ -30,7 +30,7 @@ WAYS = ((3.2, 1), (2.9, 1), (3.2, 2), (2.9, 2), (2.6, 1), (2.6, 2))
 LEAST_LETTERS = min(size for size, _ in WAYS)
 LEAST_ROW = 2.3  # mm, of the letters in rows: below it a square over an index runs into it
 CLEAR, UNDERLINE = 0.55, 0.6  # mm between two rows, and between two lines under a term
-GAP = 1.3  # mm beside a column of terms
+GAP, BESIDE = 1.3, 0.2  # mm beside a column of terms, and beside the last
 COLUMN_GAP = 5.0  # mm between two columns of equations
 WIDE = 150.0  # mm: a page that holds two of them
 
@@ -152,7 +152,7 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
     lead = max((runs_width(h) for h in heads), default=0.0) + (2 * GAP if heads else 0.0)
     children: list[Primitive] = []
     y = most = 0.0
-    for line in _lines(cells, width - lead, gap):
+    for line in _lines(cells, width - lead - BESIDE, gap):
         block = _set(line, heads, lead, gap, letters, size, y)
         children += block.children
         y += block.height
@@ -304,7 +304,7 @@ def _set(
     if rows == "table":
         first = [lead - gap / 2] if line[0].is_term else []  # a line goes on with its sign at the head of the table
         children += _grid([-0.8, *first, *across, x], [y + CLEAR for y in edges_down[1:]])
-    return Written(tuple(children), x + 0.2, max(edges_down) - top + 0.55 * size)
+    return Written(tuple(children), x + BESIDE, max(edges_down) - top + 0.55 * size)
 
 
 def _baselines(

@@ -104,7 +104,8 @@ def fitted(markup: str, size: float, width: float, bold: bool = False, least: fl
 
 
 def wrapped(markup: str, size: float, width: float, bold: bool = False) -> list[tuple[Run, ...]]:
-    """Words with symbols set in lines of a width (mm), broken at spaces and between Chinese characters."""
+    """Words with symbols set in lines of a width (mm), broken at spaces, between Chinese characters and after
+    their commas."""
     pieces = _pieces(markup)
     lines: list[tuple[Run, ...]] = []
     start = 0
@@ -137,9 +138,11 @@ def _pieces(markup: str) -> Sequence[str]:
     word, inside = "", False
     inner = {i for found in _UNBROKEN.finditer(markup) for i in range(found.start() + 1, found.end())}
     for i, character in enumerate(markup):
-        # no line begins with a mark that closes or ends with one that opens
-        wide = ord(character) > 0x2E7F and character not in "，。；：、）》”" and word[-1:] not in ("（", "《", "“")
-        if not inside and i not in inner and (character == " " or wide):
+        # no line begins with a mark that closes or ends with one that opens; after a comma of theirs it may break
+        closes, opened = character in "，。；：、）》”", word[-1:] in ("（", "《", "“")
+        wide = ord(character) > 0x2E7F and not closes and not opened
+        after = word[-1:] in ("，", "。", "；", "：", "、") and not closes
+        if not inside and i not in inner and (character == " " or wide or after):
             if word:
                 pieces.append(word)
             word = ""

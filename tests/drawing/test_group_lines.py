@@ -12,8 +12,10 @@ from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.sheet import Equation
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.end_letters import EndLetters
+from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
+from graphkin.drawing.text import wrapped
 from graphkin.drawing.written_lines import written_lines
 from graphkin.scene.symbol import PointRef
 from tests.drawn import drafted
@@ -153,3 +155,17 @@ def test_panels_that_leave_room_lie_clear_of_what_is_written_there(name):
 
 def test_writing_that_no_panel_needs_room_for_goes_on_one_page():
     assert ["sheet"] == [name for name in draw("four-bar-coupler-point").figures if name.startswith("sheet")]
+
+
+def test_an_open_end_on_a_block_is_told_by_its_letter():
+    # a pin of link 5 in the block 7 of a guide on 6: the block has a letter, c7, that bears its index
+    sheet, _ = drafted("loader-cylinder")
+    ends = EndLetters(sheet, letters_of(sheet, "chinese"))
+    assert "e_{7}" == ends.of("velocity", PointRef("E", "7")) == ends.of("velocity", PointRef("E"))
+    assert "e_{6}" == ends.of("velocity", PointRef("E", "6"))
+
+
+def test_chinese_lists_break_after_their_commas():
+    lines = wrapped("与 x 轴夹角取 147.72°、151.06°、154.41°、157.75°、161.09°", 2.6, 30.0)
+    assert all(runs_width(line) <= 30.0 for line in lines)
+    assert not any("".join(run.text for run in line).startswith("、") for line in lines)
