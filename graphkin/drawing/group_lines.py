@@ -230,15 +230,20 @@ class GroupLines:
         return self._say(Phrase(key, (act.symbol, told, rule, slip)))
 
     def image(self, step: Step, act: ByImage | ImageSeen) -> str | None:
-        """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; None where these have no letters."""
+        """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
+        the vector with what is similar on the link, None for one that is not drawn."""
         if isinstance(act, ImageSeen):
             return self._say(Phrase("written image seen", (act.vector, act.link)))
         refs = (*act.between, act.point)
         ends = [self._ends.of(step.diagram, ref) for ref in refs]
-        if None in ends:
-            return None
-        a, b, c = (str(end) for end in ends)
         one, two, three = (self.letters.point(ref.point) for ref in refs)
+        if None in ends:
+            vector = Symbol("v" if step.diagram == "velocity" else "a", act.point)
+            if self.letters.convention != "us" or vector not in self.sheet.vectors(step.diagram):
+                return None
+            alike = f"${one}{three}$ : ${one}{two}$" if act.on_line else f"△${one}{two}{three}$"
+            return bound(self._say(Phrase("written image named", (vector, act.link, _Set(alike)))))
+        a, b, c = (str(end) for end in ends)
         if act.on_line:
             return bound(f"${a}{c}$ : ${a}{b}$ = ${one}{three}$ : ${one}{two}$")
         return bound(f"△${a}{b}{c}$ ∽ △${one}{two}{three}$")

@@ -350,3 +350,17 @@ def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length(
         assert product.startswith(value)
         assert f"{mm:.2f}" == told
         assert abs(Decimal(value) / Decimal(per) - Decimal(told)) <= Decimal("0.005")
+
+
+@pytest.mark.parametrize(
+    ("said", "name", "language"),
+    [
+        ("$V_{S2}$ by the image of link 2: $BS_{2}$ : $BC$", "slider-crank-offset", "en"),
+        ("$V_{P}$ by the image of link 2: △$BCP$", "four-bar-coupler-point", "en"),
+        ("由构件 2 的影像得 $A_{P}$：△$BCP$", "four-bar-coupler-point", "zh"),
+    ],
+)
+def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, name, language):
+    sheet, _ = drafted(name)
+    lines = written_lines(sheet, letters_of(sheet, "us"), language)
+    assert said in [line.replace("\u00a0", " ") for line in lines if isinstance(line, str)]
