@@ -68,7 +68,7 @@ class Plot:
         made.ends = {name: dict(found) for name, found in self.ends.items()}
         made.rates = {name: dict(found) for name, found in self.rates.items()}
         made.drawn = {name: dict(found) for name, found in self.drawn.items()}
-        made.tried, made.believed = dict(self.tried), set(self.believed)
+        made.given, made.tried, made.believed = dict(self.given), dict(self.tried), set(self.believed)
         made.special, made.places, made.links = set(self.special), dict(self.places), dict(self.links)
         made.pitch_points = dict(self.pitch_points)
         made.ties = dict(self.ties)

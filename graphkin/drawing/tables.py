@@ -86,7 +86,7 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
 
 def _alike(one: TableRow, two: TableRow) -> bool:
     a, b = one.reading, two.reading
-    return a.symbol.kind == b.symbol.kind and a.value == b.value and a.on_paper == b.on_paper != 0.0
+    return a.symbol.kind == b.symbol.kind and a.value == b.value and a.on_paper == b.on_paper
 
 
 def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:

@@ -10,7 +10,7 @@ import pytest
 import graphkin
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import JUDGED
-from graphkin.checking.uncertainty import COVERAGE, predict
+from graphkin.checking.uncertainty import COVERAGE, advise, predict
 from graphkin.construction import execute, pencil, plan
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.sheet import Pose
@@ -116,6 +116,18 @@ def test_the_advice_names_a_step_and_a_figure_that_helps():
     assert advice.figure in ("length", "velocity", "acceleration")
     assert 0 < advice.share <= 1
     assert advice.gain < 1
+
+
+@pytest.mark.parametrize(("part", "told"), [(0.25, True), (0.5, False)])
+def test_no_advice_is_given_on_what_is_not_told_from_nothing(part, told):
+    what = plan(mechanism_of(SIXBAR), find=())
+    readings = read_off(execute(what))
+    predicted = dict(predict(what, "pencil", Tools(), together=False))
+    largest = max((r for r in readings if r.symbol.kind == "v"), key=lambda r: abs(r.value))
+    one = replace(predicted[largest.symbol], deviation=part * abs(largest.value))
+    advice = advise(what, "pencil", Tools(), readings, {**predicted, largest.symbol: one})
+    assert advice is not None
+    assert told == (advice.symbol == largest.symbol)
 
 
 def test_an_acute_crossing_is_said():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import copy
 import math
 from typing import Any
 
@@ -12,9 +13,9 @@ import graphkin
 from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, group_polygons, plan
-from graphkin.construction.board import nudged
+from graphkin.construction.board import EXACT, nudged
 from graphkin.construction.contours import Joint, contours
-from graphkin.construction.execution import Redrawn
+from graphkin.construction.execution import Redrawn, positioned
 from graphkin.construction.polygon_acts import (
     Carried,
     DirectionLine,
@@ -169,6 +170,12 @@ def test_any_two_links_of_a_group_have_terms_of_coriolis_on_the_board_as_in_the_
         assert complex(row.measured) == pytest.approx(complex(row.exact), rel=1e-9)
 
 
+def test_links_of_which_one_is_not_of_the_group_have_none() -> None:
+    assert graphkin.solve("triad-slider", find=["ak_E@4/E@3"])["ak_E@4/E@3"].shape == (1,)
+    with pytest.raises(graphkin.CallError):
+        graphkin.solve("triad-slider", find=["ak_E@4/E@2"])
+
+
 def test_without_a_sliding_pair_none_is_offered() -> None:
     with pytest.raises(graphkin.CallError, match="this mechanism has none"):
         graphkin.check("four-bar-coupler-point", find=["ak_B@1/B@3"])
@@ -192,6 +199,21 @@ def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str
         )
         for symbol, value in whole.items():
             assert gone_on[symbol] == pytest.approx(value, rel=1e-9, abs=1e-12), (act, symbol)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "through a block"])
+def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name: str) -> None:
+    what = plan(mechanism_of(SCENES[name]), find=())
+    begun = positioned(what, what.scales).polygons
+    before = copy.deepcopy(vars(begun)["ends"]), set(begun.special), set(begun.ties), set(begun.seen)
+    gone_on = begun.again(EXACT)
+    for order, element in what.in_order:
+        gone_on.draw(order, element)
+    assert before == (begun.ends, begun.special, set(begun.ties), set(begun.seen))
+    # what no drawing changes, and how elements are drawn, once that is found
+    same = {"still", "touching", "block_of", "chains", "contours", "plans"}
+    changing = {key: value for key, value in vars(begun).items() if isinstance(value, dict | set | list)}
+    assert same == {key for key, value in changing.items() if vars(gone_on)[key] is value}
 
 
 def test_a_wrong_angular_velocity_of_the_held_link_is_followed_to_the_term_of_coriolis() -> None:

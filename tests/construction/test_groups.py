@@ -16,6 +16,7 @@ from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, Tri
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.strokes import Aid, TrialCurve
+from graphkin.plane import dot
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING
@@ -397,6 +398,46 @@ def test_between_parallel_legs_the_direction_gives_the_rate_and_all_points_follo
     assert {"v_E", "v_K", "a_E", "a_K", "omega_3", "alpha_3"} <= {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
     assert moving == (abs(result["omega_3"].exact) > 1)
+
+
+def two_plates(moving: bool) -> dict[str, Any]:
+    """Two plates hinged to each other, each on two legs; those of the first are parallel, from the crank and the frame,
+    or both from the crank, so that the plate turns otherwise."""
+    at = {"B": 13 + 48j, "C": 110 + 90j, "D": 90 + 190j, "E": 200 + 140j, "F": 300 + 190j, "G": 290 + 90j,
+          "K": 330 + 280j, "L": 340 - 10j}  # fmt: skip
+    at["H"] = at["D"] - 0.9 * (at["C"] - at["B"])
+
+    def link(p: str, q: str, third: str = "") -> dict[str, Any]:
+        bar = at[q] - at.get(p, 0j)
+        made: dict[str, Any] = {"points": [p, q], "length": abs(bar)}
+        if third:
+            own = (at[third] - at.get(p, 0j)) * abs(bar) / bar
+            made["at"] = {third: [own.real, own.imag]}
+        return made
+
+    fixed = {p: [at[p].real, at[p].imag] for p in ("KL" if moving else "HKL")}
+    return {
+        "frame": {"points": {"A": [0, 0], **fixed}},
+        "links": {
+            "1": link("A", "B", "H" if moving else ""), "2": link("B", "C"), "3": link("C", "E", "D"),
+            "4": link("H", "D"), "5": link("E", "F", "G"), "6": link("K", "F"), "7": link("L", "G"),
+        },
+        "driver": {"link": "1", "angle": math.degrees(cmath.phase(at["B"])), "omega": 8, "alpha": -15},
+        "sketch": {p: [at[p].real, at[p].imag] for p in "BCDEFG"},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("moving", [False, True])
+def test_where_a_plate_has_no_legs_but_parallel_ones_these_give_its_rate(moving: bool) -> None:
+    result = graphkin.check(two_plates(moving))
+    assert [("C", "D")] == [r.joints for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)]
+    assert set() == everything(two_plates(moving)) - {str(row.symbol) for row in result.report.rows}
+    assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
+    # along the legs both joints have what the legs' other ends have
+    b, c, d = 13 + 48j, 110 + 90j, 90 + 190j
+    leg, h = c - b, d - 0.9 * (c - b) if moving else 0j
+    rate = dot(8j * (h - b), leg) / dot(1j * (d - c), leg)
+    assert rate == pytest.approx(float(result["omega_3"].measured), rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(200 if EVERYTHING else 6))

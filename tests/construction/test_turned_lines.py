@@ -30,6 +30,7 @@ from tests.construction.test_groups import (
     WELDED,
     driven_inside,
     parallel_legs,
+    two_plates,
 )  # fmt: skip
 
 OFF = math.radians(0.1)
@@ -40,6 +41,7 @@ POLYGONS: dict[str, Any] = {
     "special point, driven inside": driven_inside("guide of the plate in a swivelling block"),
     "special point of two links": CONTOUR, "two links, none with points": SLIDING,
     "special point at infinity": parallel_legs(False), "special point at infinity, moving": parallel_legs(True),
+    "no special point but at infinity": two_plates(False),
     "contour": FOUR_BAR, "contour that cannot turn": ON_A_GUIDE,
     "contour without bars": BARE, "contour with a driven hinge": WELDED, "special point carried over": TURNED_ALIKE,
     "special points without bars": UNBARRED,

@@ -8,12 +8,15 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
-from graphkin.construction import plan
+from graphkin.construction import draft, plan
 from graphkin.drawing import Text, sheet_room
+from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.piece import ink_box
 from graphkin.drawing.primitives import Group, walk
-from graphkin.drawing.tables import table_rows
+from graphkin.drawing.sheet_plan import sheet_plan
+from graphkin.drawing.tables import given_lengths, table_rows
 from graphkin.scene import mechanism_of
+from tests.drawn import drafted
 
 FOUR = ("chinese", "us", "british", "russian")
 
@@ -150,3 +153,28 @@ def test_what_a_large_sheet_leaves_goes_overleaf_on_a4():
     figures = draw(replace(scene, sheet=finer), figures=("sheet",)).figures
     assert (297.0, 420.0) == (figures["sheet"].width, figures["sheet"].height)
     assert (210.0, 297.0) == (figures["sheet-2"].width, figures["sheet-2"].height)
+
+
+def test_a_plan_holds_figures_that_fill_it_and_none_that_are_larger():
+    _, sheet = drafted("sixbar-guide-40deg")
+    page = sheet_plan(sheet)
+    sizes = [page.room.mechanism, page.room.polygon, page.room.polygon]
+    full = [tuple(side * (1 + 1e-12) for side in size) for size in sizes]
+    assert page.holds(tuple(full))
+    for which in range(3):
+        for side in range(2):
+            larger = [list(size) for size in sizes]
+            larger[which][side] *= 1 + 1e-6
+            assert not page.holds(tuple(map(tuple, larger)))
+
+
+def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 150}, "3": {"points": ["C", "D"], "length": 300},
+                  "2": {"points": ["B", "C"], "length": 500, "at": {"E": [0.5, 0], "F": [1e-13, 0]}}},
+        "driver": {"link": "1", "angle": 60, "omega": 10}, "sketch": {"C": [420, 290]},
+    })  # fmt: skip
+    given = dict(given_lengths(scene, letters_of(draft(scene), "chinese")))
+    assert 0.5 == pytest.approx(given["l_{BE}"])
+    assert {"l_{BF}"} == {f"l_{{{p}{q}}}" for p in "BC" for q in "EF"} - set(given)
