@@ -13,7 +13,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term
+from graphkin.drawing.headings import drivers, facts, figure_title, number, term, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
@@ -22,7 +22,7 @@ from graphkin.drawing.symbols import COMPONENT, arrow
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.drawing.train_scheme import scheme
 from graphkin.words import Phrase, languages, say
-from graphkin.words.written import on_paper
+from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["moving_plans", "train_figure"]
 
@@ -186,8 +186,13 @@ def _table(
     y += 0.8
     for one in _plan_lines(sheet, plan):
         y += ROW
-        known = term("plan given", spoken) if one.rate_known and not one.trial else ""
-        cells = (one.link, on_paper(abs(one.foot)), f"{number(one.rate, 5)} {known}")
+        read = on_paper(abs(one.foot))
+        if one.rate_known and not one.trial:
+            told = f"{number(one.rate, 5)} {term('plan given', spoken)}"
+        else:
+            size = written(product(read, amount(plan.scales.rate, 12)))
+            told = f"−{size}" if one.rate < 0.0 and size != "0" else size
+        cells = (one.link, read, told)
         words += [Text(complex(x, y), rich(text, SIZE, bold=x == MARGIN), classes=("cell",))
                   for x, text in zip(columns, cells, strict=True)]  # fmt: skip
     for key, (value, mm) in plan.travels.items():

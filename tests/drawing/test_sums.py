@@ -144,6 +144,16 @@ def test_the_sentence_of_a_rate_read_off_a_plan_says_the_product_of_its_numbers(
     assert [Decimal(value) for _, _, value in sums] == [Decimal(one) * Decimal(other) for one, other, _ in sums]
 
 
+@pytest.mark.parametrize("instrument", ["exact", "pencil"])
+def test_rates_in_the_table_of_a_plan_are_their_millimetres_times_the_scale(instrument):
+    figure = draw("gears-epicyclic", figures=["plan"], instrument=instrument).figures["plan"]
+    cells = ["".join(t.itertext()) for t in ET.fromstring(figure.content("svg")).iter() if t.get("class") == "cell"]
+    rows = [cells[i : i + 3] for i in range(0, len(cells), 3)]
+    read = [(Decimal(mm), Decimal(rate.replace("−", ""))) for _, mm, rate in rows if "(" not in rate]
+    assert read
+    assert [rate for _, rate in read] == [mm * Decimal("0.25") for mm, _ in read]
+
+
 @pytest.mark.parametrize("length", [70.0, 80.0, 85.0])
 def test_the_pull_of_a_spring_is_what_its_numbers_come_to(length):
     scene = read("rocker-return-spring").replace("links.1.length", length)

@@ -79,6 +79,19 @@ def test_another_process_writes_the_same_bytes():
     assert first == second
 
 
+def test_another_process_draws_the_same_pages():
+    program = (
+        "import sys, graphkin; page = graphkin.draw('shaper-forces', figures=['centres'], language='both').figures;"
+        "[sys.stdout.buffer.write(one.content('svg')) for one in page.values()]"
+    )
+    call = [sys.executable, "-c", program]
+    first, second = (
+        subprocess.run(call, capture_output=True, check=True, env={**os.environ, "PYTHONHASHSEED": seed}).stdout
+        for seed in ("0", "77")
+    )
+    assert first == second
+
+
 def test_a_vector_is_a_group_with_its_line_first():
     group = root(*EVERYTHING).find(f".//{SVG}g[@id='v_B']")
     assert (f"{SVG}line", "vector step-01") == (group[0].tag, group.get("class"))
