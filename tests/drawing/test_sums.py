@@ -291,7 +291,7 @@ def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_
 def test_a_hand_writes_no_more_than_its_ruler_shows():
     hand = pencil(Tools(), 1)
     sheet = draft(mechanism_of("sixbar-guide-40deg"), instrument=hand)
-    measured = [told.split(" = ")[-1] for told in lengths_measured(sheet, letters_of(sheet, "chinese"))]
+    measured = [told.split(" = ")[-1] for _, told in lengths_measured(sheet, letters_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
     steps = [step for step in sheet.steps if isinstance(step.act, Superposed)]
