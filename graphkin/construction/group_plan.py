@@ -162,7 +162,7 @@ class _Search:
     def reach(self) -> bool:
         """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
         between two known points."""
-        for start in list(self.nodes):
+        for start in sorted(self.nodes, key=self.net.order.__getitem__):
             for path in self.ways(start, 1, lambda n: n in self.nodes):
                 fresh = {e.end for e in path} - self.nodes
                 if fresh and len(path) > 1:

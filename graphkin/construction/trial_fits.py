@@ -160,8 +160,10 @@ def _inside(
         room, short = rooms(last[0])[stopped], apart[stopped]
         room, short = (room * share, short) if side < 0 else (room, short * share)
         middle = (last[0] + bad) / 2
-        if room > 0.0 > short and count % 4 < 3:
-            middle = (room * bad - short * last[0]) / (room - short)
+        if room >= 0.0 > short and count % 4 < 3:
+            # a little off both ends, for one of them may be the last already
+            part = near / 2 / abs(bad - last[0])
+            middle = last[0] + (bad - last[0]) * min(max(room / (room - short), part), 1 - part)
         there = gap(middle)
         if math.isnan(there):
             share, side, bad = share / 2 if side < 0 else 1.0, -1, middle
