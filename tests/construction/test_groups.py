@@ -401,10 +401,10 @@ def test_between_parallel_legs_the_direction_gives_the_rate_and_all_points_follo
 
 
 def two_plates(moving: bool) -> dict[str, Any]:
-    """Two plates hinged to each other, each on two legs; those of the first are parallel, from the crank and the frame,
-    or both from the crank, so that the plate turns otherwise."""
+    """Two plates hinged to each other, each on two parallel legs; those of the first from the crank and the frame, or
+    both from the crank, so that the plate turns otherwise."""
     at = {"B": 13 + 48j, "C": 110 + 90j, "D": 90 + 190j, "E": 200 + 140j, "F": 300 + 190j, "G": 290 + 90j,
-          "K": 330 + 280j, "L": 340 - 10j}  # fmt: skip
+          "K": 330 + 280j, "L": 265 + 15j}  # fmt: skip
     at["H"] = at["D"] - 0.9 * (at["C"] - at["B"])
 
     def link(p: str, q: str, third: str = "") -> dict[str, Any]:
@@ -430,7 +430,7 @@ def two_plates(moving: bool) -> dict[str, Any]:
 @pytest.mark.parametrize("moving", [False, True])
 def test_where_a_plate_has_no_legs_but_parallel_ones_these_give_its_rate(moving: bool) -> None:
     result = graphkin.check(two_plates(moving))
-    assert [("C", "D")] == [r.joints for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)]
+    assert {("C", "D")} <= {r.joints for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)}
     assert set() == everything(two_plates(moving)) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
     # along the legs both joints have what the legs' other ends have
