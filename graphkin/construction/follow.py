@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,12 +17,12 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, 
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import rolled_near
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
-from graphkin.structure.assembly import ways
+from graphkin.structure.assembly import out_of_reach, ways
 
-__all__ = ["Choices", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to", "standing"]
+__all__ = ["Choices", "best_first", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to", "standing"]
 
 Array = NDArray[np.float64]
 
@@ -74,23 +74,28 @@ def moved_to(
 
     Raises
     ------
-    Unsolvable : "not assembled": the motion does not reach the values
+    Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
     """
     drivers = choices.structure.scene.drivers
-    last: Unsolvable | None = None
     first, goal = [own[d.key] for d in drivers], [values[d.key] for d in drivers]
+    limits: list[Mapping[str, float]] = []
     for way in ways(drivers, first, goal, choices.structure.rolls):
-        try:
-            return _walk(choices, elements, own, dict(zip((d.key for d in drivers), way, strict=True)), poses)
-        except Unsolvable as stop:
-            last = last or stop
-    assert last is not None
-    raise last
+        target = dict(zip((d.key for d in drivers), way, strict=True))
+        found, part = _walk(choices, elements, own, target, poses)
+        if part == 1.0:
+            return found
+        limits.append(_part_way(own, target, part))
+    raise Unsolvable("not assembled", out_of_reach(choices.structure.scene, dict(zip(own, goal, strict=True)), limits))
+
+
+def _part_way(own: Mapping[str, float], target: Mapping[str, float], part: float) -> dict[str, float]:
+    return {k: own[k] + part * (target[k] - own[k]) for k in own}
 
 
 def _walk(
     choices: Choices, elements: Sequence[Element], own: Mapping[str, float], target: Mapping[str, float], start: Poses
-) -> dict[str, Pose]:
+) -> tuple[dict[str, Pose], float]:
+    """The last position that the motion reaches on its way, and at what part of this it lies."""
     scene = choices.structure.scene
     length = max(
         abs(target[d.key] - own[d.key]) / (1.0 if isinstance(d, AngleDriver) else scene.size) for d in scene.drivers
@@ -100,17 +105,16 @@ def _walk(
     before, at, t = dict(start), dict(start), 0.0
     while t < 1.0:
         step = min(step, longest, 1.0 - t)
-        here = {k: own[k] + (t + step) * (target[k] - own[k]) for k in own}
         guess = _ahead(before, at, step / last) if t > 0.0 else at
-        found = found_near(choices, elements, here, guess, at)
+        found = found_near(choices, elements, _part_way(own, target, t + step), guess, at)
         if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
             step /= 2
-            if step < longest / 1e5:
-                raise Unsolvable("not assembled", Problem("driver", "the motion does not reach these values"))
+            if step < longest / 1e8:
+                break
             continue
         before, at, t, last = at, found, (1.0 if step >= 1.0 - t else t + step), step
         step *= 2
-    return at
+    return at, t
 
 
 def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
@@ -294,6 +298,16 @@ def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: 
             if now.quality > GOOD:
                 break
     return best
+
+
+def best_first(structure: Structure, cluster: Cluster, known: PlacedLinks, guess: Poses) -> Iterator[ReducedMechanism]:
+    """The reduced mechanisms that can be drawn, those first that find the group best; those with the fewest constraints
+    removed before the others."""
+    choices = Choices(structure, [cluster])
+    for some in (choices.of[cluster], choices.further(cluster)):
+        tried = (_tried(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
+        for one in sorted(filter(None, tried), key=lambda one: -one.quality):
+            yield one.reduced
 
 
 def _with_links(candidates: Sequence[ReducedMechanism], names: set[str]) -> list[ReducedMechanism]:

@@ -8,14 +8,14 @@ open is divided proportionally, until what was left out fits.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
-from graphkin.construction.follow import drawn_near, fitted
+from graphkin.construction.follow import best_first, drawn_near, fitted
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
 from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
@@ -33,6 +33,8 @@ __all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
 AWAY = 0.35  # of the trial driver (rad, or the mechanism's size): how far the first trial is from the last
+AGAIN = 2  # times that a trial drawing is drawn which does not close by hands that err
+PARTS = (1, 4, 16)  # steps in which links known already are moved to where hands put them
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 
 
@@ -56,26 +58,76 @@ class GroupTrial:
 def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:
     """Place a group among the links known already.
 
+    Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else left out.
+
     Raises
     ------
     Unsolvable : "not assembled": what was left out fits nowhere near
     """
-    reduced, names = trial.reduced, ", ".join(trial.reduced.cluster.links)
-    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
-    poses = fitted(reduced, exact, trial.on(frame))
-    if poses is None:
-        raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
     if frame.instrument.faultless:
-        frame.poses.update(poses)
+        exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
+        frame.poses.update(_fit(exact, trial.reduced, trial.on(frame)))
         return
-    poses = {**frame.poses, **poses}
-    # the last trial by hands that err, what it leaves open, and the drawing that this asks for
+    stops: list[Unsolvable] = []
+    for reduced in _to_hand(frame, trial):
+        for _ in range(AGAIN):
+            try:
+                _placed_by_hand(frame, reduced, trial.on(frame))
+            except Unsolvable as stop:
+                stops.append(stop)
+            else:
+                return
+    raise stops[0]
+
+
+def _to_hand(frame: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:
+    """The reduced mechanism of a trial, then others; links that roll stand as they are given in their own only."""
+    yield trial.reduced
+    if trial.given:
+        return
+    guess = trial.on(frame)
+    known = replace(frame, instrument=EXACT, poses={name: guess.get(name, frame.poses[name]) for name in frame.poses})
+    known.pricked = {}
+    yield from best_first(trial.reduced.structure, trial.reduced.cluster, known, guess)
+
+
+def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:
+    """The group among links that lie near where they are guessed; these are moved there in steps where at once nothing
+    closes."""
+    there = replace(known, poses={name: guess.get(name, known.poses[name]) for name in known.poses}, pricked={})
+    exact = {p: there.point(n, p) for n in there.poses for p in known.links[n].points if p in known.pricked}
+    for parts in PARTS:
+        poses = dict(guess)
+        for k in range(1, parts + 1):
+            part = k / parts
+            there.pricked = {p: z + part * (known.pricked[p] - z) for p, z in exact.items()}
+            there.poses = {n: _between(guess.get(n, pose), pose, part) for n, pose in known.poses.items()}
+            fit = fitted(reduced, there if k < parts else known, poses)
+            if fit is None:
+                break
+            if k == parts:
+                return fit
+            poses.update(fit)
+    names = ", ".join(reduced.cluster.links)
+    raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
+
+
+def _between(one: Pose, two: Pose, part: float) -> Pose:
+    axis = one.axis + part * (two.axis - one.axis)
+    return Pose(one.origin + part * (two.origin - one.origin), axis / abs(axis))
+
+
+def _placed_by_hand(frame: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
+    """The last trial by hands that err, what it leaves open, and the drawing that this asks for."""
+    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
+    poses = {**frame.poses, **_fit(exact, reduced, guess)}
     values = np.array(reduced.values(poses, frame.mm))
     if reduced.trial:
         at, slopes = _by_hand(frame, reduced, poses, values)
         values = values - np.linalg.solve(slopes, at)
     last = drawn_near(reduced, frame, poses, values)
     if last is None:
+        names = ", ".join(reduced.cluster.links)
         raise Unsolvable("not assembled", Problem(f"links {names}", "the last trial drawing does not close"))
     frame.pricked.update(last.pricked)
     frame.poses.update(reduced.put_back(last))

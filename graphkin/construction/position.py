@@ -26,10 +26,9 @@ from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, named_with_contact, pick
-from graphkin.structure.assembly import follow, ways
+from graphkin.structure.assembly import follow, out_of_reach, ways
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -169,7 +168,7 @@ def branches_at(
         if limit is None:
             return branches
         limits.append({k: own[k] + limit * (target[k] - own[k]) for k in own})
-    raise Unsolvable("not assembled", _out_of_reach(structure.scene, values, limits))
+    raise Unsolvable("not assembled", out_of_reach(structure.scene, values, limits))
 
 
 def choose(structure: Structure, frame: PlacedLinks, i: int, element: Element, chosen: dict[int, int]) -> None:
@@ -252,22 +251,6 @@ def _gap(
             flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
             frame.poses.update(meeting.poses[(chosen[i] + flipped) % len(meeting.poses)])
     return gap
-
-
-def _out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
-    def shown(key: str, value: float) -> str:
-        driver = next(d for d in scene.drivers if d.key == key)
-        if isinstance(driver, AngleDriver):
-            return f"{math.degrees(value):.6f} deg"
-        return f"{value / scene.units.metres:.6f} {scene.units.length}"
-
-    key = scene.drivers[0].key
-    ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
-    asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
-    reach = " and ".join(shown(key, v) for v in ends)
-    word = "between" if len(ends) > 1 else "up to"
-    return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
-
 
 
 def draw_position(

@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from graphkin.errors import Problem, SceneError
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
-__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "pick", "ways"]
+__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "out_of_reach", "pick",
+           "ways"]
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,22 @@ MOST_TURNS = 4
 """A driver that turns is followed this many turns to either side, until its motion closes or ends."""
 FOLD = 12 * 2 * math.pi
 """After so much every motion that closes within the most turns stands where it stood."""
+
+
+def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
+    """What is said of driver values that the motion does not reach: it ends at the limits."""
+
+    def shown(key: str, value: float) -> str:
+        driver = next(d for d in scene.drivers if d.key == key)
+        unit = "deg" if isinstance(driver, AngleDriver) else scene.units.length
+        return f"{scene.in_file_units(driver, value):.6f} {unit}"
+
+    key = scene.drivers[0].key
+    ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
+    asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
+    reach = " and ".join(shown(key, v) for v in ends)
+    word = "between" if len(ends) > 1 else "up to"
+    return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
 
 
 def ways(

@@ -12,12 +12,15 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Slip, draft, execute, plan
+from graphkin.construction.board import pencil
 from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import ParallelLegs
 from graphkin.construction.strokes import Aid, TrialCurve
+from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
+from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING
 from tests.bench.digits import random_driven, worst
@@ -100,6 +103,37 @@ def test_a_triad_with_any_leg_is_drawn_by_special_points(leg: str) -> None:
     assert "special points" == result.data["construction"]
     assert set() == everything(triad(leg)) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
+
+
+STEEP_SLOT: dict[str, Any] = {  # the plate's arm stands nearly square to the slot: trials by the rocker are uncertain
+    "frame": {"points": {"A": [0, 0], "G": [150, -10]}, "guides": {"s": {"through": [96, 96], "angle": 30}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 34.986}, "2": {"points": ["B", "C"], "length": 61.057},
+        "3": {"points": ["C", "D"], "length": 59.666,
+              "at": {"E": {"from": ["C", "D"], "r": [42.802, 57.689], "side": "left"}}},
+        "4": {"points": ["G", "D"], "length": 62.032},
+    },
+    "pins": {"E": {"of": "3", "in": "0.s"}},
+    "driver": {"link": "1", "angle": 59, "omega": 12, "alpha": -8},
+    "sketch": {"B": [18, 30], "C": [70, 62], "D": [128, 48], "E": [96, 96]},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", [3, 5, 7])
+def test_a_group_is_placed_by_hand_where_the_first_trial_does_not_close(seed: int) -> None:
+    what = plan(mechanism_of(STEEP_SLOT))
+    exact, drawn = (
+        {r.symbol: complex(r.value) for r in read_off(sheet) if r.symbol.kind == "v"}
+        for sheet in (execute(what), execute(what, pencil(Tools(), seed)))
+    )
+    largest = max(map(abs, exact.values()))
+    assert [] == [str(symbol) for symbol, v in exact.items() if abs(drawn[symbol] - v) > 0.3 * largest]
+
+
+def test_a_value_that_a_group_does_not_reach_is_refused_with_its_limits() -> None:
+    scene = mechanism_of(STEEP_SLOT)
+    with pytest.raises(Unsolvable, match=r"driver 1 moves between -13\.01895\d deg and 99\.52797\d deg"):
+        draft(scene, {"1": math.radians(140)})
 
 
 @pytest.mark.parametrize("leg", LEGS)
