@@ -344,6 +344,20 @@ def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
     assert min(abs(z - place) for z in curve.at) > 0
 
 
+@pytest.mark.parametrize("name", ["triad-slider", "double-butterfly", "single-flier"])
+def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_other_end(name: str) -> None:
+    sheet = draft(mechanism_of(name))
+    ((curve, arc, table),) = (
+        (*step.strokes, step.act.table) for step in sheet.steps if isinstance(step.act, TrialPositions)
+    )
+    at = {str(ref): z for ref, z in sheet.points.items()}
+    assert table is not None
+    (missed,) = table.missed
+    (other,) = set(missed.names) - {curve.point}
+    assert [at[other], at[curve.point]] == pytest.approx([arc.centre, arc.at], abs=1e-9)
+    assert missed.length == pytest.approx(arc.radius, abs=1e-9)
+
+
 @pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
 def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing_is(name: str, bar: str) -> None:
     sheet = draft(mechanism_of(name))
@@ -376,6 +390,8 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
     first, last = table.divided
     assert first[0] == pytest.approx((a[0] + p * (b[0] - a[0]), a[1] + q * (c[1] - a[1])))
     assert max(map(abs, first[1])) > 0.02 > max(map(abs, last[1]))
+    misses = [max(map(abs, row)) for _, row in table.trials]
+    assert table.instead[0] == 1 + misses.index(max(misses))  # what misses most gives way
     assert "" == table.moved[0].base
     acts = [step.act for step in sheet.steps]
     laid = next(a for a in acts if isinstance(a, LaidOffAngle) and a.link == table.moved[0].name)
