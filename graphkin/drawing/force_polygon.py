@@ -13,7 +13,7 @@ from graphkin.construction.strokes import Vector
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.force_chain import corners
+from graphkin.drawing.force_chain import corner_at, corners
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
 from graphkin.drawing.labels import Label
@@ -76,7 +76,8 @@ def drawn_polygon(
         arrows.append(vector_group(name, step, tail, tip, kind, colour, classes=("force",)))
         markup, own = letters_of_force(letters, vector), f"label-{name}"
         text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
-        labels.append(Label(text, (tail, tip), rank=0 if not vector.known or abs(vector.span) > 3.0 else 2))
+        rank = 0 if not vector.known or abs(vector.span) > 3.0 else 2
+        labels.append(Label(text, (tail, tip), rank=rank, between=_between(stage, link, vector)))
     for whole, tail, tip in _wholes(vectors):
         name = _unique(whole, names, suffix)
         colour = colour_of_force(sheet, whole)
@@ -85,7 +86,7 @@ def drawn_polygon(
         arrows.append(vector_group(name, step, *ends, RESULTANT, colour, classes=("force",)))
         markup, own = letters_of_force(letters, whole), f"label-{name}"
         text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
-        labels.append(Label(text, ends, rank=0))
+        labels.append(Label(text, ends, rank=0, between=_between(stage, link, whole)))
     for letter, place, vector in corners(stage.group) if stage.group is not None and not link else ():
         names[f"corner-{letter}"] += 1
         own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
@@ -98,6 +99,14 @@ def drawn_polygon(
         thin += _direction(vector, stage.in_polygon(vector, link))
     piece = Piece({"construction": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
     return with_labels(moved_piece(piece, panel.centre - extent_of(vectors).centre), panel)
+
+
+def _between(stage: ForceStage, link: str, vector: ForceVector) -> str:
+    """The letters of the corners between which a force stands, of a polygon that has them."""
+    if stage.group is None or link:
+        return ""
+    ends = [corner_at(stage.group, place).strip("$") for place in (vector.tail, vector.tip)]
+    return "→".join(ends) if all(ends) and ends[0] != ends[1] else ""
 
 
 def _key(vector: ForceVector) -> Symbol:

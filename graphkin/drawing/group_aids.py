@@ -17,6 +17,7 @@ from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.piece import Piece
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
+from graphkin.drawing.polygon_points import step_number
 from graphkin.drawing.primitives import Arc, Group, Line, Polyline, Primitive, Text
 from graphkin.drawing.symbols import arrowhead
 from graphkin.drawing.text import symbol
@@ -101,7 +102,8 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
             if not trial and (_apart(aid) or aid.symbol.seen) and abs(clipped[1] - clipped[0]) > 4.0:
                 text = Text(0j, symbol(here.letters.arrow(aid.symbol), 3.0), "start", strokes.GREY,
                             f"label-special-{aid.symbol.id}", ("label",))  # fmt: skip
-                labels.append(Label(text, clipped, rank=3 if aid.symbol.to and aid.symbol.to.link in held else 4))
+                rank = 3 if aid.symbol.to and aid.symbol.to.link in held else 4
+                labels.append(Label(text, clipped, rank=rank, key=step_number(step.number)))
             if trial and whole and aid.symbol.to is None and aid.symbol.of is not None and (
                 same_place(aid.tip) not in named
             ):  # fmt: skip

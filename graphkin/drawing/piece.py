@@ -138,7 +138,7 @@ def _outermost(thing: Primitive) -> Sequence[complex]:
 
 def moved_piece(piece: Piece, by: complex) -> Piece:
     """The same piece elsewhere on the page."""
-    labels = tuple(Label(one.text, _moved_mark(one.mark, by), one.toward, one.rank, one.key) for one in piece.labels)
+    labels = tuple(replace(label, mark=_moved_mark(label.mark, by)) for label in piece.labels)
     layers = {layer: moved(things, by) for layer, things in piece.layers.items()}
     return Piece(layers, labels, tuple(_moved_mark(mark, by) for mark in piece.marks))
 
@@ -191,6 +191,7 @@ def _moved(thing: Primitive, by: complex) -> Primitive:
 
 BEHIND = 1.0  # mm between a key and the name behind it
 APART = 3.0, 1.0  # mm between columns and between lines of the list
+AID = 3  # the rank of what leads on only
 
 
 def named(
@@ -202,19 +203,31 @@ def named(
     placed, crowded = placement.placed, placement.crowded
     listed: tuple[Text, ...] = ()
     if crowded:
-        placement.shorten()
-        shorter = placement.placed
-        keyed = {one.text.id for one in shorter if one.keyed}
-        told = {labels[i].text.id for i in placement.told}
-        entries = [
-            _entry(label.text, label.key, label.between if label.text.id in told else "")
-            for label in labels if label.key and label.text.id in keyed | told
-        ]  # fmt: skip
-        list_of_names = _list(entries, panel, obstacles + _standing(shorter))
-        if len(placement.crowded) < len(crowded) and (list_of_names or not entries):
-            placed, listed, crowded = shorter, list_of_names, placement.crowded
+        found = _listed(placement, panel, obstacles)
+        if found is None and any(label.key and label.rank == AID for label in labels):
+            # there is no room for all: auxiliary vectors go without
+            some = [replace(label, key=None) if label.rank == AID else label for label in labels]
+            found = _listed(Placement(some, panel, obstacles, marks), panel, obstacles)
+        if found and len(found[2]) < len(crowded):
+            placed, listed, crowded = found
     written = (thing for one in placed for thing in (one.leader, one.text) if thing is not None)
     return (*written, *listed), tuple(labels[i] for i in crowded)
+
+
+def _listed(
+    placement: Placement, panel: Box, obstacles: Obstacles
+) -> tuple[tuple[Placed, ...], tuple[Text, ...], list[int]] | None:
+    """Labels in a crowd with keys for some, the list of these, and those that stand badly nevertheless; None where the
+    list has no room."""
+    placement.shorten()
+    placed = placement.placed
+    keyed, told = {one.text.id for one in placed if one.keyed}, {placement.labels[i].text.id for i in placement.told}
+    entries = [
+        _entry(label.text, label.key, label.between if label.text.id in told else "")
+        for label in placement.labels if label.text.id in keyed | told
+    ]  # fmt: skip
+    names = _list(entries, panel, obstacles + _standing(placed))
+    return (placed, names, placement.crowded) if names or not entries else None
 
 
 def _standing(placed: Iterable[Placed]) -> Obstacles:
@@ -224,11 +237,11 @@ def _standing(placed: Iterable[Placed]) -> Obstacles:
     return Obstacles(solid=leaders, areas=boxes, writing=boxes)
 
 
-def _entry(name: Text, key: Text, between: str) -> Text:
+def _entry(name: Text, key: Text | None, between: str) -> Text:
     """A key with what it stands for, and the letters of its ends where neither stands at its vector; only the name
-    where this begins with the key."""
+    where there is no key, or the name begins with it."""
     runs = name.runs
-    if not name.string.startswith(key.string.rstrip("… ")):
+    if key is not None and not name.string.startswith(key.string.rstrip("… ")):
         runs = _behind(key.runs, name.runs, BEHIND)
     if between:
         runs = _behind(runs, rich(f": ${between}$"), 0.0)

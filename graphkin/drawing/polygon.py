@@ -21,11 +21,11 @@ from graphkin.drawing.meeting import Flags, Points, meets
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.polygon_points import named_points, points
+from graphkin.drawing.polygon_points import named_points, points, step_number
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
-from graphkin.drawing.text import SMALLEST, plain, symbol
+from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["polygon_piece", "rings", "step_numbers"]
@@ -257,11 +257,6 @@ def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
         return (complex(np.nan, np.nan),) * 4
     middle, x, y = name.centre, name.width / 2 + BESIDE + half.real, name.height / 2 + BESIDE + half.imag
     return middle - x, middle + x, middle + 1j * y, middle - 1j * y
-
-
-def step_number(step: int, colour: str = strokes.GREY) -> Text:
-    """The number of a step in brackets."""
-    return Text(0j, plain(f"({step})", SMALLEST), "start", colour, "", ("step-number",), step)
 
 
 def _inside(places: Points, reach: Points, panel: Box) -> Flags:

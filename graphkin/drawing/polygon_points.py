@@ -1,4 +1,5 @@
-"""The points of a polygon: end points of vectors, feet between components, the pole; each with its letter."""
+"""The points of a polygon: end points of vectors, feet between components, the pole; each with its letter; and what a
+vector is told by in a crowd, the number of its step."""
 
 from __future__ import annotations
 
@@ -19,10 +20,10 @@ from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage
 from graphkin.drawing.primitives import Circle, Group, Stroke, Text
 from graphkin.drawing.strokes import link_of_vector
-from graphkin.drawing.text import symbol
+from graphkin.drawing.text import SMALLEST, plain, symbol
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["END_RADIUS", "NamedPoint", "named_points", "points"]
+__all__ = ["END_RADIUS", "NamedPoint", "named_points", "points", "step_number"]
 
 POLE_RADIUS, END_RADIUS, FOOT_RADIUS, RING = 0.9, 0.5, 0.4, 0.45
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
@@ -204,3 +205,8 @@ def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, aw
     text = Text(0j, symbol(markup), "start", strokes.BLACK, id.replace("@", ""), ("label",))
     toward = (phase(away),) if abs(away) > SAME else ()
     return (Label(text, here.at(at), toward, rank),)
+
+
+def step_number(step: int, colour: str = strokes.GREY) -> Text:
+    """The number of a step in brackets."""
+    return Text(0j, plain(f"({step})", SMALLEST), "start", colour, "", ("step-number",), step)

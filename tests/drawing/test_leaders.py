@@ -105,8 +105,8 @@ def test_a_name_with_no_room_makes_others_move_before_its_leader_runs_across_two
     assert crossed(scene, figure) <= 1
 
 
-def texts_of(scene: str, figure: str) -> dict[str, str]:
-    root = ET.fromstring(drawn(scene).figures[figure].content("svg"))
+def texts_of(scene: str, figure: str, **options: str) -> dict[str, str]:
+    root = ET.fromstring(drawn(scene, **options).figures[figure].content("svg"))
     return {text.get("id"): "".join(text.itertext()) for text in root.iter(f"{SVG}text") if text.get("id")}
 
 
@@ -122,6 +122,19 @@ def test_a_vector_with_no_room_even_for_its_number_is_told_by_the_letters_of_its
     texts = texts_of("disc-on-disc", "contacts-2")
     assert texts["listed-label-a_O"].replace(" ", "") == "(18)aO:p′→o′"
     assert "label-a_O" not in texts
+
+
+def test_an_auxiliary_vector_with_no_room_for_its_name_is_told_by_the_number_of_its_step():
+    texts = texts_of("scissor-lift", "velocity")
+    assert texts["listed-label-special-v_Q-Q3"].replace(" ", "") == "(16)vQ7Q3"
+    assert texts["label-special-v_Q-Q3"] == "(16)"
+    assert crossed("scissor-lift", "velocity") == 0
+
+
+def test_a_force_with_no_room_for_its_name_is_told_by_the_letters_of_its_corners():
+    texts = texts_of("sine-mechanism-forces", "forces", convention="us")
+    assert texts["listed-label-F_1-2-t"].replace(" ", "") == "F12t:g→a"
+    assert "label-F_1-2-t" not in texts
 
 
 def test_a_letter_without_a_clear_place_stands_in_an_inset_with_a_ring_about_its_point():
