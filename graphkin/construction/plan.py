@@ -68,6 +68,7 @@ class Room:
 
 
 UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
+INTO_MARGIN = 1.1  # times as large as its room may trial polygons be: panels have a margin for names, and figures grow
 
 
 def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
@@ -108,8 +109,13 @@ def _extents(
     """Extents of the mechanism and of both polygons, pole included."""
     extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, scales.length)}
     for order in ORDERS:
-        tips = [0j, *(z for v in vectors(order) for z in (v.tail, v.tip))]
-        extents[order] = Extent.around(tips, scales.of(order))
+        drawn = [*vectors(order)]
+        true, every = (
+            Extent.around([0j, *(z for v in some for z in (v.tail, v.tip))], scales.of(order))
+            for some in ([v for v in drawn if not (isinstance(v, Aid) and v.trial)], drawn)
+        )
+        width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
+        extents[order] = Extent(width, height)
     return extents
 
 
@@ -126,12 +132,17 @@ def drawn_sizes(sheet: Sheet) -> tuple[tuple[float, float], ...]:
     )
 
 
+def _leading_on(sheet: Sheet, order: Order) -> list[Aid]:
+    """What must find room although it only leads on: vectors seen from held links, and trial polygons."""
+    return [*vectors_seen(sheet, order), *sheet.trials(order)]
+
+
 def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
     def vectors(order: Order) -> Iterator[Vector | Aid]:
         for step in sheet.steps:
             if step.diagram == order and not isinstance(step.act, Asked):
                 yield from (s for s in step.strokes if isinstance(s, Vector))
-        yield from vectors_seen(sheet, order)
+        yield from _leading_on(sheet, order)
 
     outlines = outlines_on_paper(sheet.scene, sheet.poses, 1.0 / sheet.scales.length)
     places = [*sheet.points.values(), *(z for o in outlines.values() for z in o)]
@@ -324,7 +335,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
         places += profile
     places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.frame.poses).outermost()
-    extents = _extents(places, lambda order: (*polygons.shown_of(order), *vectors_seen(exact, order)), NATURAL)
+    extents = _extents(places, lambda order: (*polygons.shown_of(order), *_leading_on(exact, order)), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = _chosen_scales(task.structure.scene, extents, room)
     return Plan(**own, scales=scales, exact=exact, extents=extents)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Literal
 from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
 from graphkin.construction.steps import Act, Cause, phrase_of, scaled
-from graphkin.construction.strokes import Stroke, Vector
+from graphkin.construction.strokes import Aid, Stroke, Vector
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure
@@ -287,6 +287,11 @@ class Sheet:
         return {
             s.symbol: s for step in self.steps if step.diagram == diagram for s in step.strokes if isinstance(s, Vector)
         }
+
+    def trials(self, diagram: DiagramName) -> list[Aid]:
+        """The vectors of trial polygons in a diagram."""
+        strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
+        return [s for s in strokes if isinstance(s, Aid) and s.trial]
 
 
 SERIES = (1.0, 2.0, 2.5, 5.0)

@@ -7,11 +7,12 @@ Hain, Applied Kinematics; Artobolevsky, Theory of mechanisms).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.construction.board import Board
 from graphkin.construction.group_moves import GroupMoves
@@ -22,7 +23,7 @@ from graphkin.construction.polygon_pair import Order
 from graphkin.construction.remarks import Magnified
 from graphkin.construction.sheet import Rate
 from graphkin.construction.sizes import Direction
-from graphkin.construction.strokes import Aid
+from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.terms import parts_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
@@ -33,6 +34,9 @@ from graphkin.structure import Cluster
 __all__ = ["TrialPolygons"]
 
 NAUGHT = 1e-9  # part of the largest vector that an end that meets may be off in a trial polygon
+NEARER = (0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 0.005)  # of a rate, by which it is assumed off
+SLOW = 1.2  # so many times these, of the driver's rate, where the true one is nearly naught
+BEYOND = 0.08  # of the size of the true polygon, by which a trial polygon may reach beyond it
 
 
 class TrialPolygons(GroupMoves):
@@ -142,18 +146,30 @@ class TrialPolygons(GroupMoves):
 
     def _with_assumptions(self, order: Order, group: Cluster, plan: GroupPlan) -> GroupPlan:
         """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
-        side of it, all on the one side in the first trial, each in its turn on the other in those that follow."""
+        side of it, all on the one side in the first trial, each in its turn on the other in those that follow; the
+        nearer to the true ones, the further a trial polygon would reach beyond the true one."""
         if order in plan.assumed:
             return plan
-        rates = self._trial_rates(order, plan)
-        apart = [self._open(order, plan, self._tried(order, group, plan, 1, assumed)) for assumed in rates]
-        around = []
-        for x, once in zip(_divided(rates, apart), (rates[i + 1][i] for i in range(len(plan.tried))), strict=True):
-            small = abs(x) <= 0.05 * abs(once)
-            around.append((_round(-0.3 * once), _round(0.3 * once)) if small else (_round(0.75 * x), _round(1.25 * x)))
-        first = [low for low, _ in around]
-        fair = [first, *([high if i == j else low for j, (low, high) in enumerate(around)] for i in range(len(first)))]
-        return replace(plan, assumed={**plan.assumed, order: tuple(tuple(row) for row in fair)})
+        once = self._trial_rates(order, plan)
+        trials = [self._tried(order, group, plan, 1, assumed) for assumed in once]
+        true = _divided(once, [self._open(order, plan, trial) for trial in trials])
+        reach = _Reach([trial.drawn[order] for trial in trials], once)
+        most = reach.at(true) + BEYOND * reach.size(true)
+        # what hardly moves is tried by a part of the driver's rate
+        bases = (rates[i] for i, rates in enumerate(once[1:]))
+        ways = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
+
+        def fitting(choices: Iterable[list[float]]) -> list[float]:
+            for row in choices:
+                if (reach.at(row) <= most).all():
+                    break
+            return row
+
+        low = fitting([_round(x, -share * way) for x, way in zip(true, ways, strict=True)] for share in NEARER)
+        fair = [low]
+        for i, (x, way) in enumerate(zip(true, ways, strict=True)):
+            fair.append(fitting([*low[:i], _round(x, share * way), *low[i + 1 :]] for share in NEARER))
+        return replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))})
 
     def _open(self, order: Order, plan: GroupPlan, trial: Self) -> list[float]:
         """What a trial leaves open (mm, or as read)."""
@@ -227,6 +243,31 @@ def _magnified(ends: Sequence[Mapping[PointRef, complex]], apart: Sequence[Seque
     return float(np.abs(np.array(moved) @ inverse).max(initial=0.0))
 
 
-def _round(value: float) -> float:
-    """A value with one figure, easy to lay off."""
-    return float(f"{value:.1g}")
+class _Reach:
+    """How far a polygon reaches to each side of its pole, whatever is assumed: every vector of it is linear in that."""
+
+    def __init__(self, drawn: Sequence[Mapping[Symbol, Vector]], rates: Sequence[Sequence[float]]) -> None:
+        shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
+        ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
+        self.rest = ends[0]
+        self.slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
+
+    def at(self, rates: Sequence[float]) -> NDArray[np.float64]:
+        """Right, up, left and down (mm)."""
+        ends = self.rest + np.array(rates) @ self.slopes
+        return np.array([np.max((ends * turn).real) for turn in (1, -1j, -1, 1j)])
+
+    def size(self, rates: Sequence[float]) -> float:
+        """Of width and height the larger (mm)."""
+        right, up, left, down = self.at(rates)
+        return float(max(right + left, up + down))
+
+
+def _round(value: float, step: float) -> float:
+    """About a step off a value, with as few figures as that takes: easy to lay off."""
+    wanted = value + step
+    for figures in range(1, 9):
+        found = float(f"{wanted:.{figures}g}")
+        if abs(found - wanted) <= 0.35 * abs(step):
+            return found
+    return wanted

@@ -86,9 +86,10 @@ def same_place(z: complex) -> complex:
 
 
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
-    """The box (mm, y down, about the pole) around all vectors of a polygon; lines that lead to them are counted in
-    where they do not reach far."""
-    vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *vectors_seen(sheet, diagram)]
+    """The box (mm, y down, about the pole) around all vectors of a polygon, trial polygons among them; lines that lead
+    to them are counted in where they do not reach far."""
+    seen = vectors_seen(sheet, diagram)
+    vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(z.conjugate() for z in ends)
     for step in sheet.steps:

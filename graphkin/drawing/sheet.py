@@ -10,7 +10,6 @@ from itertools import islice, product
 
 from graphkin.checking.report import Report
 from graphkin.checking.scans import judge_scans
-from graphkin.construction.polygon_acts import TrialDrawn
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
@@ -253,12 +252,10 @@ class _Polygons:
         return polygon_with_insets(self.sheet, diagram, self.letters, self.language, panel.grown(-0.8), origin)
 
     def heights(self, plan: SheetPlan) -> tuple[float, float]:
-        """How high (mm) the polygons are on a plan with their names; trial polygons may take all of their panel."""
+        """How high (mm) the polygons are on a plan with their names."""
         panels = plan.velocity, plan.acceleration
-        tried = {step.diagram for step in self.sheet.steps if isinstance(step.act, TrialDrawn)}
         one, other = (
-            box.height if d in tried else extent(self.sheet, d, box.grown(-3.0)).height + 2 * NAMES
-            for d, box in zip(POLYGONS, panels, strict=True)
+            extent(self.sheet, d, box.grown(-3.0)).height + 2 * NAMES for d, box in zip(POLYGONS, panels, strict=True)
         )
         return one, other
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from itertools import product
 from typing import Any
 
 import pytest
@@ -11,7 +12,7 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import Slip, draft, execute, plan
+from graphkin.construction import Room, Slip, draft, execute, plan
 from graphkin.construction.board import pencil
 from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
@@ -320,6 +321,35 @@ def test_trial_polygons_are_drawn_and_divided() -> None:
     (velocity, _) = (step.act for step in sheet.steps if isinstance(step.act, Superposed))
     one, two = (row[0] for row in velocity.apart)  # type: ignore[union-attr]
     assert one * two < 0
+
+
+FOUR_BARS = ("contour-four-bars", "double-butterfly")
+
+
+@pytest.mark.parametrize(("name", "at"), [*product(FOUR_BARS, (60, 80, 100)), *product(FOUR_BARS[1:], (20, 200, 300))])
+def test_trial_polygons_are_whole_in_their_room_and_hardly_larger_than_the_true_one(name: str, at: float) -> None:
+    sheet = draft(mechanism_of(name), {"2": math.radians(at)}, room=Room(polygon=(80.0, 70.0)))
+    for diagram in ("velocity", "acceleration"):
+        true = [0j, *(z for v in sheet.vectors(diagram).values() for z in (v.tail, v.tip))]
+        every = [*true, *(z for aid in sheet.trials(diagram) for z in (aid.tail, aid.tip))]
+        assert sheet.trials(diagram)
+        for ends, most in ((every, (88.0, 77.0)), (every, [1.25 * max(_reach(true))] * 2)):
+            assert all(size <= room for size, room in zip(_reach(ends), most, strict=True))
+
+
+def _reach(ends: list[complex]) -> tuple[float, float]:
+    across, upright = ([part(z) for z in ends] for part in (lambda z: z.real, lambda z: z.imag))
+    return max(across) - min(across), max(upright) - min(upright)
+
+
+def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None:
+    sheet = draft(mechanism_of("double-butterfly"))
+    for act in (step.act for step in sheet.steps if isinstance(step.act, Superposed)):
+        ((_, true),) = act.found
+        assumed = [s.act.assumed[0] for s in sheet.steps if isinstance(s.act, TrialDrawn)]
+        low, high = (value for symbol, value in assumed if symbol == act.found[0][0])
+        assert 0.0 > (low - true) * (high - true)
+        assert [float(f"{value:.2g}") for value in (low, high)] == [low, high]
 
 
 def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:

@@ -80,8 +80,8 @@ def test_what_trial_polygons_leave_open_is_told_with_its_sense():
     lines = told("double-butterfly")
     start = next(i for i, line in enumerate(lines) if line.startswith("trial polygons"))
     assert "without 8; on paper is open from $k$ to $p$ along $KD$, positive from $K$ to $D$:" in lines[start]
-    trials = ["$I$: $ω_{3}$ = −1 rad/s;  open 34.63 mm", "$II$: $ω_{3}$ = −2 rad/s;  open −38.47 mm"]
-    divided = "nothing open: $ω_{3}$ = −1 − 34.63 / (34.63 + 38.47) × 1 = −1.4737 rad/s"
+    trials = ["$I$: $ω_{3}$ = −1 rad/s;  open 34.63 mm", "$II$: $ω_{3}$ = −1.6 rad/s;  open −9.23 mm"]
+    divided = "nothing open: $ω_{3}$ = −1 − 34.63 / (9.23 + 34.63) × 0.6 = −1.4737 rad/s"
     assert [*trials, divided] == lines[start + 1 : start + 4]
 
 
