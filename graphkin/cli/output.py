@@ -28,13 +28,13 @@ def tell(text: str, err: bool = False) -> None:
 def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
     """The languages that a command is asked to speak, English where it is not said or not known.
 
-    >>> asked_languages(["draw", "four-bar", "--lang", "zh"]), asked_languages(["check", "--lang=both"])
-    (('zh',), ('en', 'zh'))
+    >>> asked_languages(["draw", "four-bar", "--lang", "zh"]), asked_languages(["--lang=both"]), asked_languages([])
+    (('zh',), ('en', 'zh'), ('en',))
     """
     from graphkin.words import BOTH, LANGUAGES, languages
 
     given, asked = "", list(arguments)
-    for word, following in zip(asked, [*asked[1:], ""], strict=True):
+    for word, following in zip(asked, [*asked, ""][1:], strict=True):
         given = following if word == "--lang" else word[7:] if word.startswith("--lang=") else given
     return languages(given) if given in (*LANGUAGES, BOTH) else LANGUAGES[:1]
 
