@@ -29,7 +29,6 @@ CLOSE = 2e-13
 """A position is found where no constraint is open by more, with lengths in the size."""
 LEAST = 1e-13
 BEND = 0.2
-STEADY = 0.1  # part of the change of rates over a step by which they may lie off the straight line between
 AT_END = 1e-9
 BESIDE = 0.003
 TOWARD = 0.75  # part of what is left to a dead point that is taken in one step
@@ -60,7 +59,8 @@ class _Walk:
 
 
 def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
-    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted.
+    """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted, or if the
+    group hardly moves: then it may stop, dwell, turn back or start with a jolt, as the link that moves it does.
 
     Towards a dead point rates grow as one over the root of what is left to it (Seydel, Practical Bifurcation and
     Stability Analysis, ch. 2): two of them tell how much that is, and what to expect of the next step.
@@ -91,10 +91,8 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
         off = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
         found = there.missed[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
-        good = found and off < min(0.03, 0.003 + 0.3 * moved) and (
-            _bend(slope / root, new_slope, weight) < BEND
-            or _turns_back(at, t, [places[-1], there.place[0]], slope, step, new_slope - slope, weight)
-        )
+        steady = _bend(slope / root, new_slope, weight) < BEND
+        good = found and off < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
         if good and np.sign(there.determinant[0]) != sense:
             passed = _passed(at, t, places[-1], slope, step, there, new_slope, weight)
             if passed is not None:
@@ -105,7 +103,7 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
             good = passed is not None
         if good:
             faster = float(np.max(np.abs(new_slope / weight)) / (np.max(np.abs(slope / weight)) or 1.0)) ** 2 - 1
-            left = step / faster if faster > 0 else np.inf
+            left = step / faster if steady and faster > 0 else np.inf
             t, slope = t + step, new_slope
             nodes.append(t)
             places.append(there.place[0])
@@ -131,17 +129,6 @@ def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
     """
     most = max(float(np.max(np.abs(slope / weight))), float(np.max(np.abs(new_slope / weight))))
     return float(np.max(np.abs((new_slope - slope) / weight))) / (most or 1.0)
-
-
-def _turns_back(at: At, t: float, places: list[Array], slope: Array, step: float, change: Array, weight: Array) -> bool:
-    """Whether a group stops within a step and goes on steadily, as where the link that moves it turns back: its rates
-    between are on the straight line from the one to the other, and do not leap as where it branches."""
-    for s in (0.25, 0.5, 0.75):
-        found, rate = at(t + s * step, (1 - s) * places[0] + s * places[1])
-        off = np.max(np.abs((rate - slope - s * change) / weight))
-        if not found.missed[0] < CLOSE or not off < STEADY * np.max(np.abs(change / weight)):
-            return False
-    return True
 
 
 def _passed(

@@ -269,6 +269,13 @@ class ClusterSolved:
             least = np.linalg.svd(finite, compute_uv=False)[:, -1]
             return np.asarray(np.where(self._whole, 1 / np.maximum(least, 1e-300), np.inf))
 
+    def same_assembly(self, place: Array) -> bool:
+        """Whether a place nearby (rows, 3) is of the same assembly for certain, whatever the rates there: by the
+        bound on its matrix, which stays regular all around (of the first position)."""
+        off = (self.place[0] - place)[: len(self.system.group.members)]
+        moved = float(np.linalg.norm(off / np.array([self.system.structure.scene.size] * 2 + [1.0])))
+        return bool(self.condition[0] * _bending(self.system, self.poses)[0] * moved < 0.5)
+
     @cached_property
     def rolling_open(self) -> Array:
         """How far what rolls may be off: what is still open, and the rounding of its turns; shape (n, relations)."""
@@ -356,11 +363,16 @@ def certificate(system: System, members: Mapping[str, Pose], condition: Array, m
     Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
     (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
     """
+    step = condition * np.maximum(missed, ROUNDINGS) * (3 * len(system.group.members)) ** 0.5
+    return np.asarray(condition * step * _bending(system, members))
+
+
+def _bending(system: System, members: Mapping[str, Pose]) -> Array:
+    """The most by which the matrix changes with the scaled unknowns, both as roots of squares."""
     size, rows = system.structure.scene.size, 3 * len(system.group.members)
     poses = [*members.values(), *system.known.values()]
     reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
-    step = condition * np.maximum(missed, ROUNDINGS) * rows**0.5
-    return np.asarray(condition * step * 4 * reach * rows**0.5)
+    return np.asarray(4 * reach * rows**0.5)
 
 
 def solve_all(matrix: Array, right: Array) -> Array:

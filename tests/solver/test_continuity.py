@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
 from typing import Any
 
@@ -14,7 +15,7 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
-from graphkin.solver.continuity import At, _turns_back
+from graphkin.solver.continuity import At, _walk_cluster
 from graphkin.solver.pose import Array
 from tests import scenes
 
@@ -256,25 +257,69 @@ def test_a_larger_group_goes_on_where_the_rocker_that_moves_it_turns_back() -> N
         assert complex(before.poses[link].u[0]) == pytest.approx(complex(after.poses[link].u[0]), abs=1e-9)
 
 
-def along(bend: str) -> At:
-    """A group of one coordinate that stops at 0 and goes back: along a parabola, one not quite even, or with a leap."""
+def stopping(way: str, alone_within: float) -> At:
+    """A group of one coordinate that stops halfway along the path of 0 to 2: goes back, goes on, dwells, or leaps."""
     ways = {
-        "even": (lambda t: t * t, lambda t: 2 * t),
-        "nearly even": (lambda t: t * t + 0.03 * t**3, lambda t: 2 * t + 0.09 * t * t),
+        "back": (lambda t: t * t, lambda t: 2 * t),
+        "on": (lambda t: t**3, lambda t: 3 * t * t),
+        "dwells": (lambda t: max(t, 0.0) ** 3, lambda t: 3 * max(t, 0.0) ** 2),
         "leaps": (abs, np.sign),
-        "uneven": (lambda t: t**4, lambda t: 4 * t**3),
     }
-    place, rate = ways[bend]
+    place, rate = ways[way]
 
     def at(t: float, _: Array) -> tuple[Any, Array]:
-        return SimpleNamespace(missed=[0.0], place=np.array([[place(t)]])), np.array([rate(t)])
+        found = np.array([[[0.1 * place(t - 1), 0.0, 0.0]]])
+
+        def same(before: Array) -> bool:
+            return float(np.abs(found[0] - before).max()) < alone_within
+
+        told = SimpleNamespace(missed=[0.0], place=found, determinant=[1.0], same_assembly=same)
+        return told, np.array([[0.1 * rate(t - 1), 0.0, 0.0]])
 
     return at
 
 
-@pytest.mark.parametrize(("bend", "on"), [("even", True), ("nearly even", True), ("leaps", False), ("uneven", False)])
-def test_a_group_goes_on_where_its_rates_change_evenly_and_not_where_they_leap(bend: str, on: bool) -> None:
-    at = along(bend)
-    (one, rate), (two, later) = at(-1.0, np.zeros(1)), at(1.0, np.zeros(1))
-    places = [one.place[0], two.place[0]]
-    assert on == _turns_back(at, -1.0, places, rate, 2.0, later - rate, np.ones(1))
+@pytest.mark.parametrize("way", ["back", "on", "dwells", "leaps"])
+@pytest.mark.parametrize(("alone_within", "end"), [(1e-3, None), (0.0, pytest.approx(1.0, abs=1e-6))])
+def test_a_group_goes_on_from_where_it_stops_if_no_other_assembly_is_near(
+    way: str, alone_within: float, end: float | None
+) -> None:
+    at = stopping(way, alone_within)
+    assert end == _walk_cluster(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05).end
+
+
+def behind_a_cam(law: Sequence[Mapping[str, object]]) -> dict[str, Any]:
+    """A plate on three legs, moved by the follower of a cam."""
+    return {
+        "units": {"length": "mm"},
+        "frame": {
+            "points": {"A": [0, 0], "G": [130, 30], "H": [40, 190]},
+            "guides": {"y": {"through": [0, 0], "angle": 90}},
+        },
+        "links": {
+            "1": {"points": ["A"]},
+            "2": {"points": ["B"], "on": "0.y"},
+            "3": {"points": ["B", "C"], "length": 61},
+            "4": {"points": ["C", "D"], "length": 62, "at": {"E": {"from": ["C", "D"], "r": [39, 57], "side": "left"}}},
+            "5": {"points": ["G", "D"], "length": 68},
+            "6": {"points": ["H", "E"], "length": 61},
+        },
+        "cams": {"1": {"follower": "2", "law": law, "base": {"r": 55}, "roller": 8}},
+        "driver": {"link": "1", "angle": 70, "omega": 6},
+        "sketch": {"B": [0, 75], "C": [50, 110], "D": [110, 95], "E": [75, 140]},
+    }
+
+
+@pytest.mark.parametrize("by", ["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"])
+def test_a_larger_group_follows_a_cam_through_the_seams_of_its_law(by: str) -> None:
+    law = [{"to": 150, "rise": 20, "by": by}, {"to": 180}, {"to": 330, "fall": 20, "by": by}, {"to": 360}]
+    scene = behind_a_cam(law)
+    turned = solve(mechanism_of(scene), sweep=12)
+    assert ["ok"] * 12 == list(turned.status)
+    # the same follower pushed along its guide, without a cam
+    pushed = {**scene, "links": {k: v for k, v in scene["links"].items() if k != "1"}}
+    del pushed["cams"]
+    for k, lift in ((3, 20.0), (9, 0.0)):  # in the dwells, at 160 and 340 deg
+        pushed["driver"] = {"slide": "2", "travel": 63 + lift, "velocity": 1}
+        alone = solve(mechanism_of(pushed))
+        assert complex(alone.point("E").z[0]) == pytest.approx(complex(turned.point("E").z[k]), abs=1e-13)
