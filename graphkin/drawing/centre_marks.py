@@ -21,7 +21,7 @@ from graphkin.drawing.symbols import POINTER, arrow
 from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
 
-__all__ = ["centre_marks", "line_name", "mark_of", "near_box", "pale"]
+__all__ = ["TOGETHER", "centre_marks", "line_name", "mark_of", "near_box", "pale"]
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds

@@ -6,27 +6,75 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise, permutations
 
 from graphkin.construction.centres import Centre, Centres
 from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import centre_marks, line_name, near_box
+from graphkin.drawing.centre_marks import TOGETHER, centre_marks, line_name, near_box
 from graphkin.drawing.conventions import Letters, scale_statement
 from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import facts, figure_title, term
+from graphkin.drawing.labels import Label
+from graphkin.drawing.obstacles import obstacles_of
 from graphkin.drawing.page_text import MARGIN, WIDTH, foot, titled
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, renamed, with_labels
+from graphkin.drawing.piece import (
+    Piece,
+    ink_box,
+    joined,
+    layer_groups,
+    moved_piece,
+    renamed,
+    with_crowd,
+    without,
+)
 from graphkin.drawing.primitives import Group, Line, Primitive, Text, walk
 from graphkin.drawing.text import plain, rich
 from graphkin.words import languages
 
-__all__ = ["centre_steps", "untold"]
+__all__ = ["centre_steps", "named_centres", "untold"]
 
 HEIGHT = 297.0
 COLUMNS, ROWS = 2, 3
 GAP, CAPTION = 3.0, 6.0  # mm between pictures, and above each
 CLEAR, INSIDE = 1.0, 3.0  # mm from the frame of a picture to names, and to what it shows
 LETTER = 3.0
+ROUNDS = 4  # how often names are placed anew without those that have no clear place
+
+
+def named_centres(piece: Piece, panel: Box, centres: Centres) -> Piece:
+    """A figure of centres with its names in their places; in a crowd without those of found centres that would stand on
+    others or have leaders through joints, which `untold` then returns too."""
+    for _ in range(ROUNDS):
+        named, crowded = with_crowd(piece, panel)
+        ids = _overlapping(named) if crowded else set()
+        marks = {label.mark for label in crowded if label.text.id in ids and _found(label, centres)}
+        if not marks:
+            break
+        piece = replace(piece, labels=tuple(label for label in piece.labels if label.mark not in marks))
+    return named
+
+
+def _overlapping(named: Piece) -> set[str]:
+    """The names that stand on others, or have leaders through joints."""
+    written = named.layers["labels"]
+    texts = {thing.id: text_box(thing) for thing in written if isinstance(thing, Text)}
+    joints = obstacles_of(without(named, texts).drawn).areas
+    ids = {a for a, b in permutations(texts, 2) if texts[a].overlaps(texts[b])}
+    return ids | {
+        name.id for leader, name in pairwise(written) if isinstance(leader, Line) and isinstance(name, Text)
+        and any(one.clip(leader.start, leader.end) and one.distance(leader.start) > 0.0 for one in joints)
+    }  # fmt: skip
+
+
+def _found(label: Label, centres: Centres) -> bool:
+    """Whether a name is that of centres that all lie where two lines cross."""
+    at = label.mark
+    if isinstance(at, tuple) or not label.text.id.startswith("label-centre-"):
+        return False
+    near = [c for c in centres.found if c.point is not None and abs(c.point.conjugate() - at) < TOGETHER]
+    return all(c.lines for c in near)
 
 
 def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
@@ -94,7 +142,8 @@ def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, 
     content = near_box(alone, ink_box(behind.drawn) or Box(-10.0, -10.0, 10.0, 10.0), (inside.width, inside.height))
     origin = inside.centre - content.centre
     around = panel.grown(-CLEAR).moved(-origin)
-    piece = with_labels(joined((behind, centre_marks(alone, letters, around, behind.drawn))), around)
+    piece, crowded = with_crowd(joined((behind, centre_marks(alone, letters, around, behind.drawn))), around)
+    piece = without(piece, {label.text.id for label in crowded if label.rank > 2})  # told above the picture
     corners = panel.corners
     frame = tuple(Line(a, b, strokes.DIMENSION) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
     return joined((moved_piece(piece, origin), Piece({"centres": frame})))

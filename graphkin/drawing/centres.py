@@ -18,7 +18,7 @@ from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.centre_marks import centre_marks, line_name, mark_of, near_box, pale
-from graphkin.drawing.centre_steps import centre_steps, untold
+from graphkin.drawing.centre_steps import centre_steps, named_centres, untold
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
 from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
@@ -26,7 +26,7 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.mechanism import bare_mechanism
 from graphkin.drawing.mechanism_on_paper import MechanismOnPaper
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.text import plain, rich, wrapped
@@ -155,7 +155,7 @@ def centres_figure(
     panel = Box(MARGIN, top, width - MARGIN - SIDE - 2.0, top + tall + 2 * ROOM)
     origin = panel.centre - content.centre
     around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
-    piece = with_labels(joined((back, centre_marks(centres, letters, around, back.drawn))), around)
+    piece = named_centres(joined((back, centre_marks(centres, letters, around, back.drawn))), around, centres)
     piece = moved_piece(piece, origin)
     report = _report(centres, turning, letters, spoken, width - 2 * MARGIN)
     below = panel.bottom + 6.0

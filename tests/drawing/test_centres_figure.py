@@ -10,10 +10,17 @@ import pytest
 import graphkin
 from graphkin.api.centred import found_centres
 from graphkin.api.centroded import centrodes
+from graphkin.construction import Room
 from graphkin.construction.centres import Centres, speeds
-from graphkin.drawing.centres import centres_figure
+from graphkin.drawing.box import Box
+from graphkin.drawing.centre_marks import centre_marks
+from graphkin.drawing.centre_steps import named_centres, untold
+from graphkin.drawing.centres import background, centres_figure
+from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
+from graphkin.drawing.mechanism import bare_mechanism
+from graphkin.drawing.piece import Piece, ink_box, joined, with_labels
 from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.svg import svg_bytes
 from graphkin.errors import CallError
@@ -178,3 +185,29 @@ def test_no_label_of_a_picture_is_overlapped_crossed_or_cut(
     pages = graphkin.centres(name, language="both").figure.further
     assert pages
     assert [[] for _ in pages] == [violations(svg_bytes(page)) for page in pages]
+
+
+def test_in_a_crowd_no_name_of_a_found_centre_stands_on_another_and_it_is_shown_on_a_further_page() -> None:
+    centres = found_centres(mechanism_of("single-flier"), None).in_room(Room(mechanism=(40.0, 32.0)))
+    letters = letters_of(centres.sheet, "chinese")
+    back = background(bare_mechanism(centres.sheet, letters))
+    box = ink_box(back.drawn)
+    assert box is not None
+    panel = box.grown(6.0)
+    near = [c for c in centres.found if c.point is not None and panel.distance(c.point.conjugate()) == 0.0]
+    found = {"label-centre-" + "-".join(sorted(c.pair)): c for c in near if c.lines}
+
+    def names(piece: Piece) -> dict[str, Box]:
+        written = [thing for thing in piece.layers["labels"] if isinstance(thing, Text) and "centre" in thing.classes]
+        return {text.id: text_box(text) for text in written}
+
+    def struck(named: dict[str, Box]) -> set[str]:
+        return {a for a in named for b in named if a != b and a in found and named[a].overlaps(named[b])}
+
+    piece = joined((back, centre_marks(centres, letters, panel, back.drawn)))
+    all_of_them, clear = names(with_labels(piece, panel)), names(named := named_centres(piece, panel, centres))
+    assert struck(all_of_them)
+    assert struck(clear) == set()
+    left_out = {found[id].pair for id in all_of_them.keys() - clear.keys()}
+    assert left_out
+    assert left_out <= {centre.pair for centre in untold(centres, named.drawn)}
