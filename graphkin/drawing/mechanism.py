@@ -8,6 +8,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Collection, Iterator
 
+from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
@@ -202,10 +203,11 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
     return parts
 
 
-def joints(here: MechanismOnPaper) -> Piece:
-    """Every point with its symbol, and the letters that want a place beside them."""
-    drawn = tuple(Group(tuple(_joint(here, p)), id=f"point-{p}", classes=("point",)) for p in here.places)
-    return Piece({"mechanism": drawn}, tuple(_letter(here, point) for point in here.places))
+def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
+    """Every point but some with its symbol, and the letters that want a place beside them."""
+    points = [point for point in here.places if point not in without]
+    drawn = tuple(Group(tuple(_joint(here, p)), id=f"point-{p}", classes=("point",)) for p in points)
+    return Piece({"mechanism": drawn}, tuple(_letter(here, point) for point in points))
 
 
 def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
@@ -357,9 +359,11 @@ def _fits(box: Box, room: tuple[float, float]) -> bool:
 
 
 def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
-    """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses."""
+    """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses, no
+    special points, which serve its polygons alone."""
     here = MechanismOnPaper(sheet, letters)
-    return joined((links(here), springs(here), joints(here), link_names(here), _marks(here)))
+    special = {step.act.point for step in sheet.steps if isinstance(step.act, SpecialPoint)}
+    return joined((links(here), springs(here), joints(here, special), link_names(here), _marks(here)))
 
 
 def _marks(here: MechanismOnPaper) -> Piece:
