@@ -10,9 +10,10 @@ from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
-from graphkin.words.written import amount, on_paper, product, true_minus
+from graphkin.words.written import amount, increase, on_paper, product, true_minus
 
 __all__ = [
+    "AddedRate",
     "Asked",
     "ByImage",
     "ByRate",
@@ -163,6 +164,19 @@ class MeasuredRate:
 
 
 @dataclass(frozen=True)
+class AddedRate:
+    """An angular rate (rad/s, rad/s2) from the ``value`` of that of a ``known`` link; how the two turn relative to each
+    other, ``apart``, is given, or seen: that of link ``of`` relative to the other."""
+
+    rate: Literal["omega", "alpha"]
+    link: str
+    known: str
+    of: str
+    value: float
+    apart: float
+
+
+@dataclass(frozen=True)
 class PlanDrawn:
     """The line of a link in the plan of a train, by its places ``by``, or one place and its known rate; and the rate
     (rad/s, rad/s2) that it marks off, ``mm`` on the rate scale at ``per_mm``."""
@@ -281,7 +295,7 @@ class Superposed:
 
 InPolygon = (
     LaidOff | FoundVector | DirectionLine | Carried | PutBack | Resultant | Asked | LinesMeet | Named | SamePlace
-    | ByRate | ByImage | Translated | MeasuredRate | OnPlan | TrialDrawn
+    | ByRate | ByImage | Translated | MeasuredRate | AddedRate | OnPlan | TrialDrawn
     | Superposed | SeenFrom | RateSeen | ImageSeen | SeenByRate
 )  # fmt: skip
 
@@ -335,6 +349,10 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return _on_plan(act)
         case RateSeen(rate, link, held, vector, bar, value):
             return polygon_phrase(MeasuredRate(rate, f"{link}{held}", vector, bar, value))
+        case AddedRate(rate, link, known, of, value, apart):
+            signed = ("+", link + known) if link == of else ("−", known + link)
+            told = increase(value, apart if link == of else -apart)
+            return Phrase(f"added {rate}", (link, known, *signed, told))
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
             return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))

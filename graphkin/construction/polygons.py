@@ -14,6 +14,7 @@ from graphkin.construction.board import Board
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.net import Edge, Joined, TwoWays, contacts_of, equation_of, joined_at_contacts, node
 from graphkin.construction.polygon_acts import (
+    AddedRate,
     Carried,
     DirectionLine,
     FoundVector,
@@ -212,7 +213,18 @@ class Polygons(Plot):
                 for known, new, more in ((a, b, add), (b, a, -add)):
                     if known == at and new not in self.rates[order]:
                         self._share_rate(order, at, new, more)
+                        told = self._told_apart(order, a, b) if a in self.seen else add != 0.0
+                        if isinstance(group, Cluster) and at != self.ground and told:
+                            value = self.rates[order][at].value
+                            self.board.do(order, AddedRate(RATE[order], new, at, b, value, add))
                         queue.append(new)
+
+    def _told_apart(self, order: Order, one: str, other: str) -> bool:
+        """Whether it is told how a link turns as seen from another: it does not just turn as a third does."""
+        rates = self.seen[one].rates[order]
+        if other not in rates:
+            return False
+        return not rates[other].same_as or rates[rates[other].same_as].value != rates[other].value
 
     def _side(self, order: Order, edges: tuple[Edge, ...]) -> _Side:
         return [(edge, [self.slip.term(part) for part in parts_of(self, order, edge)]) for edge in edges]

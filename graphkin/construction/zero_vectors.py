@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from graphkin.construction.as_seen import vectors_seen
-from graphkin.construction.polygon_acts import FoundVector, LaidOff, MeasuredRate, RateSeen
+from graphkin.construction.polygon_acts import AddedRate, FoundVector, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
 from graphkin.construction.steps import Act
@@ -28,11 +28,15 @@ def without_residues(sheet: Sheet) -> Sheet:
     zero = _residues(sheet)
     if not zero:
         return sheet
+    rates = {
+        "omega": _rates(sheet.omega, zero, sheet.scales.velocity / sheet.scales.length),
+        "alpha": _rates(sheet.alpha, zero, sheet.scales.acceleration / sheet.scales.length),
+    }
     return replace(
         sheet,
-        steps=tuple(_step(step, zero) for step in sheet.steps),
-        omega=_rates(sheet.omega, zero, sheet.scales.velocity / sheet.scales.length),
-        alpha=_rates(sheet.alpha, zero, sheet.scales.acceleration / sheet.scales.length),
+        steps=tuple(_step(step, zero, rates) for step in sheet.steps),
+        omega=rates["omega"],
+        alpha=rates["alpha"],
         noticed=tuple(
             (name, replace(remark, mm=0.0) if isinstance(remark, ZeroVector) and remark.symbol in zero else remark)
             for name, remark in sheet.noticed
@@ -83,14 +87,16 @@ def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
     return (Symbol("v", symbol.of, symbol.to), *((Symbol("v", symbol.of),) if symbol.to.point in fixed else ()))
 
 
-def _step(step: Step, zero: frozenset[Symbol]) -> Step:
+def _step(step: Step, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, Rate]]) -> Step:
     strokes: tuple[Stroke, ...] = tuple(
         replace(s, tip=s.tail) if isinstance(s, Vector | Aid) and s.symbol in zero else s for s in step.strokes
     )
-    return replace(step, act=_act(step.act, zero), strokes=strokes)
+    return replace(step, act=_act(step.act, zero, rates), strokes=strokes)
 
 
-def _act(act: Act, zero: frozenset[Symbol]) -> Act:
+def _act(act: Act, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, Rate]]) -> Act:
+    if isinstance(act, AddedRate):
+        return replace(act, value=rates[act.rate][act.known].value)
     if isinstance(act, LaidOff | FoundVector) and act.symbol in zero:
         return replace(act, mm=0.0)
     return replace(act, value=0.0) if isinstance(act, MeasuredRate | RateSeen) and act.vector in zero else act

@@ -3,11 +3,11 @@ the way from point to point, special points, trial polygons with what is left op
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 
-from graphkin.construction.board import EXACT
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -21,16 +21,16 @@ from graphkin.construction.mechanism_acts import (
     TrialPositions,
 )
 from graphkin.construction.polygon_acts import (
+    AddedRate,
     ByImage,
     FoundVector,
     ImageSeen,
     LaidOff,
-    MeasuredRate,
-    RateSeen,
     Resultant,
     SeenByRate,
     SeenFrom,
     Superposed,
+    polygon_phrase,
 )
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.sizes import Direction, RateTimes
@@ -41,9 +41,9 @@ from graphkin.drawing.sums import bound, divisions, rule_sum, trials_of
 from graphkin.drawing.trial_words import moved_and_missed, numeral, told_in, what_is_open
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed, say
-from graphkin.words.written import MOST, amount, in_markup, increased, on_paper
+from graphkin.words.written import in_markup, on_paper
 
-__all__ = ["GroupLines"]
+__all__ = ["GroupLines", "carried_over"]
 
 
 class _Set(str):
@@ -170,64 +170,15 @@ class GroupLines:
         """What the mark of vectors means that are seen from a held link."""
         return self._say(Phrase("written seen", (act.held,)))
 
-    def rates_of_contour(self, step: Step, act: MeasuredRate) -> Iterator[str]:
-        """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: links of a contour, as soon as one of them turns
-        at a known rate."""
-        order = "velocity" if act.rate == "omega" else "acceleration"
-        before = self.sheet.steps[: self.sheet.steps.index(step)]
-        turned = {s.act.link for s in before if isinstance(s.act, MeasuredRate) and s.act.rate == act.rate}
-        for one in (s.act for s in before if isinstance(s.act, SeenFrom) and s.act.order == order):
-            seen = {s.act.link: s.act.value for s in before if isinstance(s.act, RateSeen)
-                    and s.act.held == one.held and s.act.rate == act.rate}  # fmt: skip
-            contour = {one.held: 0.0, **seen}
-            if act.link not in contour or turned & contour.keys():
-                continue
-            rates = self.sheet.omega if act.rate == "omega" else self.sheet.alpha
-            base = amount(rates[act.link].value, MOST)
-            if act.link != one.held:  # the held link first
-                own = amount(-seen[act.link], MOST)
-                yield self._sum(act.rate, one.held, act.link, "−", act.link + one.held, base, own)
-                base = increased(base, own)
-            for name in (n for n in seen if n != act.link and n in rates):
-                own = amount(seen[name], MOST)
-                yield self._sum(act.rate, name, one.held, "+", name + one.held, base, own)
-
-    def _sum(self, kind: str, name: str, known: str, sign: str, seen: str, base: str, more: str) -> str:
-        letter, rates = ("ω", self.sheet.omega) if kind == "omega" else ("α", self.sheet.alpha)
-        added = f"− {written(more[1:])}" if more.startswith("-") else f"+ {written(more)}"
-        terms = f"${letter}_{{{name}}}$ = ${letter}_{{{known}}}$ {sign} ${letter}_{{{seen}}}$"
-        value, finer = increased(base, more), amount(rates[name].value, MOST)
-        exact = "" if value == finer or self.sheet.instrument != EXACT.name else f" ({written(finer)})"
-        unit = "rad/s" if kind == "omega" else "rad/s²"
-        return bound(f"{terms} = {written(base)} {added} = {written(value)}{exact} {unit}")
+    def added(self, act: AddedRate) -> str:
+        """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: a link whose turning relative to another is known,
+        as soon as that one turns at a known rate."""
+        return bound(re.sub(r"[ωα]_\{[^}]*\}", r"$\g<0>$", say(polygon_phrase(act), self.language)))
 
     def carried_over(self, step: Step, act: LaidOff) -> str | None:
-        """``v_A3 = −v_A2A3``: what a polygon seen from a held link gives of two links; of accelerations with the
-        share of Coriolis that the turning of the other of them adds."""
-        of, to = act.symbol.of, act.symbol.to
-        if act.size is not None or act.is_zero or of is None or act.direction.names:
-            return None
-        before = self.sheet.steps[: self.sheet.steps.index(step)]
-        held = {s.act.held for s in before if isinstance(s.act, SeenFrom)}
-        kind = act.symbol.kind[0]
-        seen = next((
-            one for s in reversed(before) if (one := _vector_of(s.act)) is not None and one.kind == kind
-            and one.of is not None and one.to is not None and one.to.link in held
-            and one.of.point == one.to.point == of.point
-        ), None)  # fmt: skip
-        if seen is None or seen.to is None:
-            return None
-        against = of.link == seen.to.link
-        told = _Set(f"{'−' if against else ''}${self.letters.vector(seen)}$")
-        if kind == "v" or to is None or not against:
-            return self._say(Phrase("written carried over", (act.symbol, told)))
-        slip = next(s.act.symbol for s in before if isinstance(s.act, LaidOff) and s.act.symbol.of == of
-                    and s.act.symbol.kind == "v")  # fmt: skip
-        size = RateTimes("omega", (seen.to.link, to.link), slip, twice=True)
-        turning = self.sheet.omega[seen.to.link].value - self.sheet.omega[to.link].value
-        key = "written carried over coriolis cw" if turning < 0.0 else "written carried over coriolis ccw"
-        rule = _Set(f"${self.letters.size(size)}$ = {bound(rule_sum(self.sheet, size, 'acceleration'))}")
-        return self._say(Phrase(key, (act.symbol, told, rule, slip)))
+        """``v_A3 = −v_A2A3``: what a polygon seen from a held link gives of two links."""
+        told = carried_over(self.sheet, step, act)
+        return None if told is None else self._say(told)
 
     def image(self, step: Step, act: ByImage | ImageSeen) -> str | None:
         """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points
@@ -272,6 +223,35 @@ class GroupLines:
             return f"${self.letters.size(thing)}$"
         names = names_in_letters(self.letters, str(thing))
         return in_markup(str(thing)) if names is None else ", ".join(f"${name}$" for name in names)
+
+
+def carried_over(sheet: Sheet, step: Step, act: LaidOff) -> Phrase | None:
+    """From what seen from a held link a vector between points of two links follows, which is laid off as it was found;
+    an acceleration with the share of Coriolis that the turning of the other of them adds."""
+    of, to = act.symbol.of, act.symbol.to
+    if act.size is not None or act.is_zero or of is None or act.direction.names:
+        return None
+    before = sheet.steps[: sheet.steps.index(step)]
+    held = {s.act.held for s in before if isinstance(s.act, SeenFrom)}
+    kind = act.symbol.kind[0]
+    seen = next((
+        one for s in reversed(before) if (one := _vector_of(s.act)) is not None and one.kind == kind
+        and one.of is not None and one.to is not None and one.to.link in held
+        and one.of.point == one.to.point == of.point
+    ), None)  # fmt: skip
+    if seen is None or seen.to is None:
+        return None
+    against = of.link == seen.to.link
+    told = Phrase("against", (seen,)) if against else seen
+    if kind == "v" or to is None or not against:
+        return Phrase("written carried over", (act.symbol, told))
+    slip = next(s.act.symbol for s in before if isinstance(s.act, LaidOff) and s.act.symbol.of == of
+                and s.act.symbol.kind == "v")  # fmt: skip
+    size = RateTimes("omega", (seen.to.link, to.link), slip, twice=True)
+    turning = sheet.omega[seen.to.link].value - sheet.omega[to.link].value
+    key = "written carried over coriolis cw" if turning < 0.0 else "written carried over coriolis ccw"
+    rule = Phrase("rule of size", (size, bound(rule_sum(sheet, size, "acceleration"))))
+    return Phrase(key, (act.symbol, told, rule, slip))
 
 
 def _vector_of(act: object) -> Symbol | None:

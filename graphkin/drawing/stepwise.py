@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from graphkin.construction.polygon_acts import Carried, MeasuredRate, PlanDrawn
+from graphkin.construction.polygon_acts import AddedRate, Carried, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.steps import links_drawn
 from graphkin.construction.strokes import Aid, Mark, TrialCurve, Vector
@@ -78,7 +78,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for link in sheet.scene.links:
         born.update({f"length-{a}{b}": last for a in link.points for b in link.points})
     for step in sheet.steps:
-        if isinstance(step.act, MeasuredRate | PlanDrawn):
+        if isinstance(step.act, MeasuredRate | AddedRate | PlanDrawn):
             born[f"{step.act.rate}-{step.act.link}"] = step.number
     return born
 

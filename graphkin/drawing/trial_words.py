@@ -12,6 +12,7 @@ from graphkin.construction.polygon_acts import Superposed
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.drawing.end_letters import EndLetters
 from graphkin.drawing.group_aids import NUMERALS
+from graphkin.structure import Slide
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper, true_minus
 
@@ -24,13 +25,28 @@ STRAIGHT = 1e-9  # rad
 def moved_and_missed(sheet: Sheet, table: TrialTable) -> tuple[Phrase, Phrase]:
     """All that is moved in trial positions, and all that is missed."""
     moved = reduce(lambda a, b: Phrase("moved too", (a, b)), [_moved(sheet, one) for one in table.moved])
-    return moved, reduce(lambda a, b: Phrase("missed too", (a, b)), [_missed(one) for one in table.missed])
+    return moved, reduce(lambda a, b: Phrase("missed too", (a, b)), [_missed(sheet, one) for one in table.missed])
 
 
-def _missed(missed: Missed) -> Phrase:
-    """What is measured: between the ends of a bar, or of a list."""
+def _missed(sheet: Sheet, missed: Missed) -> Phrase:
+    """What is measured: between the ends of a bar, off a guide, or of a list."""
+    if missed.kind == "guide":
+        *points, key = missed.names
+        slide = sheet.structure.slide(key)
+        name = _along_guide(slide, sheet.structure.links[slide.b].points)
+        off = (", ".join(points), slide.b)
+        return Phrase("missed guide", (*off, name)) if name else Phrase("missed guide of link", off)
     named = "".join(missed.names) if missed.kind == "bar" else ", ".join(missed.names)
     return Phrase(f"missed {missed.kind}", (named, on_paper(missed.length)))
+
+
+def _along_guide(slide: Slide, points: Mapping[str, complex]) -> str:
+    """The outermost points on a guide, in its sense, else its name; "" where it has neither."""
+    guide = slide.guide
+    off = {p: (z - guide.through) * guide.direction.conjugate() for p, z in points.items()}
+    size = max(map(abs, off.values()), default=0.0)
+    on = sorted((along.real, p) for p, along in off.items() if abs(along.imag) <= STRAIGHT * size)
+    return on[0][1] + on[-1][1] if len(on) > 1 else guide.name
 
 
 def _moved(sheet: Sheet, moved: Moved) -> Phrase:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from graphkin.construction.mechanism_acts import HeldStill, PitchPoint, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import (
+    AddedRate,
     ByImage,
     ByRate,
     Carried,
@@ -65,7 +66,8 @@ def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[Written
             lines += _products(sheet, equation, letters)
         if isinstance(step.act, MeasuredRate):
             lines.append(_measured(sheet, step.act, letters, language))
-            lines += group.rates_of_contour(step, step.act)
+        elif isinstance(step.act, AddedRate):
+            lines.append(group.added(step.act))
         elif isinstance(step.act, RateSeen):
             lines.append(_seen(sheet, step.act, letters, language))
         elif isinstance(step.act, HeldStill) and step.act.gives in ("omega", "alpha"):

@@ -12,7 +12,7 @@ from functools import cached_property
 from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import COVERAGE, Uncertainty
 from graphkin.construction.forces import ForceSheet, forces_on
-from graphkin.construction.polygon_acts import MeasuredRate, PlanDrawn
+from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
 from graphkin.construction.strokes import Vector
 from graphkin.drawing.conventions import Letters, letters_of
@@ -158,7 +158,7 @@ def found_in(lesson: Lesson, step: Step) -> dict[str, Json]:
     """What a step finds: ``find`` with symbol, name, size in its unit, and direction (degrees) or sense; empty for a
     step that finds nothing."""
     sheet, act = lesson.sheet, step.act
-    if isinstance(act, MeasuredRate) or (isinstance(act, PlanDrawn) and not act.known):
+    if isinstance(act, MeasuredRate | AddedRate) or (isinstance(act, PlanDrawn) and not act.known):
         omega = act.rate == "omega"
         rate = (sheet.omega if omega else sheet.alpha).get(act.link)
         if rate is None or not rate.value:

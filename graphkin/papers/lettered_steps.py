@@ -26,6 +26,7 @@ from graphkin.construction.sizes import Direction, Given, Size
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.end_letters import EndLetters, Markup
+from graphkin.drawing.group_lines import carried_over
 from graphkin.drawing.headings import number
 from graphkin.drawing.polygon_on_page import SAME
 from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
@@ -57,7 +58,8 @@ class LetteredSteps:
         vector = _drawn(step)
         ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
         if isinstance(act, LaidOff) and vector is not None and not act.is_zero:
-            return self._laid_off(step, act, vector)
+            told, why = self._laid_off(step, act, vector), carried_over(self.sheet, step, act)
+            return told if why is None else Phrase("in turn", (told or step.phrase, why))
         if isinstance(act, FoundVector) and vector is not None and not act.is_zero:
             name = self._between(step, vector)
             return Phrase("found lettered", (name, act.symbol, on_paper(act.mm))) if name else None

@@ -11,8 +11,8 @@ import math
 from decimal import Decimal, localcontext
 
 __all__ = [
-    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "in_markup", "increased", "is_quotient", "on_paper",
-    "pointing", "product", "quotient", "to_lay_off", "true_minus",
+    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "in_markup", "increase", "increased", "is_quotient",
+    "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
 ]  # fmt: skip
 
 MOST = 5  # figures of a computed number
@@ -103,6 +103,21 @@ def increased(value: str, more: str) -> str:
     """
     with localcontext(prec=DIGITS):
         return _plain(_number(value) + _number(more))
+
+
+def increase(value: float, more: float) -> str:
+    """The sum of two numbers that are computed, in figures: what its terms give as they are written, and in brackets
+    what it is where that differs.
+
+    >>> increase(-0.0416167, 0.0832331), increase(2.0, -3.0)
+    ('−0.041617 + 0.083233 = 0.041616 (0.041616)', '2 − 3 = −1')
+    """
+    tiny = 1e-12 * max(abs(value), abs(more))
+    base, own = (amount(one if abs(one) > tiny else 0.0, MOST) for one in (value, more))
+    whole, finer = increased(base, own), amount(value + more if abs(value + more) > tiny else 0.0, MOST)
+    sign = "−" if own.startswith("-") else "+"
+    exact = "" if whole == finer else f" ({true_minus(finer)})"
+    return f"{true_minus(base)} {sign} {own.removeprefix('-')} = {true_minus(whole)}{exact}"
 
 
 def amount(value: float, carried: int = 6) -> str:

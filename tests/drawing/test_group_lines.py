@@ -8,16 +8,21 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
+from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import TrialPositions
+from graphkin.construction.polygon_acts import AddedRate
 from graphkin.construction.sheet import Equation
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.end_letters import EndLetters
 from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.group_lines import GroupLines
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import wrapped
 from graphkin.drawing.written_lines import written_lines
+from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import PointRef
+from tests.construction.test_groups import BARE, HELD, UNBARRED, WELDED
 from tests.drawn import drafted
 
 GROUPS = ("contour-four-bars", "double-butterfly", "loader-cylinder", "single-flier", "sixbar-1A-last-link",
@@ -117,6 +122,30 @@ def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
         whole = sum(float(part) for part in terms.replace(" ", "").replace("−", "-").split("+"))
         assert whole == pytest.approx(float(value.replace("−", "-")), abs=1e-12)
         assert whole == pytest.approx(sheet.omega[link].value, abs=2e-6)
+
+
+@pytest.mark.parametrize("scene", [BARE, UNBARRED, HELD, WELDED], ids=["bare", "unbarred", "held", "welded"])
+def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
+    sheet = draft(mechanism_of(scene))
+    acts = [step.act for step in sheet.steps if isinstance(step.act, AddedRate)]
+    assert {"omega", "alpha"} == {act.rate for act in acts}
+    for act in acts:
+        line = GroupLines(sheet, letters_of(sheet, "chinese"), "en").added(act).replace("\u00a0", " ")
+        terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
+        value = float(value.replace("−", "-"))
+        rates = sheet.omega if act.rate == "omega" else sheet.alpha
+        assert rates[act.link].value == pytest.approx(value, abs=1e-4 * max(abs(act.value), abs(act.apart)))
+        assert eval(terms.replace("−", "-")) == pytest.approx(value, abs=1e-12)
+
+
+@pytest.mark.parametrize(("language", "named"), [
+    ("en", "how far $B$ lies to the left of the guide g of link 5, less what it should,"),
+    ("zh", "$B$ 偏离构件 5 上导路 g 的距离（向左为正）减去应有值"),
+])  # fmt: skip
+def test_what_is_missed_at_a_guide_is_told_with_the_guide(language, named):
+    sheet = draft(mechanism_of(BARE))
+    lines = written_lines(sheet, letters_of(sheet, "chinese"), language)
+    assert any(named in line for line in lines if isinstance(line, str))
 
 
 def test_what_is_carried_over_from_a_held_link_is_told_by_its_parts():

@@ -186,9 +186,20 @@ def test_trials_of_a_group_are_told_with_what_is_measured_and_divided():
     assert "the length DF measured, less 32.50 mm, is 2.10; 1.34; 0.56; −0.25;" in said
     assert "between the trial positions 3 and 4, divided as 0.56 to 0.25, at −172.68°" in said
     assert "cross at 3° only, 554 mm away, off the paper, so trial polygons are superposed" in said
-    assert "from d to f along DF, positive from D to F: I 15.44; II −12.49 mm" in said
-    assert "ω_3 = −6.6584 rad/s, that is −5 − 15.44 / (12.49 + 15.44) × 3" in said
+    assert "from d to f along DF, positive from D to F: I 6.13; II −5.97 mm" in said
+    assert "ω_3 = −6.6584 rad/s, that is −6 − 6.13 / (5.97 + 6.13) × 1.3" in said
     assert "From b lay off v_CB = ω_3 l_CB, 39.95 mm, ⊥CB, pointing to −91.5°: point c" in said
+
+
+def test_rates_that_add_up_and_what_is_carried_over_from_a_held_link_are_steps_of_their_own():
+    said = _steps("scissor-lift", "en")
+    assert 4 == sum("ω_3 + ω_" in step for step in said)
+    assert "ω_2 = ω_3 + ω_23 = −0.041617 + 0.083233 = 0.041616 (0.041617) rad/s." in said
+    assert "α_2 = α_3 + α_23 = −0.014983 + 0.029966 = 0.014983 rad/s²." in said
+    assert 1 == sum(step.endswith("point a_3; v_A3 = −v_A2A3.") for step in said)
+    (more,) = (step for step in said if "a^r_A3A2 = −a_A2A3" in step)
+    assert more.replace("\u00a0", " ").endswith("and from its end 2ω_32 v_A3 = 2 × 0.083233 × 66.587 = 11.084 mm/s², "
+                         "along v_A3 turned 90° clockwise.")  # fmt: skip
 
 
 def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
