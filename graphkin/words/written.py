@@ -109,8 +109,8 @@ def increase(value: float, more: float) -> str:
     """The sum of two numbers that are computed, in figures: what its terms give as they are written, and in brackets
     what it is where that differs.
 
-    >>> increase(-0.0416167, 0.0832331), increase(2.0, -3.0)
-    ('−0.041617 + 0.083233 = 0.041616 (0.041616)', '2 − 3 = −1')
+    >>> increase(-0.0416166, 0.0832332), increase(2.0, -3.0)
+    ('−0.041617 + 0.083233 = 0.041616 (0.041617)', '2 − 3 = −1')
     """
     tiny = 1e-12 * max(abs(value), abs(more))
     base, own = (amount(one if abs(one) > tiny else 0.0, MOST) for one in (value, more))
