@@ -27,6 +27,7 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
+    from graphkin.solver.larger_groups import ClusterSolved
 
 __all__ = ["assembly_words", "limit_why", "singular", "without_singular"]
 
@@ -36,6 +37,10 @@ CLOSE = 1e-9
 """Where a discriminant is less, sixteen digits may not tell on which side of a limit a position lies."""
 WEAK = 1e-3
 """Sine below which a group is near its dead point."""
+HIDDEN = 1e-8
+"""Where a group passes on errors by one over this, they hide how far its dead point is."""
+ASIDE = 1e-4
+"""How far a group is put aside to see how its constraints bend."""
 HAIR, FAR_OFF = 1e-7, 1e2
 """A step of a driver (rad, or of the size), and what is far away (of the size)."""
 
@@ -168,10 +173,14 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
     names = ", ".join(group.links) if isinstance(group, Cluster) else named_with_contact(structure, group)
     if isinstance(solved, ClusterSolved):
-        if not (solved.missed[0] < OPEN and solved.certificate[0] < CERTIFIED) and solved.condition[0] * SINGULAR <= 1:
-            return f"links {names}: refused, Newton's method has not converged quadratically to a position"
+        if not solved.missed[0] < OPEN:
+            return f"links {names}: no position was found here in which they hold together"
         u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
         branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
+        where = "" if branch else _fold_where(structure, solved, values)
+        if not solved.certificate[0] < CERTIFIED and solved.condition[0] * SINGULAR <= 1:
+            near = "a place where two of their assemblies meet" if branch else "their dead point"
+            return f"links {names} are so near to {near} that sixteen digits do not tell where they stand{where}"
         how = "have a singular position"
     else:
         e1, e2, load = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.load))
@@ -185,8 +194,24 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         else:
             how = _dyad_words(group).dead
     end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
-    names = names if isinstance(group, Dyad) else f"links {names}"
+    if isinstance(solved, ClusterSolved):
+        return f"links {names} {how}: dead point, {end}{where}"
     return f"{names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
+
+
+def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> str:
+    """Where the dead point of a larger group lies by the bend of its constraints, as they are beside it: along the
+    motion that would be free there they open as sigma s + a s2, against the b t of the driver (Seydel, Practical
+    Bifurcation and Stability Analysis, ch. 2).  Nothing of several drivers, and where rounding has moved it as far."""
+    if len(structure.scene.drivers) != 1 or solved.condition[0] * HIDDEN > 1:
+        return ""
+    u, sigma, free = np.linalg.svd(solved.matrix[0])
+    place = solved.place[:, : len(solved.system.group.members)]
+    way = ASIDE * solved.system.scaled(free[None, -1])
+    ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
+    bend = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
+    off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.load[0])))
+    return _lies_at(structure, float(values[0]) + off, abs(off), "about {:.2g}")
 
 
 def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
@@ -198,15 +223,18 @@ def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     point = nearest_dead_point(structure, i, signs, value)
     if point is None:
         return ""
+    away = float(abs(point.value - meant_value(structure.scene.drivers[0], value)))
+    return _lies_at(structure, float(point.value), away if away > 1e-30 else 0.0)
+
+
+def _lies_at(structure: Structure, value: float, away: float, digits: str = "{:.3g}") -> str:
     scene, driver = structure.scene, structure.scene.drivers[0]
-    away = float(abs(point.value - meant_value(driver, value)))
-    away = away if away > 1e-30 else 0.0
     unit = (
         ("deg", np.degrees(away))
         if isinstance(driver, AngleDriver)
         else (scene.units.length, away / scene.units.metres)
     )
-    return f"; it lies at {driver.key} = {driver_text(scene, driver, float(point.value))}, {unit[1]:.3g} {unit[0]} away"
+    return f"; it lies at {driver.key} = {driver_text(scene, driver, value)}, {digits.format(unit[1])} {unit[0]} away"
 
 
 def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Phrase, ...]:

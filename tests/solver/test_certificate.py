@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of_text
+from graphkin.solver import driver_range, solve, structure_of
 from graphkin.solver import larger_groups as cluster
-from graphkin.solver import solve, structure_of
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive
@@ -22,10 +22,20 @@ def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None
     assert [g.certificate[0] < 1e-6 for g in state.groups.values()] == [True]
 
 
-def test_what_has_not_converged_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_no_certain_position_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "certificate", lambda system, members, condition, missed: np.full(len(missed), 0.7))
     motion = solve(mechanism_of_text(scenes.TRIAD, "scene"))
-    assert "refused, Newton's method has not converged quadratically" in motion.why[0]
+    assert "links 2, 3, 4, 5 are so near to their dead point" in motion.why[0]
+
+
+@pytest.mark.parametrize("away", [1e-10, 1e-11])
+def test_a_refused_group_is_said_to_be_so_far_from_its_dead_point(away: float) -> None:
+    scene = mechanism_of_text(scenes.TRIAD, "scene")
+    limit = float(driver_range(scene).value(np.array(driver_range(scene).ends))[1])
+    motion = solve(scene, at={"1": limit - away})
+    assert motion.status[0] == "dead point"
+    said = float(motion.why[0].split(", about ")[1].removesuffix(" deg away"))
+    assert np.degrees(away) == pytest.approx(said, rel=0.2)
 
 
 def test_a_larger_group_stays_within_its_bound() -> None:
