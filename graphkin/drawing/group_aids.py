@@ -21,10 +21,12 @@ from graphkin.drawing.polygon_points import step_number
 from graphkin.drawing.primitives import Arc, Group, Line, Polyline, Primitive, Text
 from graphkin.drawing.symbols import arrowhead
 from graphkin.drawing.text import symbol
+from graphkin.plane import cross, dot, unit
 
 __all__ = ["aids_in_mechanism", "aids_in_polygon", "compass_arcs"]
 
 COMPASS = 7.0  # mm of arc to either side of what it finds
+SPLINTER = math.sin(math.radians(15.0))  # a smaller angle of an arc to a bar looks like a splinter of the bar
 
 CROSS = 0.9  # mm: half a cross that marks a trial position
 NUMERALS = ("I", "II", "III", "IV", "V")
@@ -34,17 +36,29 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
     """Compass arcs near the points that they find, over a block that would leave but their ends."""
     under: list[Primitive] = []
     over: list[Primitive] = []
-    for step in here.sheet.steps:
-        if step.diagram != "mechanism":
-            continue
-        for arc in (s for s in step.strokes if isinstance(s, CompassArc)):
-            if arc.radius < 1e-9:
-                continue
-            middle, half = phase(arc.at - arc.centre), min(COMPASS / arc.radius, math.pi * 0.9)
-            shape = Arc(page(arc.centre), arc.radius, middle - half, middle + half, strokes.CONSTRUCTION)
-            covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
-            (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
+    arcs = [
+        (step, stroke) for step in here.sheet.steps if step.diagram == "mechanism"
+        for stroke in step.strokes if isinstance(stroke, CompassArc) and stroke.radius > 1e-9
+    ]  # fmt: skip
+    bars: dict[complex, set[complex]] = {}
+    for _, arc in arcs:
+        bars.setdefault(same_place(arc.at), set()).add(unit(arc.centre - arc.at))
+    for step, arc in arcs:
+        there = bars[same_place(arc.at)]
+        middle = phase(arc.at - arc.centre)
+        half = min(COMPASS / arc.radius, math.pi * 0.9)
+        shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
+        first, last = (half * (one or not any(shown)) for one in shown)
+        shape = Arc(page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
+        covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
+        (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
     return Piece({"construction": tuple(under), "mechanism": tuple(over)})
+
+
+def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
+    """Whether an arc, to one side, 1 counter-clockwise, begins nearly along one of the bars that meet there."""
+    way = side * 1j * unit(arc.at - arc.centre)
+    return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
 
 
 def aids_in_mechanism(sheet: Sheet) -> Piece:

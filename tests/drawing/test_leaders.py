@@ -11,7 +11,7 @@ import shapely
 from graphkin import draw
 from graphkin.drawing import Text
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import walk
+from graphkin.drawing.primitives import Circle, Group, walk
 
 SVG = "{http://www.w3.org/2000/svg}"
 drawn = cache(draw)
@@ -99,7 +99,7 @@ def test_no_leader_of_these_sheets_runs_across_a_vector(scene):
 
 @pytest.mark.parametrize(("scene", "figure"), [
     ("sixbar-rotating-guide-35rpm", "velocity"), ("sixbar-1A-last-link", "acceleration"), ("wheel-on-rail", "sheet"),
-    ("disc-on-disc", "acceleration"),
+    ("disc-on-disc", "acceleration"), ("double-butterfly", "sheet"),
 ])  # fmt: skip
 def test_a_name_with_no_room_makes_others_move_before_its_leader_runs_across_two_vectors(scene, figure):
     assert crossed(scene, figure) <= 1
@@ -112,7 +112,7 @@ def texts_of(scene: str, figure: str, **options: str) -> dict[str, str]:
 
 @pytest.mark.parametrize(("scene", "figure"), [
     ("disc-on-disc", "acceleration"), ("disc-on-disc", "sheet"), ("disc-on-disc", "contacts-2"),
-    ("loader-cylinder", "sheet"), ("double-butterfly", "sheet"), ("sixbar-rotating-guide-scheme2", "sheet"),
+    ("loader-cylinder", "sheet"), ("sixbar-rotating-guide-scheme2", "sheet"),
 ])  # fmt: skip
 def test_no_leader_runs_across_a_vector_in_a_crowd(scene, figure):
     assert crossed(scene, figure) == 0
@@ -166,3 +166,19 @@ def test_a_number_without_room_at_its_vector_stands_beside_its_name():
     (name,) = [text_box(text) for text in texts if text.id == "label-a_B"]
     assert max(number.left - name.right, name.left - number.right, number.top - name.bottom,
                name.top - number.bottom) == pytest.approx(0.5)  # fmt: skip
+
+
+@pytest.mark.parametrize(("scene", "point"), [("toggle-press", "B"), ("sixbar-420rpm", "C")])
+def test_no_compass_arc_runs_along_a_bar_so_close_that_it_looks_like_a_splinter_of_it(scene, point):
+    layers = {group.id: group for group in drawn(scene).figures["mechanism"].children}
+    things = [group for layer in layers.values() for group in layer.children if isinstance(group, Group)]
+    joint = next(group for group in things if group.id == f"point-{point}")
+    at = next(thing.centre for thing in walk(joint.children) if isinstance(thing, Circle))
+    arcs = [thing for group in things if "compass" in group.classes for thing in walk(group.children)]
+    ends = [end for arc in arcs for end in (arc.at(arc.start), arc.at(arc.end))
+            if abs(abs(arc.centre - at) - arc.radius) < 1e-6 and 1.0 < abs(end - at) < 8.0]  # fmt: skip
+    bars = [shapely.LineString([(z.real, z.imag) for z in (arc.centre, at)]) for arc in arcs
+            if abs(abs(arc.centre - at) - arc.radius) < 1e-6]  # fmt: skip
+    assert len(bars) == 2
+    assert ends
+    assert min(bar.distance(shapely.Point(end.real, end.imag)) for bar in bars for end in ends) > 1.2
