@@ -106,9 +106,10 @@ class Box(NamedTuple):  # a page has thousands
                 if room < 0.0:
                     return None
             elif rate < 0.0:
-                enter = max(enter, room / rate)
-            else:
-                leave = min(leave, room / rate)
+                if (share := room / rate) > enter:
+                    enter = share
+            elif (share := room / rate) < leave:
+                leave = share
         if enter > leave:
             return None
         return (

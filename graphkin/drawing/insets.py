@@ -55,12 +55,13 @@ def polygon_with_insets(
     senses, small = _coriolis(sheet, diagram), details(sheet, diagram)[:MOST_DETAILS]
     count = len(senses) + len(small)
     bare = PolygonOnPage(sheet, diagram, letters, language, panel, origin, ())
-    boxes = _boxes(bare, strip, count, INSET)
+    plain = polygon_piece(bare)
+    boxes = _boxes(panel, plain, strip, count, INSET)
     shown = senses[: len(boxes)]
-    boxes += _boxes(bare, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
+    boxes += _boxes(panel, plain, None, len(shown) + len(small) - len(boxes), SMALL_INSET, boxes)
     enlarged = small[: len(boxes) - len(shown)]
     here = replace(bare, enlarged=tuple(enlarged))
-    figure, pieces, crowd = _with_details(here, boxes[len(shown) :], boxes)
+    figure, pieces, crowd = _with_details(here, polygon_piece(here) if enlarged else plain, boxes[len(shown) :], boxes)
     crowded = crowds(here, crowd)[:MOST_CROWDS] if len(enlarged) == len(small) else []
     if crowded:
         there = replace(here, enlarged=(*enlarged, *crowded))
@@ -69,12 +70,14 @@ def polygon_with_insets(
             here, figure, boxes, pieces = there, added[0], [*boxes, *added[2]], [*pieces, *added[1]]
         else:
             more = boxes + (
-                _boxes(bare, strip, len(crowded), INSET, boxes) or _boxes(bare, strip, len(crowded), SMALL_INSET, boxes)
+                _boxes(panel, plain, strip, len(crowded), INSET, boxes)
+                or _boxes(panel, plain, strip, len(crowded), SMALL_INSET, boxes)
             )
-            there = replace(here, enlarged=there.enlarged[: len(more) - len(shown)])
-            clearer = _with_details(there, more[len(shown) :], more) if len(more) > len(boxes) else (figure, [], crowd)
-            if len(clearer[2]) < len(crowd):
-                here, boxes, (figure, pieces, _) = there, more, clearer
+            if len(more) > len(boxes):
+                there = replace(here, enlarged=there.enlarged[: len(more) - len(shown)])
+                clearer = _with_details(there, polygon_piece(there), more[len(shown) :], more)
+                if len(clearer[2]) < len(crowd):
+                    here, boxes, (figure, pieces, _) = there, more, clearer
     pieces = [*(_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
@@ -88,11 +91,10 @@ def polygon_with_insets(
 
 
 def _boxes(
-    here: PolygonOnPage, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = (),
-    figure: Piece | None = None,
-) -> list[Box]:  # fmt: skip
-    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first; clear of the
-    polygon, or of a figure with its names."""
+    panel: Box, drawn: Piece, strip: Box | None, count: int, size: tuple[float, float], taken: Sequence[Box] = ()
+) -> list[Box]:
+    """Up to ``count`` boxes for insets beside those that are taken, in free places of a strip first; clear of what is
+    drawn on the panel."""
     found: list[Box] = []
     if count < 1:
         return found
@@ -100,17 +102,17 @@ def _boxes(
         many = per_row(strip.width) * int((strip.height + ROUNDING) // (INSET[1] + GUTTER))
         found = _in_rows(strip, many)[len(taken) : len(taken) + count]
     if count > len(found):
-        around = obstacles_of((figure or polygon_piece(here)).drawn) + Obstacles(areas=(*taken, *found))
-        found += free_boxes(count - len(found), size, here.panel, around)
+        around = obstacles_of(drawn.drawn) + Obstacles(areas=(*taken, *found))
+        found += free_boxes(count - len(found), size, panel, around)
     return found
 
 
 def _with_details(
-    here: PolygonOnPage, boxes: Sequence[Box], fences: Sequence[Box]
+    here: PolygonOnPage, own: Piece, boxes: Sequence[Box], fences: Sequence[Box]
 ) -> tuple[Piece, list[Piece], tuple[Label, ...]]:
-    """A polygon with its names, the insets of what is drawn again larger, each in its box, and the names that stand
-    badly."""
-    own, pieces = polygon_piece(here), []
+    """A polygon, ``own`` as drawn, with its names, the insets of what is drawn again larger, each in its box, and the
+    names that stand badly."""
+    pieces = []
     shown: set[str] = set()
     again: set[str] = set()  # with the letters that stand at other vectors too
     for number, (one, box) in enumerate(zip(here.enlarged, boxes, strict=False), 1):
@@ -131,7 +133,7 @@ def _in_the_room_left(
     ``first`` on, and their boxes; None where there is no room for all of them and their rings."""
     crowded, own = here.enlarged[first:], polygon_piece(here)
     for size in (INSET, SMALL_INSET):
-        boxes = _boxes(here, strip, len(crowded), size, taken, figure)
+        boxes = _boxes(here.panel, figure, strip, len(crowded), size, taken)
         if len(boxes) < len(crowded):
             continue
         pieces = [

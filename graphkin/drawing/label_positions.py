@@ -16,7 +16,7 @@ from graphkin.plane import cross
 
 __all__ = ["LEADER_SPACE", "LOTS", "Columns", "LabelForms", "LabelPosition", "LabelPositions", "Placed", "leader_forms"]
 
-LOTS = (0, 48, 240, 720)
+LOTS = (0, 40, 120, 240, 720)
 """First places of the lots in which places are judged, the cheapest first."""
 T = TypeVar("T", float, Floats)
 
