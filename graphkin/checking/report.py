@@ -13,6 +13,7 @@ from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
+from graphkin.structure import by_drivers_alone
 from graphkin.words.written import MOST, amount, figures, on_paper, product
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ __all__ = ["JUDGED", "Compared", "Report", "compare", "deviation", "exact", "mea
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
+ROUNDED = 1e-12
 GRAIN = 2e-15  # rounding of places, of the farthest
 JUDGED = 4.0  # deviations of a pencil: what each of a dozen readings keeps within in a thousand drawings
 FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accepts anything (exact hands, programs)
@@ -147,6 +149,12 @@ def compare(
         # a rate that is zero comes from a vector divided by a length
         largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
     grain = _grain(sheet)
+
+    def slight(reading: Reading) -> float:
+        """What is nothing beside the largest that drivers alone give of this kind."""
+        alike = ((r.symbol, v) for r, v in pairs if r.symbol.scope == "motion" and r.symbol.kind == reading.symbol.kind)
+        return ROUNDED * max(abs(v) for symbol, v in alike if by_drivers_alone(sheet.structure, symbol))
+
     rows = []
     for reading, value in pairs:
         if reading.symbol.scope == "force":
@@ -169,6 +177,10 @@ def compare(
         if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             tolerance = max(tolerance, floor)
         fair = _fair(sheet, tolerance, most, least)
+        if (not fair or 0.0 < abs(value) <= floor) and by_drivers_alone(sheet.structure, reading.symbol):
+            # no group comes before it whose rounding it could have
+            tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
+            floor, fair = min(floor, slight(reading)), _fair(sheet, tolerance, most, least)
         rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair))
     have = {r.symbol for r in readings}
     scales = replace(sheet.scales, force=force_scale)

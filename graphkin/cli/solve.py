@@ -25,6 +25,7 @@ from graphkin.cli.output import complain, print_json, print_table, tell, unsolva
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
+    from graphkin.structure import Structure
     from graphkin.table import Column
 
 Told = Mapping[str, Any]
@@ -32,6 +33,7 @@ Told = Mapping[str, Any]
 
 __all__ = ["solve"]
 
+_SLIGHT = 1e-12
 _OF_SLIDES = {"travel": "position", "velocity": "velocity", "acceleration": "acceleration"}
 _KINDS = {"deg": "angle", "rad/s": "omega", "rad/s2": "alpha", "/s": "velocity", "/s2": "acceleration"}
 """Which bound of a position holds for a quantity, by its unit without that of lengths."""
@@ -121,32 +123,37 @@ def _print_positions(solved: Solved, language: str) -> None:
             rows = [[c.name, _number(x), c.unit] for c, x in zip(columns, told, strict=True)]
             print_table([word("quantity", language), "", ""], rows, right=(1,))
             continue
-        _print_position(position, scene.units.length, language)
+        _print_position(position, solved.motion.structure, language)
         if "forces" in position:
             _print_forces(position, scene.units.force, language)
 
 
-def _print_position(position: Told, unit: str, language: str) -> None:
+def _print_position(position: Told, structure: Structure, language: str) -> None:
     from graphkin.words import Phrase, say
 
+    unit = structure.scene.units.length
     heads = {k: say(Phrase(f"heads of {k}", (unit,)), language).split("|") for k in ("links", "points", "slides")}
     bound = {kind: b or 0.0 for kind, b in position["error_bound"].items() if kind != "why"}
+    of = {k: _rate_bounds(k, position, bound, structure) for k in ("omega", "alpha", "velocity", "acceleration")}
     links = [
         [
             name,
             _number(math.degrees(_certain(link["angle"], bound["angle"]))),
-            *(_number(_certain(link[k], bound[k])) for k in ("omega", "alpha")),
+            *(_number(_certain(link[k], of[k][name])) for k in ("omega", "alpha")),
         ]
         for name, link in position["links"].items()
     ]
     points = [
-        [name, *(_pair(point[k], bound[k]) for k in ("position", "velocity", "acceleration"))]
+        [name, _pair(point["position"], bound["position"]),
+         *(_pair(point[k], of[k][name]) for k in ("velocity", "acceleration"))]
         for name, point in position["points"].items()
-    ]
+    ]  # fmt: skip
     slides = []
     for name, slide in position["slides"].items():
         # a difference of two points', and 2 omega v of such a one
-        twice = {k: 2.0 * bound[b] for k, b in _OF_SLIDES.items()}
+        ends = [p for p in position["points"] if p.partition("@")[2] in name.split("/")]
+        twice = {k: 2.0 * max((of[b][p] for p in ends), default=bound[b]) if b in of else 2.0 * bound[b]
+                 for k, b in _OF_SLIDES.items()}  # fmt: skip
         spin = abs(position["links"].get(name.partition("/")[2], {"omega": 0.0})["omega"])
         turned = 2.0 * (spin * twice["velocity"] + bound["omega"] * abs(slide["velocity"]))
         told = [_number(_certain(slide[k], twice[k])) for k in twice]
@@ -154,6 +161,23 @@ def _print_position(position: Told, unit: str, language: str) -> None:
     print_table(heads["links"], links, right=(1, 2, 3))
     print_table(heads["points"], points)
     print_table(heads["slides"], slides, right=(1, 2, 3))
+
+
+def _rate_bounds(kind: str, position: Told, bound: Told, structure: Structure) -> dict[str, float]:
+    """The bound of a rate of each link or point: where no group comes before it, of what the drivers alone move."""
+    from graphkin.scene.symbol import Symbol
+    from graphkin.structure import by_drivers_alone
+
+    def symbol(name: str) -> Symbol:
+        point, _, link = name.partition("@")
+        here = point if link and point in structure.scene.by_name[link].points else name
+        return Symbol.parse(f"{'v' if link else 'omega'}_{here}")
+
+    rows = position["points" if kind in ("velocity", "acceleration") else "links"]
+    sizes = {name: math.hypot(*(row[kind] if "@" in name else [row[kind]])) for name, row in rows.items()}
+    led = {name for name in rows if by_drivers_alone(structure, symbol(name))}
+    least = min(bound[kind], _SLIGHT * max((sizes[name] for name in led), default=0.0))
+    return {name: least if name in led else bound[kind] for name in rows}
 
 
 def _print_forces(position: Told, unit: str, language: str) -> None:

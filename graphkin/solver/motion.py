@@ -15,7 +15,7 @@ from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import ErrorBound
-from graphkin.structure import Cluster, Slide, Structure
+from graphkin.structure import Cluster, Slide, Structure, links_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase
 
@@ -299,9 +299,12 @@ class Motion:
         return pose.carrying(self.poses[at.name].fixed(at.points[point]).z)
 
     def _holder(self, point: str) -> str:
-        """The first link that has a point; of a point of contact what stands for the contact."""
+        """Of the links that have a point the frame, or the first in the order of solution, which is told best; of a
+        point of contact what stands for the contact."""
         if point in self.scene.holders:
-            return self.scene.holders[point][0]
+            order = {name: i for i, e in enumerate(self.structure.elements) for name in links_of(e)}
+            order[self.scene.frame.name] = -1
+            return min(self.scene.holders[point], key=lambda name: order.get(name, len(order)))
         held = next((name for name, link in self.structure.links.items() if point in link.points), None)
         if held is None:
             known = did_you_mean(point, [*self.scene.holders, *(c.name for c in self.scene.contacts)])

@@ -136,7 +136,8 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
     for name, angle in angles.items():
         columns["links"][name] = {"angle": angle, "omega": motion.omega(name), "alpha": motion.alpha(name)}
     for point, name in listed_points(scene, motion.slides):
-        at = motion.point(point, name)
+        # a pin is the same on each of its links
+        at = motion.point(point, "" if point in scene.by_name[name].points else name)
         found = at.z / metres, at.v / fast, at.a / fast
         columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
     for pair in own_slides(scene, motion.slides):

@@ -20,7 +20,7 @@ from graphkin.structure.model import (
     Weld,
     driver_pair,
 )
-from graphkin.structure.needed_elements import in_stages, links_of, needed, outside_of, part_of
+from graphkin.structure.needed_elements import by_drivers_alone, in_stages, links_of, needed, outside_of, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replaced_pairs
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
@@ -43,6 +43,7 @@ __all__ = [
     "Turn",
     "Weld",
     "analyse",
+    "by_drivers_alone",
     "driver_pair",
     "in_stages",
     "links_of",

@@ -11,7 +11,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure
 
-__all__ = ["in_stages", "links_of", "needed", "outside_of", "part_of"]
+__all__ = ["by_drivers_alone", "in_stages", "links_of", "needed", "outside_of", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -37,6 +37,15 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
         wanted |= {n for c in structure.scene.contacts if c.block in blocks for n in c.links}
         if len(wanted) == before:
             return kept
+
+
+def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
+    """Whether a quantity of the motion hangs on no group, but on links that drivers and cams move from the frame: it is
+    known where a group is lost in rounding."""
+    try:
+        return all(isinstance(element, Driven) for element in needed(structure, [symbol]))
+    except CallError:  # a special point of the drawing
+        return False
 
 
 def in_stages(elements: Sequence[Element]) -> bool:

@@ -50,13 +50,14 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
     report = compare(sheet, readings, exact.__getitem__, rounding={"velocity": 1e3})
-    assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity"}
+    led = {"v_B", "omega_1", "omega_3"}  # by the crank and the guide alone
+    assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity" and str(row.symbol) not in led}
 
 
 @pytest.mark.quick
 def test_a_report_of_readings_of_which_none_is_determined_is_not_ok() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
-    readings = [r for r in read_off(sheet) if r.diagram == "velocity"]
+    readings = [r for r in read_off(sheet) if str(r.symbol) in ("v_C", "v_C/B", "omega_2")]
     exact = {r.symbol: r.value for r in readings}
     assert not compare(sheet, readings, exact.__getitem__, rounding={"velocity": 1e3}).ok
 
@@ -125,3 +126,25 @@ def test_a_large_whole_number_rounded_beside_a_dead_point_is_not_called_wrong() 
     assert 2_649_564 == round(abs(graphkin.check(scene)["a_C"].exact))
     ((_, (judged,)),) = graphkin.audit({**scene, "printed": {"a_C": 2650e6}}).people
     assert "not judged" == judged.verdict
+
+
+BY_ITS_PISTON = {
+    "units": {"length": "mm"},
+    "frame": {"name": "4", "points": {"A": [0, 0]}, "guides": {"h": {"through": [0, 0], "angle": 0}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 23.8},
+        "2": {"points": ["B", "C"], "length": 58.4},
+        "3": {"points": ["C"], "on": "4.h"},
+    },
+    "driver": {"slide": "3", "travel": 82.2 - 5e-13, "velocity": 100, "acceleration": 50},
+    "sketch": {"B": [23, 1]},
+}
+
+
+def test_what_the_driver_gives_is_determined_where_rounding_loses_the_group_behind_it() -> None:
+    checked = graphkin.check(BY_ITS_PISTON)
+    rows = {str(row.symbol): row for row in checked.report.rows}
+    assert ["v_C", "omega_3", "a_C", "alpha_3"] == [name for name, row in rows.items() if row.ok]
+    assert (0.1, 0.05) == (pytest.approx(rows["v_C"].measured), pytest.approx(rows["a_C"].true))
+    assert {"v_B", "omega_1", "alpha_2"} <= {str(symbol) for symbol in checked.report.undetermined}
+    assert checked.ok
