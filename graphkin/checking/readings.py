@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import DiagramName, Sheet, either_way
 from graphkin.construction.strokes import Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol, centre_links
@@ -48,10 +48,12 @@ def read_off(
     107.578
     """
     found: dict[Symbol, Reading] = {}
+    twins = _one_vector(sheet) if instrument is not EXACT else {}
     for diagram, rate, kind in (("velocity", sheet.omega, "omega"), ("acceleration", sheet.alpha, "alpha")):
         name: DiagramName = "velocity" if diagram == "velocity" else "acceleration"
         for symbol, vector in sheet.vectors(name).items():
-            found[symbol] = _vector(sheet, name, vector, instrument)
+            twin = found.get(twins.get(symbol, symbol))
+            found[symbol] = replace(twin, symbol=symbol) if twin else _vector(sheet, name, vector, instrument)
         for link, r in rate.items():
             if link == sheet.scene.frame.name or "/" in link:
                 continue
@@ -70,6 +72,12 @@ def read_off(
     if not asked:
         return tuple(found.values())
     return tuple(found[s] for s in asked if s in found)
+
+
+def _one_vector(sheet: Sheet) -> dict[Symbol, Symbol]:
+    """Vectors that an equation says to be one, by each other: the acceleration of a crank pin is its normal part."""
+    alike = [[term.symbol for side in one.sides for term in side] for one in sheet.equations if len(one.sides) == 2]
+    return {one: other for pair in alike if len(pair) == 2 for one, other in (pair, pair[::-1])}
 
 
 def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> dict[Symbol, Reading]:
@@ -116,8 +124,10 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
 
 def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Instrument) -> Reading:
     size = abs(vector.span)
+    read = sheet.readings.get(either_way(vector.symbol), size) if size else 0.0
     if instrument is EXACT or size == 0.0:
-        return Reading(vector.symbol, size, vector.span * sheet.scales.of(diagram), diagram)
-    length = abs(instrument.read(size))
+        span = vector.span if read == size else vector.span * (abs(read) / size)
+        return Reading(vector.symbol, abs(read), span * sheet.scales.of(diagram), diagram)
+    length = abs(read) if either_way(vector.symbol) in sheet.readings else abs(instrument.read(size))
     along = instrument.read_direction(vector.span / size)
     return Reading(vector.symbol, length, length * along * sheet.scales.of(diagram), diagram)

@@ -14,7 +14,7 @@ from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.structure import by_drivers_alone
-from graphkin.words.written import MOST, amount, figures, on_paper, product
+from graphkin.words.written import MOST, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
@@ -334,7 +334,7 @@ def measured(reading: Reading, scales: Scales, units: Units, compared: Compared 
         return product(length, amount(scales.of(reading.diagram) / per, 12))
     if abs(abs(value) - abs(reading.on_paper) * scales.length) < 1e-9 * abs(value):
         return ("-" if value.real < 0.0 < reading.on_paper else "") + product(length, amount(scales.length / per, 12))
-    return amount(float(value.real) / per, min(MOST, figures(length)))
+    return computed(float(value.real) / per, min(MOST, figures(length)))
 
 
 def exact(compared: Compared, units: Units, carried: int = MOST + 1) -> str:

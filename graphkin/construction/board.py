@@ -9,17 +9,19 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from graphkin.construction.remarks import OffTheSheet, Remark, SharpCrossing
-from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step
+from graphkin.construction.sheet import EXACT_NAME, DiagramName, Equation, Step, either_way
 from graphkin.construction.steps import Act, Cause
 from graphkin.construction.strokes import Aid, Mark, Stroke, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.symbol import Symbol
+from graphkin.words.written import computed, on_paper
 
 __all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "erring", "nudged", "pencil"]
 
@@ -68,6 +70,10 @@ class Instrument(Protocol):
         """Read an angle off the protractor."""
         ...
 
+    def noted(self, value: float, carried: int) -> float:
+        """A number computed from readings as it is written down, with the figures that they carry."""
+        ...
+
 
 @dataclass(frozen=True)
 class Exact:
@@ -98,6 +104,9 @@ class Exact:
     def read_direction(self, along: complex) -> complex:
         return along
 
+    def noted(self, value: float, carried: int) -> float:
+        return value
+
 
 EXACT = Exact()
 CAD_MM = 0.01
@@ -121,13 +130,16 @@ class Cad(Exact):
 class Hand:
     """Hands that err: each act adds an error, ``errs`` standard deviations of what its tool can do.
 
-    ``errs`` gets the number of the act (from 1); ``acts`` counts them.  On a ``screen`` only reading errs.
+    ``errs`` gets the number of the act (from 1); ``acts`` counts them.  On a ``screen`` only reading errs.  Who
+    ``notes`` uses a number as it is written down; errors of first order are told by hands that do not, for what
+    rounding jumps by is no measure of them.
     """
 
     tools: Tools
     errs: Callable[[int], float]
     name: str = "pencil"
     screen: bool = False
+    notes: bool = False
     acts: int = 0
 
     @property
@@ -162,12 +174,22 @@ class Hand:
         return self.tools.ruler / _UNIFORM
 
     def read(self, mm: float) -> float:
-        return mm + self._error(self.reading_error)
+        read = mm + self._error(self.reading_error)
+        return float(on_paper(read)) if self._rounds else read
+
+    @property
+    def _rounds(self) -> bool:
+        """Whether numbers are rounded where they are written down; a ruler without steps has no last figure."""
+        return self.notes and self.tools.ruler >= LAST_PLACE
+
+    def noted(self, value: float, carried: int) -> float:
+        return float(computed(value, carried)) if self._rounds else value
 
     def read_direction(self, along: complex) -> complex:
         return _turned(along, self._error(self.tools.protractor / _UNIFORM))
 
 
+LAST_PLACE = 0.01  # mm; of a length as it is written
 _UNIFORM = math.sqrt(12)  # a value read to the nearest mark errs evenly within a mark: its width over sqrt(12)
 _SCREEN = Tools(ruler=CAD_MM, protractor=CAD_DEG)
 _NEVER: Mapping[int, float] = {}
@@ -176,7 +198,7 @@ _NEVER: Mapping[int, float] = {}
 def pencil(tools: Tools, seed: int) -> Hand:
     """A pencil in a human hand: every act errs at random, the same way for the same seed."""
     dice = random.Random(seed)
-    return Hand(tools, lambda _: dice.gauss(0.0, 1.0))
+    return Hand(tools, lambda _: dice.gauss(0.0, 1.0), notes=True)
 
 
 def nudged(name: str, tools: Tools, errs: Mapping[int, float] = _NEVER) -> Hand:
@@ -196,23 +218,45 @@ def _turned(along: complex, deg: float) -> complex:
     return along * cmath.rect(1.0, math.radians(deg))
 
 
+_Thing = TypeVar("_Thing")
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 
 
 @dataclass
 class Board:
-    """Steps in the order in which they are done; the one thing in this room that grows."""
+    """Steps in the order in which they are done, and what was read; the one thing in this room that grows.
+
+    ``arms`` are the lengths (mm) read between two points of the mechanism, ``lengths`` those of vectors: what has been
+    read once is used at each later use.
+    """
 
     instrument: Instrument
     steps: list[Step] = field(default_factory=list)
     equations: list[Equation] = field(default_factory=list)
     noticed: list[tuple[DiagramName, Remark]] = field(default_factory=list)
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
+    arms: dict[frozenset[str], float] = field(default_factory=dict)
+    lengths: dict[Symbol, float] = field(default_factory=dict)
 
     def do(self, diagram: DiagramName, act: Act, *strokes: Stroke, equation: int | None = None) -> None:
         """Record one step."""
         self.steps.append(Step(len(self.steps) + 1, diagram, act, tuple(strokes), equation))
         self.causes.append((self.instrument.acts, act))
+
+    def read_arm(self, between: Sequence[str], mm: float) -> float:
+        """The distance of two points on paper (mm), read when it is first needed."""
+        return self._read(self.arms, frozenset(between), mm)
+
+    def read_vector(self, symbol: Symbol, mm: float) -> float:
+        """The length of a vector on paper (mm), read when it is first needed."""
+        return self._read(self.lengths, either_way(symbol), mm)
+
+    def _read(self, kept: dict[_Thing, float], thing: _Thing, mm: float) -> float:
+        if isinstance(self.instrument, Exact):
+            return self.instrument.read(mm)  # it shows the same each time
+        if thing not in kept:
+            kept[thing] = self.instrument.read(mm)
+        return kept[thing]
 
     def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
         """Whether an end point stands there already: two lines have met in it, or the last vector ends in it and now

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from graphkin.construction.as_seen import seen
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.inversion import TriangleDrawn
@@ -14,7 +15,7 @@ from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.polygon_pair import Order, Plot
 from graphkin.construction.polygons import RATE
 from graphkin.construction.position import draw_position, place
-from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step
+from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step, either_way
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Vector
 from graphkin.construction.task import Task
@@ -110,8 +111,18 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         growing=task.growing,
         trains=tuple(polygons.wheels.drawn.values()),
         limits=_limits(task, polygons.scales, board.instrument),
+        readings=_readings(polygons),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
+
+
+def _readings(polygons: GroupPolygons) -> Mapping[Symbol | frozenset[str], float]:
+    read: tuple[Mapping[frozenset[str], float] | Mapping[Symbol, float], ...]
+    read = polygons.board.arms, polygons.board.lengths
+    found: dict[Symbol | frozenset[str], float] = {thing: mm for kept in read for thing, mm in kept.items()}
+    for held, apart in polygons.seen.items():
+        found |= {either_way(seen(symbol, held)): mm for symbol, mm in apart.board.lengths.items()}
+    return found
 
 
 def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits]:

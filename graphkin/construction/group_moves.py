@@ -270,13 +270,13 @@ class GroupMoves(Polygons):
             ray = Ray(through, one.along, meeting, one.written, one.symbol)
             self.board.do(order, DirectionLine(one.symbol, one.written), ray, equation=number)
         span = meeting - start
-        self.board.do(order, FoundVector(part.symbol, abs(span)), Aid(part.symbol, start, meeting, 0), equation=number)
+        act = FoundVector(part.symbol, self.found_mm(part.symbol, span))
+        self.board.do(order, act, Aid(part.symbol, start, meeting, 0), equation=number)
         arm = self.places[edge.end.point] - self.places[edge.start.point]
-        read = self.board.instrument.read(abs(span))
-        value = abs(read) * self.scales.of(order) / self.length(arm, (edge.start.point, edge.end.point))
+        value, read = self.rate_of(order, part.symbol, abs(span), arm, (edge.start.point, edge.end.point))
         value *= 1.0 if cross(arm, span) >= 0 else -1.0
         kind = "omega" if order == "velocity" else "alpha"
-        self.rates[order][link] = Rate(link, value, None, abs(read), abs(arm))
-        act = MeasuredRate(kind, link, part.symbol, (edge.start.point, edge.end.point), value)  # type: ignore[arg-type]
-        self.board.do(order, act)
+        self.rates[order][link] = Rate(link, value, None, read, abs(arm))
+        told = MeasuredRate(kind, link, part.symbol, (edge.start.point, edge.end.point), value)  # type: ignore[arg-type]
+        self.board.do(order, told)
         self._spread(order, link, group)

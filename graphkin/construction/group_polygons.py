@@ -197,6 +197,7 @@ class GroupPolygons(TrialPolygons):
         """Empty polygons with a link of a group for the frame."""
         made = self._fork(0)
         made.ground, made.part_of = held, group
+        made.board.lengths = {}
         made.slip = Slip(line=lambda symbol, way: self.slip.line(seen(symbol, held), way))
         made.still = made._never_turning()
         made.seen, made.contours = {}, {}

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import Pose
 from graphkin.plane import direction, unit
-from graphkin.scene.model import AngleDriver, PlacedLink
-from graphkin.structure import Body, Dyad, Slide, Turn
+from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
+from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
-__all__ = ["LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge", "inner_hinge", "rail"]
+__all__ = [
+    "LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge", "inner_hinge", "pushed_by_driver", "rail",
+]  # fmt: skip
 
 
 Poses = Mapping[str, Pose]
@@ -173,3 +175,25 @@ def rail(frame: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, comp
     along = frame.poses[known].axis if mine == slide.a else -at_zero.axis
     step = frame.instrument.direction(unit(along * slide.guide.direction))
     return Pose(at_zero.origin - axis * rel.origin, axis), step
+
+
+def pushed_by_driver(
+    structure: Structure, values: Mapping[str, float], between: Iterable[str]
+) -> tuple[AnyDriver, float] | None:
+    """The driver whose travel gives the distance of two points, and that (m), at values of the drivers; None for any
+    other two."""
+    ends = set(between)
+    driver = next((d for d in structure.scene.drivers if _ends_of_travel(structure, d) == ends), None)
+    return None if driver is None else (driver, abs(values[driver.key]))
+
+
+def _ends_of_travel(structure: Structure, driver: AnyDriver) -> set[str]:
+    """The two points between which the travel of a driver counts: that of its guide's origin, and what slides; none
+    where the guide does not begin in a point."""
+    slide = next((s for s in structure.slides if s.key == driver.key), None)
+    if not isinstance(driver, SlideDriver) or slide is None or slide.pin is None:
+        return set()
+    on = structure.scene.by_name[slide.b].points
+    least = 1e-9 * structure.scene.size
+    origin = next((p for p, z in on.items() if abs(z - slide.guide.through) < least), None)
+    return set() if origin is None else {origin, slide.pin}

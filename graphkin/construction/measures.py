@@ -96,6 +96,9 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
             return None
         spots.append(spot)
     if symbol.kind == "d":
+        kept = sheet.readings.get(frozenset(ref.point for ref in (symbol.of, symbol.to) if ref))
+        if kept is not None:
+            return Measured(abs(kept), abs(kept) * sheet.scales.length)
         return _length(sheet, instrument, abs(spots[1] - spots[0]))
     return _length(sheet, instrument, spots[0].real if symbol.kind == "x" else spots[0].imag)
 

@@ -10,7 +10,7 @@ from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
-from graphkin.words.written import amount, increase, on_paper, product, true_minus
+from graphkin.words.written import amount, computed, increase, on_paper, product, true_minus
 
 __all__ = [
     "AddedRate",
@@ -355,7 +355,7 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return Phrase(f"added {rate}", (link, known, *signed, told))
         case MeasuredRate(rate, link, vector, bar, value):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
-            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), amount(abs(value), 4)))
+            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), computed(abs(value), 4)))
 
 
 def end_of(vector: Symbol | None) -> Phrase:

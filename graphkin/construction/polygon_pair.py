@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import Literal, Self
 
 from graphkin.construction.board import Board, Instrument
-from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import node
 from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
 from graphkin.construction.sheet import Rate, Scales
@@ -23,6 +23,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
+from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = ["Order", "Plot", "letter"]
 
@@ -65,6 +66,7 @@ class Plot:
         """The same polygons as they stand here, to go on with by other hands."""
         board, made = self.board, copy.copy(self)
         made.board = Board(hand, [*board.steps], [*board.equations], [*board.noticed], [*board.causes])
+        made.board.arms, made.board.lengths = dict(board.arms), dict(board.lengths)
         made.ends = {name: dict(found) for name, found in self.ends.items()}
         made.rates = {name: dict(found) for name, found in self.rates.items()}
         made.drawn = {name: dict(found) for name, found in self.drawn.items()}
@@ -73,6 +75,8 @@ class Plot:
         made.pitch_points = dict(self.pitch_points)
         made.ties = dict(self.ties)
         made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
+        for seen in made.seen.values():
+            seen.board.arms = made.board.arms
         return made
 
     def seen_from(self, held: str) -> Plot:
@@ -133,7 +137,7 @@ class Plot:
 
     def length(self, arm: complex, between: Sequence[str]) -> float:
         """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
-        both, else read off the drawing.
+        both or a driver pushes one from the other, else read off the drawing.
 
         Raises
         ------
@@ -142,15 +146,39 @@ class Plot:
         given = self._given_arm(*between)
         if given is not None:
             return abs(given)
-        read = self.board.instrument.read(abs(arm))
+        pushed = pushed_by_driver(self.structure, self.frame.values, between)
+        if pushed is not None:
+            return pushed[1]
+        read = self.board.read_arm(between, abs(arm))
         if read == 0.0:
             found = f"{abs(arm):.2g} mm on paper are too short to be read"
             raise Unsolvable("not drawn", Problem("".join(between), found, "draw the mechanism larger"))
         return read * self.scales.length
 
+    def found_mm(self, symbol: Symbol, span: complex) -> float:
+        """How long a vector is that was found (mm), as it is measured; not where the next trial has one of its name."""
+        return abs(self.board.read_vector(symbol, abs(span))) if span and not self.trial else abs(span)
+
+    def slip_mm(self, symbol: Symbol, slip: complex) -> float:
+        """The length (mm) of a relative velocity, as it is read off its polygon when it is first needed."""
+        if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
+            symbol = Symbol(symbol.kind, symbol.to)
+        return self.board.read_vector(symbol, abs(slip))
+
+    def rate_of(
+        self, order: Order, symbol: Symbol, mm: float, arm: complex, between: tuple[str, str]
+    ) -> tuple[float, float]:
+        """The size of a rate (rad/s, rad/s2), by the length of a vector on paper and the bar it belongs to, and that
+        length as read (mm)."""
+        read = abs(self.board.instrument.read(mm) if self.trial else self.board.read_vector(symbol, mm))
+        value = read * self.scales.of(order) / self.length(arm, between)
+        return self.board.instrument.noted(value, min(MOST - 1, figures(on_paper(read)))), read
+
     def _given_arm(self, start: str, end: str) -> complex | None:
-        """From one point to another of the same link, in its own axes (m); None where no link has both, or they are
-        one point."""
+        """From one point to another of the same link, in its own axes (m); None where no link has both, they are one
+        point, or one is a special point, which has been drawn."""
+        if self.special & {start, end}:
+            return None
         for link in self.links.values():
             if start in link.points and end in link.points and link.points[start] != link.points[end]:
                 return link.points[end] - link.points[start]
@@ -258,8 +286,7 @@ class Plot:
     def _by_rates(self, order: Order, end: complex, between: tuple[str, str], name: str) -> complex:
         """From one end point to another of the same link by its measured rates."""
         drawn = self.places[between[1]] - self.places[between[0]]
-        given = self._given_arm(*between)
-        arm = drawn * self.scales.length if given is None else drawn / abs(drawn) * abs(given)  # m
+        arm = drawn / abs(drawn) * self.length(drawn, between) if drawn else 0j  # m
         omega = self.rates["velocity"][name].value
         if order == "velocity":
             return end + 1j * omega * arm / self.scales.velocity

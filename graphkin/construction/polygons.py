@@ -318,7 +318,8 @@ class Polygons(Plot):
                 if part.span is None:
                     found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
                     self.board.notice(order, ZeroVector(part.symbol, abs(found.span)))
-                    self.record(order, found, FoundVector(part.symbol, abs(found.span)), equation)
+                    act = FoundVector(part.symbol, self.found_mm(part.symbol, found.span))
+                    self.record(order, found, act, equation)
                     at = tip
                 else:
                     if part.symbol not in self.drawn[order]:
@@ -338,15 +339,14 @@ class Polygons(Plot):
         arm = self.places[edge.end.point] - self.places[edge.start.point]
         # in a trial the ends need not meet: only the part square to the bar turns it
         drawn = cross(arm, vector.span) / abs(arm) if self.trial else abs(vector.span)
-        read = self.board.instrument.read(abs(drawn))
-        size = abs(read) * self.scales.of(order) / self.length(arm, bar(edge))
+        size, read = self.rate_of(order, symbol, abs(drawn), arm, bar(edge))
         sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
         rate = RATE[order]
         own = self.slip.rate(Symbol(rate, link=edge.link), sense * size)
         if own is not None:
             self.believed.add((order, edge.link))
         self.rates[order][edge.link] = Rate(
-            edge.link, sense * size if own is None else own, symbol, abs(read), abs(arm)
+            edge.link, sense * size if own is None else own, symbol, read, abs(arm)
         )
         self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size))
         self._spread(order, edge.link, group)

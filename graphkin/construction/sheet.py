@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "DIAGRAMS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits", "Pose", "Rate",
-    "Scales", "Sheet", "Step", "Term", "fitting_scale", "next_of_series",
+    "Scales", "Sheet", "Step", "Term", "either_way", "fitting_scale", "next_of_series",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
@@ -204,6 +204,8 @@ class Sheet:
     ``growing`` are then, where the mechanism rests or has several drivers, drawings with each driver's value alone
     growing at a unit rate.
     ``trains`` are the velocity plans of what rolls, at scales of their own.
+    ``readings`` are the lengths (mm) that a hand which errs has read for the construction, of vectors by their symbols
+    (`either_way`), of the mechanism by the two points.
     """
 
     scene: Mechanism
@@ -229,6 +231,7 @@ class Sheet:
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
     trains: tuple[TrainPlan, ...] = ()
+    readings: Mapping[Symbol | frozenset[str], float] = field(default_factory=dict)
 
     @property
     def has_forces(self) -> bool:
@@ -282,6 +285,15 @@ class Sheet:
         drawn = [(s.symbol, step.number) for step in self.steps for s in step.strokes if isinstance(s, Vector)]
         return dict(reversed(drawn))
 
+    def arm_mm(self, between: Iterable[str]) -> float | None:
+        """How far two points of the mechanism lie apart (mm), as read where a hand has; None for one that is not there.
+        """
+        names = frozenset(between)
+        ends = [self.points.get(PointRef(name)) for name in names]
+        if any(z is None for z in ends):
+            return None
+        return self.readings.get(names, abs(ends[0] - ends[-1]))  # type: ignore[operator]
+
     def vectors(self, diagram: DiagramName) -> dict[Symbol, Vector]:
         """All vectors of a diagram by symbol."""
         return {
@@ -292,6 +304,18 @@ class Sheet:
         """The vectors of trial polygons in a diagram."""
         strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
         return [s for s in strokes if isinstance(s, Aid) and s.trial]
+
+
+def either_way(symbol: Symbol) -> Symbol:
+    """A vector by the name of that or of its opposite, whichever is first: both are as long.
+
+    >>> str(either_way(Symbol.parse("v_C/B"))), str(either_way(Symbol.parse("v_B/C")))
+    ('v_B/C', 'v_B/C')
+    """
+    if symbol.kind != "v" or symbol.of is None or symbol.to is None:
+        return symbol
+    of, to = sorted((symbol.of, symbol.to), key=str)
+    return replace(symbol, of=of, to=to)
 
 
 SERIES = (1.0, 2.0, 2.5, 5.0)

@@ -54,15 +54,14 @@ def _rigid_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
         span = None if rate is None else square * (rate.value * plot.length(arm, name) / plot.scales.velocity)
         size = RateTimes("omega", (edge.link,), name) if span is not None else None
         return [Component(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
-    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
+    omega = plot.rates["velocity"][edge.link].value
     arm_m = plot.length(arm, name)
     inward = -unit(arm)
     normal = Component(
         symbol_of(plot, "an", edge),
         "normal",
         inward,
-        inward * (speed**2 / arm_m / plot.scales.acceleration),
+        inward * (omega**2 * arm_m / plot.scales.acceleration),
         Direction("towards", (edge.end.point, edge.start.point)),
         RateTimes("omega", (edge.link,), name, square=True),
     )
@@ -94,9 +93,11 @@ def _contour_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
         return [Component(symbol_of(plot, "v", edge), role, unit(slip or 1.0), slip, edge.direction)]
     held, turns = edge.labels[0].link, plot.rates["velocity"]
     # seen from a link that turns itself as seen from the held one, the rest has another share of Coriolis
-    more = 2j * (turns[edge.held].value - turns[held].value) * _measured(plot, slip)
+    read = seen.slip_mm(Symbol("v", seen.label(moving)), slip)
+    speed = unit(slip) * read * plot.scales.velocity / plot.scales.acceleration if slip else 0j
+    more = 2j * (turns[edge.held].value - turns[held].value) * speed
     rest = way * seen.end("acceleration", moving) + more
-    coriolis = 2j * turns[held].value * _measured(plot, slip)
+    coriolis = 2j * turns[held].value * speed
     parts = [Component(symbol_of(plot, "ar", edge), "sliding", unit(rest or 1.0), rest, edge.direction)]
     if held not in plot.still:
         symbol = symbol_of(plot, "v", edge)
@@ -107,10 +108,10 @@ def _contour_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     return parts
 
 
-def _measured(plot: Plot, slip: complex) -> complex:
-    """A relative velocity as it is read off its polygon, as mm of the other for each 1/s."""
-    read = plot.board.instrument.read(abs(slip)) * plot.scales.velocity / plot.scales.acceleration
-    return unit(slip) * read if slip else 0j
+def _slip_read(plot: Plot, edge: Edge) -> tuple[complex, float]:
+    """The relative velocity of an edge's ends as drawn (mm), and its size as read (m/s)."""
+    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
+    return slip, plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
 
 
 def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Component]:
@@ -130,9 +131,8 @@ def _slide_parts(plot: Plot, order: Order, edge: Edge, slide: Slide) -> list[Com
             Component(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(span))
         ]
     omega = plot.rates["velocity"][slide.b].value
-    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    read = plot.board.instrument.read(abs(slip)) * (1 if dot(slip, sense) >= 0 else -1)
-    size = 2 * omega * read * plot.scales.velocity / plot.scales.acceleration
+    slip, speed = _slip_read(plot, edge)
+    size = 2 * omega * (speed if dot(slip, sense) >= 0 else -speed) / plot.scales.acceleration
     coriolis = Component(
         symbol_of(plot, "ak", edge),
         "coriolis",
@@ -161,8 +161,8 @@ def _contact_parts(plot: Plot, order: Order, edge: Edge) -> list[Component]:
     # 1/m, positive where the centre of curvature lies on the side of the normal
     bends = [plot.frame.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
     omega, other = (plot.rates["velocity"][n].value for n in (one, two))
-    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity * (1 if dot(slip, tangent) >= 0 else -1)
+    slip, speed = _slip_read(plot, edge)
+    speed = speed if dot(slip, tangent) >= 0 else -speed
     turning = other - omega
     off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
     velocity = symbol_of(plot, "v", edge)
@@ -214,8 +214,7 @@ def _bent_parts(plot: Plot, edge: Edge, slide: Slide, sense: complex) -> list[Co
     bends = slide.guide.curvature
     if bends == 0.0:
         return []
-    slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    speed = plot.board.instrument.read(abs(slip)) * plot.scales.velocity
+    _, speed = _slip_read(plot, edge)
     inward = 1j * sense * (1 if bends > 0.0 else -1)
     span = inward * (speed**2 * abs(bends) / plot.scales.acceleration)
     size = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))

@@ -30,6 +30,7 @@ from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
+from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = ["TrialPolygons"]
 
@@ -56,6 +57,9 @@ class TrialPolygons(GroupMoves):
         """The same polygons, for a trial of their own with the same hands."""
         made = self.again(self.board.instrument)
         made.board, made.trial = Board(self.board.instrument), number
+        made.board.arms, made.board.lengths = self.board.arms, self.board.lengths
+        for held, seen in made.seen.items():
+            seen.board.arms, seen.board.lengths = self.board.arms, self.seen[held].board.lengths
         return made
 
     def _tried(
@@ -194,7 +198,7 @@ class TrialPolygons(GroupMoves):
             strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
             self.board.do(order, TrialDrawn(number, self._named(order, plan, assumed), far), *strokes)
         self.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
-        found = _divided(rates, apart)
+        found = self._noted(plan, rates, apart)
         closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
         ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
         between = tuple((self.label(e.labels[0]), self.label(e.labels[1])) for e, _ in plan.open_ends)
@@ -202,6 +206,23 @@ class TrialPolygons(GroupMoves):
         named = self._named(order, plan, found)
         self.board.do(order, Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less))
         return found
+
+    def _noted(
+        self, plan: GroupPlan, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]
+    ) -> list[float]:
+        """The divided rates as they are written down: the way from the first that was assumed with the figures of the
+        lengths that are divided, of several parts with as many as such have."""
+        noted, made = self.board.instrument.noted, []
+        for i, (unknown, rate) in enumerate(zip(plan.tried, _divided(rates, apart), strict=True)):
+            unit = 1.0 if unknown.startswith("omega") else self.structure.scene.units.rates.metres
+            low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
+            if len(plan.tried) == 1:
+                lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
+                added = noted(rate / unit - low, figures(*lengths))
+            else:
+                added = noted((rate / unit - low) / more, MOST - 1) * more
+            made.append(noted(low + added, MOST) * unit)
+        return made
 
     def _named(self, order: Order, plan: GroupPlan, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
         """Rates by their symbols, in scene units."""
@@ -266,8 +287,8 @@ class _Reach:
 def _round(value: float, step: float) -> float:
     """About a step off a value, with as few figures as that takes: easy to lay off."""
     wanted = value + step
-    for figures in range(1, 9):
-        found = float(f"{wanted:.{figures}g}")
+    for carried in range(1, 9):
+        found = float(f"{wanted:.{carried}g}")
         if abs(found - wanted) <= 0.35 * abs(step):
             return found
     return wanted

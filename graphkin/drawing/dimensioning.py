@@ -25,7 +25,7 @@ from graphkin.drawing.dimensions import (
 )
 from graphkin.drawing.given_shapes import along_its_guide, off_its_guide
 from graphkin.drawing.guide_dimensions import guide_dimensions
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import number, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
 from graphkin.drawing.obstacles import obstacles_of
@@ -34,6 +34,7 @@ from graphkin.drawing.primitives import Group, Line, Primitive, Text
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, PlacedLink
 from graphkin.scene.symbol import PointRef
+from graphkin.words.written import as_given
 
 __all__ = ["LENGTHS", "drawn_lengths"]
 
@@ -101,7 +102,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
                 continue
             start, end = places[one].conjugate(), places[other].conjugate()
             value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
-            runs = rich(number(value, 5), SIZE)
+            runs = rich(written(as_given(value)), SIZE)
             parts = None
             if abs(end - start) >= LEAST:
                 parts = room.take(dimension(start, end, offset, runs) for offset in OFFSETS)
@@ -277,7 +278,7 @@ def _on_line(
         parts.append(_extension(spot.at + spot.reach * out, foot + OVERRUN * out))
     for (low, p), (high, q) in pairwise(zip(levels, feet, strict=True)):
         value = (_given(high, given) - _given(low, given)) * per_mm
-        parts += dimension(p, q, 0.0, rich(number(value, 5), SIZE), share)
+        parts += dimension(p, q, 0.0, rich(written(as_given(value)), SIZE), share)
     return tuple(parts)
 
 

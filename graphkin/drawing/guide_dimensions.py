@@ -19,12 +19,13 @@ from graphkin.drawing.dimensions import (
     dimension,
 )
 from graphkin.drawing.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
-from graphkin.drawing.headings import number, slide_index
+from graphkin.drawing.headings import number, slide_index, written
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, Slider, shapes, sliders
 from graphkin.drawing.primitives import Line, Run
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.words.written import as_given
 
 __all__ = ["guide_dimensions"]
 
@@ -155,7 +156,7 @@ def _travel(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts | N
     scene = sheet.scene
     value = sheet.drivers[slider.slide.key] / scene.units.metres
     start = pose.origin + pose.axis * guide.through / sheet.scales.length
-    runs = rich(f"$s_{{{slide_index(sheet, slider.slide.key)}}}$ = {number(value, 5)}", SIZE)
+    runs = rich(f"$s_{{{slide_index(sheet, slider.slide.key)}}}$ = {written(as_given(value))}", SIZE)
     return _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
 
 
@@ -178,7 +179,7 @@ def _apart(
 ) -> Parts | None:  # fmt: skip
     """How far two places are apart in a direction, y up, each measured from the nearest of some spots on its level;
     with what else is drawn for it."""
-    runs = runs or rich(number(value, 5), SIZE)
+    runs = runs or rich(written(as_given(value)), SIZE)
     aside = along * 1j
     if abs(dot(others[0] - ones[0], along)) < SHORTEST:
         return None

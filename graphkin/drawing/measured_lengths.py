@@ -7,15 +7,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphkin.construction.board import EXACT
+from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import RateTimes
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number, slide_index, written
-from graphkin.scene.model import AnyDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
-from graphkin.words.written import LEAST, MOST, amount, on_paper, product
+from graphkin.words.written import LEAST, MOST, amount, as_given, on_paper, product
 
 __all__ = ["arm_written", "is_given", "lengths_measured", "scale_of", "times_scale", "unit_of"]
 
@@ -41,10 +41,12 @@ def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST)
     both ends, whatever a hand has made of it, else what so many mm on paper are."""
     held = (link.points for link in sheet.structure.links.values())
     given = (abs(p[bar[0]] - p[bar[1]]) for p in held if bar[0] in p and bar[1] in p and p[bar[0]] != p[bar[1]])
-    long = next(given, None) or pushed_by_driver(sheet, bar)
+    pushed = pushed_by_driver(sheet.structure, sheet.drivers, bar)
+    long = next(given, None) or (pushed and pushed[1])
     if long is None and sheet.instrument != EXACT.name and abs(mm) >= LEAST:
         return product(on_paper(mm), amount(sheet.scales.length / sheet.scene.units.rates.metres, 12))
-    return amount((mm * sheet.scales.length if long is None else long) / sheet.scene.units.rates.metres, most)
+    metres = sheet.scene.units.rates.metres
+    return amount(mm * sheet.scales.length / metres, most) if long is None else as_given(long / metres, most + 1)
 
 
 def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
@@ -74,32 +76,14 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str
         if bar is not None and not is_given(sheet, bar):
             bars.setdefault(frozenset(bar), bar)
     for one, other in bars.values():
-        pushed = pushed_by_driver(sheet, (one, other))
+        pushed = pushed_by_driver(sheet.structure, sheet.drivers, (one, other))
         if pushed is not None:
-            value = f"{number(pushed / sheet.scene.units.metres)} {sheet.scene.units.length}"
-            driver = next(d for d in sheet.scene.drivers if _ends_of(sheet, d) == {one, other})
+            driver, far = pushed
+            value = f"{written(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
             yield (one, other), f"${letters.length((one, other))}$ = $s_{{{slide_index(sheet, driver.key)}}}$ = {value}"
             continue
-        mm = abs(sheet.points[PointRef(one)] - sheet.points[PointRef(other)])
+        mm = sheet.arm_mm((one, other)) or 0.0
         yield (one, other), f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
-
-
-def pushed_by_driver(sheet: Sheet, bar: tuple[str, str]) -> float | None:
-    """The distance of two points (m), where a driver gives it as its travel; None for any other two."""
-    driver = next((d for d in sheet.scene.drivers if _ends_of(sheet, d) == set(bar)), None)
-    return None if driver is None else abs(sheet.drivers[driver.key])
-
-
-def _ends_of(sheet: Sheet, driver: AnyDriver) -> set[str]:
-    """The two points between which the travel of a driver counts: that of its guide's origin, and what slides; none
-    where the guide does not begin in a point."""
-    slide = next((s for s in sheet.structure.slides if s.key == driver.key), None)
-    if not isinstance(driver, SlideDriver) or slide is None or slide.pin is None:
-        return set()
-    on = sheet.scene.by_name[slide.b].points
-    least = 1e-9 * sheet.scene.size
-    origin = next((p for p, z in on.items() if abs(z - slide.guide.through) < least), None)
-    return set() if origin is None else {origin, slide.pin}
 
 
 def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:

@@ -21,7 +21,7 @@ from graphkin.construction.polygon_acts import (
     Superposed,
     TrialDrawn,
 )
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import DiagramName, Sheet, Step, either_way
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.drawing.headings import number, written
@@ -31,6 +31,7 @@ from graphkin.words.written import (
     FINER,
     MOST,
     amount,
+    computed,
     difference,
     figures,
     increased,
@@ -66,12 +67,14 @@ def _divided(sheet: Sheet, act: MeasuredRate | RateSeen) -> tuple[str, str, str]
     if mm == 0.0 or not arm_mm:
         return None
     carried = figures(on_paper(mm))
-    shown = amount(abs(rate), min(MOST - 1, carried))
+    shown = computed(abs(rate), min(MOST - 1, carried))
     tried = [
         (_carried(sheet, diagram, mm, carried, most), arm_written(sheet, act.bar, arm_mm, most))
         for most in FINER
     ]  # fmt: skip
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
+    if sheet.instrument != EXACT.name:
+        return size, arm, shown  # as it was written down: a tie is broken once
     return size, arm, quotient(size, arm, min(MOST - 1, carried))
 
 
@@ -81,10 +84,9 @@ def _measured_rate(
     """The lengths (mm) of vector and bar from which a rate is measured, and the rate."""
     if isinstance(act, MeasuredRate):
         rate = (sheet.omega if act.rate == "omega" else sheet.alpha)[act.link]
-        return rate.mm, rate.arm_mm, rate.value
-    mm = next((abs(one.span) for one in vectors_seen(sheet, diagram) if one.symbol == act.vector), 0.0)
-    one, other = (sheet.points.get(PointRef(name)) for name in act.bar)
-    return mm, None if one is None or other is None else abs(one - other), act.value
+        return rate.mm, sheet.readings.get(frozenset(act.bar), rate.arm_mm), rate.value
+    drawn = (abs(one.span) for one in vectors_seen(sheet, diagram) if one.symbol == act.vector)
+    return _as_read(sheet, act.vector, next(drawn, 0.0)), sheet.arm_mm(act.bar), act.value
 
 
 def plan_sum(act: PlanDrawn) -> str:
@@ -132,9 +134,10 @@ def divisions(sheet: Sheet, step: Step, act: Superposed) -> list[Division]:
             share = amount(abs((rate - low) / more), 4)
             added, part = product(share, size, carried=figures(share)), written(share)
         falls = rate < low
-        value = increased(start, f"-{added}" if falls else added)
-        finer = amount(rate, MOST)
-        exact = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
+        finer = computed(rate, MOST)
+        by_hand = sheet.instrument != EXACT.name  # who has written it down already
+        value = finer if by_hand else increased(start, f"-{added}" if falls else added)
+        exact = "" if finer == value else f" ({written(finer)})"
         terms = f"{written(start)} {'−' if falls else '+'} {part} × {written(size)}"
         found.append(Division(terms, written(value) + exact, ("" if falls == (more < 0.0) else "−") + part))
     return found
@@ -172,8 +175,7 @@ def carried_by(sheet: Sheet, rule: Size | None) -> int:
     if isinstance(rule.factor, Symbol):
         read.append(on_paper(_span(sheet, rule.factor) or 0.0))
     elif not is_given(sheet, rule.factor):
-        one, other = (sheet.points[PointRef(name)] for name in rule.factor)
-        read.append(on_paper(abs(one - other)))
+        read.append(on_paper(sheet.arm_mm(rule.factor) or 0.0))
     return min((figures(one) for one in read if one and one != "0"), default=MOST)
 
 
@@ -215,10 +217,8 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
 
 
 def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
-    ends = [sheet.points.get(PointRef(name)) for name in bar]
-    if ends[0] is None or ends[1] is None:
-        return None
-    return arm_written(sheet, bar, abs(ends[0] - ends[1]), most)
+    mm = sheet.arm_mm(bar)
+    return None if mm is None else arm_written(sheet, bar, mm, most)
 
 
 def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
@@ -229,11 +229,15 @@ def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
 
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:
-    """The length of a drawn velocity (mm)."""
+    """The length of a drawn velocity (mm), as read where a hand has."""
     drawn: Vector | Aid | None = sheet.vectors("velocity").get(symbol)
     if drawn is None:
         drawn = next((one for one in vectors_seen(sheet, "velocity") if one.symbol == symbol), None)
-    return None if drawn is None else abs(drawn.span)
+    return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))
+
+
+def _as_read(sheet: Sheet, symbol: Symbol, mm: float) -> float:
+    return abs(sheet.readings.get(either_way(symbol), mm)) if mm else 0.0
 
 
 def laid_sum(sheet: Sheet, diagram: DiagramName, rule: Size | None, mm: float) -> tuple[str, str]:

@@ -20,6 +20,7 @@ from graphkin.drawing.text import rich, wrapped
 from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
+from graphkin.words.written import as_given
 
 __all__ = [
     "TableRow", "given_data", "given_lengths", "given_lines", "given_teeth", "readings_table", "set_lines",
@@ -174,7 +175,7 @@ def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, siz
     items = drivers(sheet, letters).split(",  ")
     items += rolling_starts(sheet)
     items += given_teeth(scene, language)
-    items += [f"${name}$ = {number(value)} {unit}" for name, value in given_lengths(scene, letters)]
+    items += [f"${name}$ = {value} {unit}" for name, value in given_lengths(scene, letters)]
     items += given_shapes(scene, letters, language)
     fixed = [f"${letters.point(p)}$ ({_pair(z, scene)}) {unit}" for p, z in scene.frame.points.items()]
     for guide in scene.frame.guides.values():
@@ -219,8 +220,8 @@ def _flowed(items: Sequence[str], size: float, width: float) -> list[tuple[Run, 
     return [runs for line in lines for runs in wrapped(line, size, width)]
 
 
-def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]:
-    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit."""
+def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, str]]:
+    """The given lengths of all links: symbol (without dollar signs) and value in the scene's unit, as it is given."""
     found: list[tuple[str, float]] = []
     for link in scene.links:
         if link.length is not None:
@@ -228,7 +229,8 @@ def given_lengths(scene: Mechanism, letters: Letters) -> list[tuple[str, float]]
         found += _further(link, scene, letters)
     metres = scene.units.metres
     found += [(f"r_{{{d.name}}}", abs(d.radius) / metres) for link in (*scene.links, scene.frame) for d in link.discs]
-    return [(name, length) for name, length in found if length > NO_LENGTH * scene.size / metres]
+    least = NO_LENGTH * scene.size / metres
+    return [(name, written(as_given(length))) for name, length in found if length > least]
 
 
 def given_teeth(scene: Mechanism, language: str) -> list[str]:

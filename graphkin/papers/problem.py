@@ -217,7 +217,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
     scene, letters = lesson.sheet.scene, lesson.letters
     unit, metres = scene.units.length, scene.units.metres
-    lengths = [f"${name}$ = {number(value)}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
+    lengths = [f"${name}$ = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
     fixed = [
         f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
         for p, z in scene.frame.points.items()

@@ -11,8 +11,8 @@ import math
 from decimal import Decimal, localcontext
 
 __all__ = [
-    "FINER", "LEAST", "MOST", "amount", "difference", "figures", "in_markup", "increase", "increased", "is_quotient",
-    "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
+    "FINER", "LEAST", "MOST", "amount", "as_given", "computed", "difference", "figures", "in_markup", "increase",
+    "increased", "is_quotient", "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
 ]  # fmt: skip
 
 MOST = 5  # figures of a computed number
@@ -20,6 +20,7 @@ FINER = range(MOST, MOST + 4)  # figures, where those few do not give what they 
 LEAST = 0.05  # mm; what is shorter is read where it is drawn larger
 ROUNDED = 1e-12  # mm on a sheet of some hundred: what the sixteenth digit leaves
 DIGITS = 40
+LONGEST = 9  # figures that somebody writes
 
 
 def on_paper(mm: float) -> str:
@@ -127,6 +128,25 @@ def amount(value: float, carried: int = 6) -> str:
     ('0.3', '333333', '120')
     """
     return _plain(Decimal(f"{value:.{carried}g}"))
+
+
+def as_given(value: float, carried: int = MOST + 1) -> str:
+    """A number of the problem with all its figures; a distance that only the places of two points give, to so many.
+
+    >>> as_given(113.442), as_given(1234.5678), as_given(50**0.5)
+    ('113.442', '1234.5678', '7.07107')
+    """
+    whole = amount(value, 12)
+    return whole if figures(whole) <= LONGEST else amount(value, carried)
+
+
+def computed(value: float, carried: int) -> str:
+    """A number that is computed, to so many figures; whole places before the point are never cut, as of a product.
+
+    >>> computed(31472.0465, 4), computed(-0.367949, 4), computed(120.0, 2)
+    ('31472', '-0.3679', '120')
+    """
+    return _plain(_rounded(Decimal(f"{value:.15g}"), carried))
 
 
 def true_minus(text: str) -> str:

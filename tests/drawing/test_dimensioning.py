@@ -8,6 +8,7 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.primitives import Group, Line, walk
 from graphkin.drawing.strokes import HATCHING
 from graphkin.scene import library
+from graphkin.words.written import as_given
 from tests.drawn import drafted, drawn
 
 SCENE = {
@@ -34,7 +35,7 @@ def test_fixed_points_are_dimensioned_from_the_pivot_of_the_driver():
 def test_a_sheet_short_of_room_has_the_frames_dimensions_closer_and_their_numbers_clear_of_dashed_lines():
     panel = draw("single-flier", figures=("sheet",)).figures["sheet"]
     assert {"113", "11", "94"} <= set(words(panel))
-    numbers = [thing for thing in walk(panel.children) if isinstance(thing, Text) and thing.string == "83.869"]
+    numbers = [thing for thing in walk(panel.children) if isinstance(thing, Text) and thing.string == "83.8689"]
     legs = [one for one in walk(panel.children) if isinstance(one, Group) and "special" in one.classes]
     crossed = [
         line for leg in legs for line in walk(leg.children)
@@ -60,7 +61,7 @@ def test_a_narrow_panel_has_the_frames_dimensions_within_the_mechanism(name, wan
 def test_every_bar_has_its_length(name):
     sheet, _ = drafted(name)
     scene = sheet.scene.instead_of or sheet.scene  # bars in place of a cam have no length of their own
-    lengths = {f"{link.length / scene.units.metres:.5g}" for link in scene.links if link.length and not link.redundant}
+    lengths = {as_given(link.length / scene.units.metres) for link in scene.links if link.length and not link.redundant}
     assert lengths - set(words(drawn(name)["mechanism"])) == set()
 
 

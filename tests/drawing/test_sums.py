@@ -13,10 +13,13 @@ import numpy as np
 import pytest
 
 from graphkin import draw, read
+from graphkin.checking.readings import read_off
+from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
-from graphkin.construction.board import EXACT
+from graphkin.construction.board import EXACT, Board
 from graphkin.construction.polygon_acts import (
     ByRate,
+    FoundVector,
     LaidOff,
     MeasuredRate,
     PlanDrawn,
@@ -28,7 +31,7 @@ from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
 from graphkin.construction.strokes import Aid
 from graphkin.drawing import sheet_room
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.measured_lengths import lengths_measured
+from graphkin.drawing.measured_lengths import lengths_measured, scale_of
 from graphkin.drawing.sums import (
     divisions,
     factors_of,
@@ -44,6 +47,7 @@ from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
+from graphkin.words.written import amount, on_paper, product
 from tests.drawn import drafted
 
 
@@ -251,7 +255,65 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
 def test_with_a_pencil_a_product_carries_the_figures_of_what_was_measured():
     sheet = draft(mechanism_of("whitworth"), instrument=pencil(Tools(), 0), room=sheet_room(mechanism_of("whitworth")))
     sizes = {str(a.symbol): a.size for a in (s.act for s in sheet.steps) if isinstance(a, LaidOff)}
-    assert "4.538² × 156.6 = 3225 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")
+    assert "4.543² × 156.4 = 3228 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")
+
+
+def drawn_by_hand(name, seed=1):
+    """What a pencil draws of a scene, and the readings of its table by symbol."""
+    hand, scene = pencil(Tools(), seed), mechanism_of(name)
+    sheet = draft(scene, instrument=hand, room=sheet_room(scene))
+    return sheet, {reading.symbol: reading for reading in read_off(sheet, (), hand)}
+
+
+@pytest.mark.parametrize("name", library())
+def test_with_a_pencil_each_product_and_quotient_follows_from_what_it_shows(name):
+    sheet, _ = drawn_by_hand(name)
+    lines = [line for line in written_lines(sheet, letters_of(sheet, "chinese"), "en") if isinstance(line, str)]
+    lines += [line for _, line in lengths_measured(sheet, letters_of(sheet, "chinese"))]
+    whole = " ".join(lines).replace("\u00a0", " ").replace(" mm/mm", "")
+    number, false = r"\d[\d.]*", []
+    for sum_, told in re.findall(rf"((?:{number}²?(?: mm)? [×/] )+{number}²?) = ({number})(?![\d.·])", whole):
+        value = eval(sum_.replace(" mm", "").replace("²", "**2").replace("×", "*"))
+        if abs(value - float(told)) > 0.5001 * 10.0 ** -len(told.partition(".")[2]):
+            false.append((sum_, told, value))
+    assert [] == false
+
+
+@pytest.mark.parametrize("name", library())
+def test_with_a_pencil_what_is_read_once_is_the_same_number_wherever_it_stands(name):
+    sheet, table = drawn_by_hand(name)
+    for act in (step.act for step in sheet.steps):
+        if isinstance(act, FoundVector) and act.symbol in table:
+            assert table[act.symbol].on_paper == pytest.approx(act.mm, abs=1e-12)
+        if not isinstance(act, MeasuredRate) or not (told := rate_sum(sheet, act, units=False)):
+            continue
+        rate = table[Symbol(act.rate, link=act.link)]
+        shown = measured(rate, sheet.scales, sheet.scene.units)
+        assert told.split(" = ")[1].split()[0] == shown.lstrip("-")
+        if act.vector in table:
+            per = amount(scale_of(sheet, "velocity" if act.rate == "omega" else "acceleration"), 12)
+            assert told.split(" / ")[0] == product(on_paper(table[act.vector].on_paper), per)
+
+
+def test_a_vector_that_an_equation_says_to_be_another_is_read_with_it():
+    _, table = drawn_by_hand("hit-two-RPR")
+    one, other = (table[Symbol.parse(name)] for name in ("a_B", "an_B/A"))
+    assert (one.on_paper, one.value) == (other.on_paper, other.value)
+
+
+def test_a_pencil_reads_the_same_thing_once_whichever_way_it_is_named():
+    board = Board(pencil(Tools(), 1))
+    arm, speed = board.read_arm("AB", 41.37), board.read_vector(Symbol.parse("v_C/B"), 12.0)
+    assert (arm, speed) == (board.read_arm("BA", 41.37), board.read_vector(Symbol.parse("v_B/C"), 12.0))
+    assert 2 == board.instrument.acts
+    assert (arm, speed) == (round(arm, 2), round(speed, 2))
+    assert arm != board.read_arm("AC", 41.37)
+
+
+def test_a_given_length_has_all_its_figures_in_what_is_given_on_the_figure_and_in_every_sum():
+    told = "".join(ET.fromstring(draw("single-flier").figures["sheet"].content("svg")).itertext())
+    assert told.count("113.442")
+    assert [] == re.findall(r"113\.44(?!2)", told)
 
 
 def superposed_twice():
