@@ -165,13 +165,14 @@ def _print_position(position: Told, structure: Structure, language: str) -> None
 
 def _rate_bounds(kind: str, position: Told, bound: Told, structure: Structure) -> dict[str, float]:
     """The bound of a rate of each link or point: where no group comes before it, of what the drivers alone move."""
-    from graphkin.scene.symbol import Symbol
+    from graphkin.scene.symbol import PointRef, Symbol
     from graphkin.structure import by_drivers_alone
 
     def symbol(name: str) -> Symbol:
         point, _, link = name.partition("@")
-        here = point if link and point in structure.scene.by_name[link].points else name
-        return Symbol.parse(f"{'v' if link else 'omega'}_{here}")
+        if not link:
+            return Symbol("omega", link=name)
+        return Symbol("v", PointRef(point, "" if point in structure.scene.by_name[link].points else link))
 
     rows = position["points" if kind in ("velocity", "acceleration") else "links"]
     sizes = {name: math.hypot(*(row[kind] if "@" in name else [row[kind]])) for name, row in rows.items()}

@@ -42,6 +42,10 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
 def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     """Whether a quantity of the motion hangs on no group, but on links that drivers and cams move from the frame: it is
     known where a group is lost in rounding."""
+    if symbol.seen or not all(
+        name in structure.links for name in symbol.links()
+    ):  # of redundant links nothing is asked
+        return False
     try:
         return all(isinstance(element, Driven) for element in needed(structure, [symbol]))
     except CallError:  # a special point of the drawing
