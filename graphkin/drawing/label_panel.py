@@ -102,6 +102,7 @@ NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
 # What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
 # leader to a line that ends nearer than NEAR_END to a point at its end.
 LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 110.0, 3.0
+BESIDE, BEYOND_COST = 1.0, 6.0  # mm off its point, and what it costs there that a vector runs between without a leader
 AREA_WEIGHT, THICK_WEIGHT = 25.0, 10.0  # of what a leader crosses, where a thin line counts 1
 FORBIDDEN = 1e5
 TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector
@@ -131,6 +132,7 @@ class LabelPanel:
         self.areas = len(diagonals)
         self.solid = len(diagonals) + len(obstacles.solid)
         thick = set(obstacles.thick)
+        self.vectors = np.array(obstacles.vectors, dtype=complex).reshape(-1, 2).T.copy()
         self.weights = np.array(
             [FORBIDDEN if area in writing else AREA_WEIGHT for area in obstacles.areas]
             + [THICK_WEIGHT if line in thick else 1.0 for line in obstacles.solid]
@@ -212,6 +214,7 @@ class LabelPanel:
         free[which[what < self.solid]] = False
         kept = free.nonzero()[0]
         places, led = places.at(kept), led[kept]
+        self._charge_beyond(who, places, half[kept], led)
         columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
         owners = places.owners
         if known:
@@ -255,6 +258,19 @@ class LabelPanel:
         places.costs[some] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, to, self.weights)
         places.costs[some] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
         return tips
+
+    def _charge_beyond(self, who: Indices, places: Candidates, half: Points, led: Flags) -> None:
+        """Let places of points cost more that have no leader though a vector runs between."""
+        if not len(self.vectors[0]):
+            return
+        some = (~led & (places.gaps > BESIDE) & self.requests.is_point[who[places.owners]]).nonzero()[0]
+        off = places.centres[some] - places.feet[some]
+        way = _held(off.real, half[some].real) + 1j * _held(off.imag, half[some].imag)
+        feet = places.feet[some]
+        start, to = feet + way / np.maximum(np.abs(way), 1e-9) * FOOT_REACH, feet + way
+        for which, what in near(sides_around(start, to), sides_around(*self.vectors)):
+            over = touching(start.take(which), to.take(which), self.vectors[0].take(what), self.vectors[1].take(what))
+            places.costs[some[np.unique(which[over])]] += BEYOND_COST
 
     def _outside(self, centres: Points, half: Points) -> Flags:
         low, high, panel = centres - half, centres + half, self.panel

@@ -35,13 +35,15 @@ _ARC_STEP = math.radians(12)
 @dataclass(frozen=True)
 class Obstacles:
     """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
-    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links."""
+    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links, ``vectors``
+    those of these beyond which no letter of a point is to stand without a leader."""
 
     solid: tuple[Segment, ...] = ()
     dashed: tuple[Segment, ...] = ()
     areas: tuple[Box, ...] = ()
     writing: tuple[Box, ...] = ()
     thick: tuple[Segment, ...] = ()
+    vectors: tuple[Segment, ...] = ()
 
     def __add__(self, other: Obstacles) -> Obstacles:
         return Obstacles(
@@ -50,6 +52,7 @@ class Obstacles:
             self.areas + other.areas,
             self.writing + other.writing,
             self.thick + other.thick,
+            self.vectors + other.vectors,
         )
 
 

@@ -28,6 +28,7 @@ __all__ = [
 LAYERS = (
     "background", "construction", "mechanism", "velocity", "acceleration", "forces", "centres", "answers", "labels",
 )  # fmt: skip
+POLYGONS = ("velocity", "acceleration", "forces")  # layers of vectors
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,9 @@ def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
 def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
     """As `with_labels`, with those of the labels that stand badly."""
     labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
-    obstacles = obstacles_of(piece.drawn) + Obstacles(areas=tuple(fences), writing=tuple(fences))
+    vectors = obstacles_of(tuple(thing for layer in POLYGONS for thing in piece.layers.get(layer, ()))).thick
+    fenced = Obstacles(areas=tuple(fences), writing=tuple(fences), vectors=vectors)
+    obstacles = obstacles_of(piece.drawn) + fenced
     written, crowded = named(labels, panel, obstacles, piece.marks)
     layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
     return Piece(layers, (), piece.marks), crowded

@@ -11,7 +11,7 @@ import shapely
 from graphkin import draw
 from graphkin.drawing import Text
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import Circle, Group, walk
+from graphkin.drawing.primitives import Circle, Group, Line, walk
 
 SVG = "{http://www.w3.org/2000/svg}"
 drawn = cache(draw)
@@ -58,12 +58,14 @@ def test_what_a_crowd_has_no_room_for_is_listed_behind_the_number_of_its_step():
     root = ET.fromstring(drawn("sixbar-rotating-guide-35rpm").figures["sheet"].content("svg"))
     texts = {text.get("id"): text for text in root.iter(f"{SVG}text") if text.get("id")}
     listed = {id.removeprefix("listed-"): text for id, text in texts.items() if id.startswith("listed-label-")}
-    assert listed
-    for id, entry in listed.items():
+    numbered = {id: entry for id, entry in listed.items() if id in texts}  # others by end letters
+    assert numbered
+    assert all("→" in "".join(entry.itertext()) for id, entry in listed.items() if id not in numbered)
+    for id, entry in numbered.items():
         (step,) = {c for c in texts[id].get("class").split() if c.startswith("step-") and c != "step-number"}
-        vector = next(g for g in root.iter(f"{SVG}g") if g.get("id") == id.removeprefix("label-"))
+        groups = [g for g in root.iter(f"{SVG}g") if step in (g.get("class") or "").split()]
         number = f"({int(step.removeprefix('step-'))})"
-        assert step in vector.get("class").split()
+        assert any(g.get("id") == id.removeprefix("label-") or "direction" in g.get("class").split() for g in groups)
         assert number == "".join(texts[id].itertext())
         assert "".join(entry.itertext()).startswith(number)
         assert len("".join(entry.itertext())) > len(number)
@@ -182,3 +184,15 @@ def test_no_compass_arc_runs_along_a_bar_so_close_that_it_looks_like_a_splinter_
     assert len(bars) == 2
     assert ends
     assert min(bar.distance(shapely.Point(end.real, end.imag)) for bar in bars for end in ends) > 1.2
+
+
+def test_no_vector_runs_between_a_point_and_its_letter_that_has_no_leader():
+    scene, figure, point = "double-butterfly", "acceleration", "pole-acceleration"
+    things = [*walk(drawn(scene).figures[figure].children)]
+    at = next(thing.centre for thing in walk(next(one for one in things if isinstance(one, Group) and one.id == point)
+                                             .children) if isinstance(thing, Circle))  # fmt: skip
+    index = next(i for i, one in enumerate(things) if isinstance(one, Text) and one.id == f"label-{point}")
+    near = text_box(things[index]).nearest(at)
+    way = shapely.LineString([(z.real, z.imag) for z in (at + 0.45 * (near - at) / abs(near - at), near)])
+    _, vectors, _ = read(scene, figure)
+    assert isinstance(things[index - 1], Line) or not any(vector.intersects(way) for vector in vectors)
