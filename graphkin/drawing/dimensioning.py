@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import math
 from cmath import phase
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain, pairwise, product
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise, product
+from typing import NamedTuple, TypeAlias
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing import strokes
@@ -24,7 +24,7 @@ from graphkin.drawing.dimensions import (
     dimension,
 )
 from graphkin.drawing.given_shapes import along_its_guide, off_its_guide
-from graphkin.drawing.guide_dimensions import guide_dimensions
+from graphkin.drawing.guide_dimensions import DRIVEN, driven_value, guide_dimensions, travels
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
@@ -39,6 +39,7 @@ from graphkin.words.written import as_given
 __all__ = ["LENGTHS", "drawn_lengths"]
 
 LENGTHS = "dimensions"  # id of their group
+Dimensioner: TypeAlias = Callable[[Sheet, DimensionClearance], Iterator[Parts | Label]]
 OFFSETS = (6.0, -6.0, 9.0, -9.0, 12.5, -12.5, 17.0, -17.0, 22.0, -22.0)  # mm from the bar
 LEAST, SHORTEST = 9.0, 1.0  # mm: a shorter bar has its number beside it, a shorter distance in the frame no dimension
 # mm from the mechanism to the dimensions of the frame, and from one of them to the next: usual, and where room is short
@@ -57,7 +58,8 @@ LEAST_ANGLE = math.radians(0.5)
 def drawn_lengths(
     sheet: Sheet, drawn: Iterable[Primitive], panel: Box | None, most: tuple[float, float] | None = None
 ) -> Piece | None:
-    """Dimensions of bars and of the frame; the lengths of bars for whose dimensions there is no room are labels.
+    """Dimensions of the frame, bars, drivers and guides for which there is room; the lengths of bars and values of
+    drivers for whose dimensions there is none are labels.  Drivers come before all others where they had no room.
 
     Parameters
     ----------
@@ -66,20 +68,38 @@ def drawn_lengths(
     most : width and height (mm) that both may take together; where they take more there is no piece
     """
     drawn = tuple(drawn)
-    room = DimensionClearance(obstacles_of(drawn), panel)
+    obstacles, around = obstacles_of(drawn), ink_box(drawn)
+
+    def placed(*kinds: Dimensioner) -> tuple[Piece, int] | None:
+        room = DimensionClearance(obstacles, panel)
+        return _placed((one for kind in kinds for one in kind(sheet, room)), around, most)
+
+    usual = placed(_frame, _bars, _angles, guide_dimensions, travels)
+    if usual is None or not usual[1]:
+        return usual and usual[0]
+    drivers_first = placed(_angles, travels, _frame, _bars, guide_dimensions)
+    return min((usual, drivers_first or usual), key=lambda one: one[1])[0]
+
+
+def _placed(
+    dimensions: Iterable[Parts | Label], reach: Box | None, most: tuple[float, float] | None
+) -> tuple[Piece, int] | None:
+    """Dimensions as a piece, and how many drivers have none; None as soon as they and what reaches so far take more
+    than they may."""
     parts: list[Primitive] = []
     labels: list[Label] = []
-    reach = ink_box(drawn)
-    for taken in chain(_frame(sheet, room), _bars(sheet, room), _angles(sheet, room), guide_dimensions(sheet, room)):
-        if isinstance(taken, Label):
-            labels.append(taken)
+    without = 0
+    for one in dimensions:
+        if isinstance(one, Label):
+            without += one.text.id.startswith(DRIVEN)
+            labels.append(one)
             continue
-        parts += taken
-        if most is not None and (added := ink_box(taken)) is not None:
+        parts += one
+        if most is not None and (added := ink_box(one)) is not None:
             reach = added if reach is None else reach.joined(added)
             if reach.width > most[0] or reach.height > most[1]:
                 return None
-    return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels))
+    return Piece({"mechanism": (Group(tuple(parts), id=LENGTHS),)}, tuple(labels)), without
 
 
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
@@ -319,7 +339,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             continue
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
         told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
-        yield Label(Text(0j, told, "start", strokes.BLACK, f"label-angle-{driver.link}", ("label",)), at, rank=1)
+        yield driven_value(driver.key, told, at)
 
 
 def _extension(start: complex, end: complex) -> Line:

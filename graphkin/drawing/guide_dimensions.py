@@ -20,16 +20,18 @@ from graphkin.drawing.dimensions import (
 )
 from graphkin.drawing.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
 from graphkin.drawing.headings import number, slide_index, written
+from graphkin.drawing.labels import Label, Mark
 from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, Slider, shapes, sliders
-from graphkin.drawing.primitives import Line, Run
+from graphkin.drawing.primitives import Line, Run, Text
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words.written import as_given
 
-__all__ = ["guide_dimensions"]
+__all__ = ["DRIVEN", "driven_value", "guide_dimensions", "travels"]
 
 SIZE = 2.8
+DRIVEN = "label-driven-"  # how the id of a driver's value begins where it is a label
 BESIDE = (6.0, 9.0, 12.5, 17.0, 22.0, 28.0)  # mm from what is dimensioned
 RADII = (8.0, 11.0, 14.0, 18.0, 23.0)
 SHORTEST = 1.0  # mm; a shorter distance has no dimension
@@ -38,10 +40,9 @@ NEAR = 0.5  # mm from a corner
 
 
 def guide_dimensions(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
-    """Those for which there is room, in the order: the frame's guides, links, drivers."""
+    """Those for which there is room: of the frame's guides, then of links."""
     scene = sheet.scene.instead_of or sheet.scene
-    keys = {pair.key for pair in scene.slidings} | {pin.key for pin in scene.pins}
-    shown = [one for one in sliders(sheet) if one.slide.key in keys]
+    shown = _shown(sheet)
     tried: list[Parts | None] = []
     slanted: set[str] = set()
     for slider in shown:
@@ -55,10 +56,31 @@ def guide_dimensions(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     for link in scene.links:
         if link.name in sheet.poses and not link.redundant:
             yield from _on_link(sheet, scene, link, room, shown)
-    for slider in shown:
-        parts = _travel(sheet, room, slider) if slider.driven else None
-        if parts is not None:
-            yield parts
+
+
+def travels(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
+    """How far each driver has pushed along its guide, from the guide's origin; where there is no room for a dimension,
+    as a label."""
+    for slider in _shown(sheet):
+        if slider.driven:
+            key, pose = slider.slide.key, sheet.poses[slider.slide.b]
+            value = sheet.drivers[key] / sheet.scene.units.metres
+            start = pose.origin + pose.axis * slider.slide.guide.through / sheet.scales.length
+            runs = rich(f"$s_{{{slide_index(sheet, key)}}}$ = {written(as_given(value))}", SIZE)
+            parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
+            yield parts or driven_value(key, runs, (start.conjugate(), slider.at.conjugate()))
+
+
+def driven_value(key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
+    """The value of a driver as a label; it is given, so everything else gives way to it."""
+    return Label(Text(0j, runs, "start", strokes.BLACK, f"{DRIVEN}{key.replace('/', '-')}", ("label",)), mark, rank=0)
+
+
+def _shown(sheet: Sheet) -> list[Slider]:
+    """The sliding pairs of the scene, not those that stand for something else."""
+    scene = sheet.scene.instead_of or sheet.scene
+    keys = {pair.key for pair in scene.slidings} | {pin.key for pin in scene.pins}
+    return [one for one in sliders(sheet) if one.slide.key in keys]
 
 
 def _off_pivot(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts | None:
@@ -148,16 +170,6 @@ def _drawn_at(sheet: Sheet, link: PlacedLink, corner: complex) -> bool:
 def _shows_its_axis(link: PlacedLink, shown: Sequence[Slider]) -> bool:
     """Whether the own axis of a link is drawn: a bar, or what something slides on."""
     return len(link.bar) == 2 or any(s.slide.b == link.name and not s.slide.guide.name for s in shown)
-
-
-def _travel(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts | None:
-    """How far a driver has pushed along its guide, from the guide's origin."""
-    pose, guide = sheet.poses[slider.slide.b], slider.slide.guide
-    scene = sheet.scene
-    value = sheet.drivers[slider.slide.key] / scene.units.metres
-    start = pose.origin + pose.axis * guide.through / sheet.scales.length
-    runs = rich(f"$s_{{{slide_index(sheet, slider.slide.key)}}}$ = {written(as_given(value))}", SIZE)
-    return _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
 
 
 def _angle(room: DimensionClearance, at: complex, one: complex, other: complex) -> Parts | None:

@@ -26,7 +26,7 @@ from graphkin.drawing.mechanism_on_paper import (
     Slider,
     page,
 )
-from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of
+from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
@@ -34,6 +34,8 @@ from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of
 from graphkin.plane import cross, dot
 
 __all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
+
+AROUND_POINTS = 5.0  # mm for the symbols of points, which no edge cuts
 
 
 def links(here: MechanismOnPaper) -> Piece:
@@ -264,9 +266,9 @@ def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primit
     return parts
 
 
-def link_names(here: MechanismOnPaper) -> Piece:
-    """Numbers of the links, letters of the guides that the equations speak of, the number of the frame."""
-    return Piece(labels=(*_numbers(here), *_guides(here), *_frame_name(here)))
+def link_names(here: MechanismOnPaper, panel: Box | None = None) -> Piece:
+    """Numbers of links and frame, letters of guides that equations speak of: at the edge of a panel that cuts these."""
+    return Piece(labels=(*_numbers(here), *_guides(here, panel), *_frame_name(here)))
 
 
 def _number(link: str, colour: str) -> Text:
@@ -296,7 +298,7 @@ def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex]
     return None
 
 
-def _guides(here: MechanismOnPaper) -> Iterator[Label]:
+def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
     written = {
         name for step in here.sheet.equations for side in step.sides for term in side
         if term.direction and len(term.direction.names) == 1 for name in term.direction.names
@@ -309,7 +311,9 @@ def _guides(here: MechanismOnPaper) -> Iterator[Label]:
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
             letter = symbol(here.letters.guide(name, here.ground), 3.0)
             text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
-            yield Label(text, page(b.at + edge * b.along), (phase(b.along),), 0)
+            ends = page(b.at), page(b.at + edge * b.along)
+            inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
+            yield Label(text, (inside or ends)[1], (phase(b.along),), 0)
 
 
 def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
@@ -332,7 +336,7 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
     Returns
     -------
     the piece, and the box (mm, y down) that it takes up, names left out.  Where it does not fit the room, dimensions
-    are left out first, then bars are cut at the edge of a room about its points.
+    are left out first, then what reaches far beyond its points is cut at the edge of the room.
     """
     here = MechanismOnPaper(sheet, letters)
     bare = _without_lengths(here)
@@ -344,14 +348,25 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
             if room is None or _fits(box, room):
                 return piece, box
         assert room is not None  # without one everything fits
+        centres = [around.centre]
     else:
-        around = Box.around(page(z) for z in sheet.points.values())
+        points = Box.around(page(z) for z in sheet.points.values())
+        centres = [_least_cut(around, points, room), points.centre]
     half = complex(*room) / 2
-    panel = Box.around((around.centre - half, around.centre + half))
+    panels = [Box.around((centre - half, centre + half)) for centre in centres]
+    panel = max(panels, key=lambda box: kept_in(bare, box))
     piece = _with_lengths(here, bare, panel) or bare
     layers = {name: cut_to(things, panel) for name, things in piece.layers.items()}
     names = tuple(n for n in piece.labels if panel.distance(middle_of(n.mark)) == 0.0)
     return Piece(layers, names, piece.marks), panel
+
+
+def _least_cut(ink: Box, points: Box, room: tuple[float, float]) -> complex:
+    """The middle of a room about points with their symbols that cuts least of all that is drawn."""
+    right = max(0.0, (room[0] - points.width) / 2 - AROUND_POINTS)
+    down = max(0.0, (room[1] - points.height) / 2 - AROUND_POINTS)
+    off = ink.centre - points.centre
+    return points.centre + complex(max(-right, min(right, off.real)), max(-down, min(down, off.imag)))
 
 
 def _fits(box: Box, room: tuple[float, float]) -> bool:
@@ -382,4 +397,4 @@ def _with_lengths(
 ) -> Piece | None:
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
     lengths = drawn_lengths(here.sheet, drawn, panel, most)
-    return None if lengths is None else joined((bare, lengths, link_names(here), _marks(here)))
+    return None if lengths is None else joined((bare, lengths, link_names(here, panel), _marks(here)))

@@ -20,8 +20,8 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyl
 from graphkin.drawing.text import rich
 
 __all__ = [
-    "LAYERS", "Piece", "cut_to", "ink_box", "joined", "layer_groups", "middle_of", "moved", "moved_piece", "renamed",
-    "with_crowd", "with_labels", "without",
+    "LAYERS", "Piece", "cut_to", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved", "moved_piece",
+    "renamed", "with_crowd", "with_labels", "without",
 ]  # fmt: skip
 
 # In the order of drawing.
@@ -111,6 +111,14 @@ def cut_to(children: Iterable[Primitive], box: Box) -> tuple[Primitive, ...]:
             if reach and box.holds(Box.around(reach)):
                 kept.append(thing)
     return tuple(kept)
+
+
+def kept_in(piece: Piece, box: Box) -> int:
+    """How many names of a piece stand in a box, and how many of the things that are left out where they cross its
+    edge."""
+    things = walk(cut_to(piece.drawn, box))
+    names = sum(box.distance(middle_of(name.mark)) == 0.0 for name in piece.labels)
+    return names + sum(not isinstance(one, Line | Group) for one in things)
 
 
 def ink_box(children: Iterable[Primitive]) -> Box | None:

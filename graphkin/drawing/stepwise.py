@@ -70,7 +70,7 @@ def _mechanism(sheet: Sheet, steps: list[Step]) -> dict[str, int]:
     for driver in sheet.scene.drivers:
         for part in ("", "-alpha"):
             born[f"driver-{driver.key.replace('/', '-')}{part}"] = born.get(f"link-{driver.key.split('/')[0]}", last)
-        born[f"angle-{driver.key}"] = born[f"driver-{driver.key.replace('/', '-')}"]
+        born[f"driven-{driver.key.replace('/', '-')}"] = born[f"driver-{driver.key.replace('/', '-')}"]
     for contact in sheet.scene.contacts:
         sides = [f"{letter}-{contact.name}-{k}" for letter in "nt" for k in (1, 2)]
         born |= dict.fromkeys((f"contact-{contact.name}", *sides), last)

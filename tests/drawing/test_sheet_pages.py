@@ -11,6 +11,7 @@ from graphkin import draw
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text, sheet_room
 from graphkin.drawing.conventions import letters_of
+from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.piece import ink_box
 from graphkin.drawing.primitives import Group, walk
 from graphkin.drawing.sheet_plan import sheet_plan
@@ -178,3 +179,35 @@ def test_lengths_are_given_however_short_and_what_rounding_leaves_is_none():
     given = dict(given_lengths(scene, letters_of(draft(scene), "chinese")))
     assert "0.5" == given["l_{BE}"]
     assert {"l_{BF}"} == {f"l_{{{p}{q}}}" for p in "BC" for q in "EF"} - set(given)
+
+
+@pytest.mark.parametrize(("scene", "value"), [
+    ("sixbar-1A-last-link", "−84.247°"), ("loader-cylinder", "s76=180"), ("loader-cylinder", "70°"),
+])  # fmt: skip
+def test_the_value_of_a_driver_stands_in_the_mechanism_of_the_sheet_and_of_its_own_figure(scene, value):
+    drawn = draw(scene)
+    for figure, box in (("sheet", sheet_plan(drafted(scene)[1]).mechanism), ("mechanism", None)):
+        texts = [thing for thing in walk(drawn.figures[figure].children) if isinstance(thing, Text)]
+        found = [text.at for text in texts if value in text.string.replace(" ", "") and "," not in text.string
+                 and (box is None or box.distance(text.at) == 0.0)]  # fmt: skip
+        assert 1 == len(found)
+
+
+@pytest.mark.parametrize(("high", "angle"), [(0, 75), (-30, 30)])
+def test_a_guide_that_its_panel_cuts_keeps_its_letter(high, angle):
+    scene = mechanism_of({
+        "frame": {"points": {"A": [0, 0]}, "guides": {"k": {"through": [112, high], "angle": 20}}},
+        "links": {"1": {"points": ["A", "B"], "length": 70},
+                  "2": {"points": ["C"], "on": "0.k", "guides": {"s": {"through": [0, 0], "angle": 80}}}},
+        "pins": {"B": {"of": "1", "in": "2.s"}},
+        "driver": {"link": "1", "angle": angle, "omega": 5},
+        "sketch": {"C": [112, high + 5], "B": [10, 70]},
+    })  # fmt: skip
+    sheet = draft(scene, room=sheet_room(scene))
+    room = sheet_plan(sheet).mechanism.grown(-0.8)
+    whole, box = mechanism_piece(sheet, letters_of(sheet, "chinese"))
+    cut, _ = mechanism_piece(sheet, letters_of(sheet, "chinese"), (room.width, room.height))
+    assert box.width > room.width
+    names = {label.text.id for label in whole.labels if "length" not in label.text.id}
+    assert "label-guide-0-k" in names
+    assert names <= {label.text.id for label in cut.labels}
