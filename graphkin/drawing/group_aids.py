@@ -128,7 +128,7 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
                     text = Text(0j, symbol(f"{letter}^{{{numeral}}}", 2.5), "start", strokes.GREY, name,
                                 ("label", "trial"))  # fmt: skip
-                    labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=4))
+                    labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=5))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
         yield Piece({"construction": (drawn,)}, tuple(labels))
