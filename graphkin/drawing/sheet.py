@@ -15,7 +15,6 @@ from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.coriolis import CoriolisTerm
-from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
 from graphkin.drawing.headings import (
@@ -26,7 +25,6 @@ from graphkin.drawing.headings import (
     figure_title,
     punctuation,
     term,
-    titles,
 )
 from graphkin.drawing.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
 from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
@@ -36,17 +34,16 @@ from graphkin.drawing.overleaf import Remainder, below, captioned, continued, he
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.polygon_on_page import extent
 from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, walk
-from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
+from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
-from graphkin.drawing.text import fitted, plain, wrapped
+from graphkin.drawing.text import fitted, plain
+from graphkin.drawing.title_block import title_block
 from graphkin.drawing.train import train_figure
 from graphkin.drawing.written_lines import written_lines
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import languages, word
 
 __all__ = ["background_piece", "scan_piece", "sheet_page"]
 
-LEGIBLE_TITLE = 2.4  # mm
-BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in the title block, for the check bar and for the scales
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
 POLYGONS: tuple[DiagramName, DiagramName] = ("velocity", "acceleration")
@@ -99,7 +96,7 @@ def sheet_page(
         velocity,
         *writing,
         _step_number(spoken, plan.page),
-        _title_block(sheet, report, letters, spoken, plan.block),
+        title_block(sheet, report, letters, spoken, plan.block),
     ]
     further = overleaf(sheet, rest, letters, spoken, plan.page)
     figures = [train_figure(sheet, language=spoken, convention=letters.convention)]
@@ -284,54 +281,6 @@ def _equations(
         row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
         parts.append(coriolis_row(sheet, shown, letters, row))
     return joined(parts), lines[count:], senses[len(shown) :]
-
-
-def _title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
-    lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
-    two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
-    names = titles(sheet, language)
-    left = box.left + 2.0
-    for share in (0.36, 0.48):  # more for a long title
-        one = min(box.left + share * box.width, two - SCALES_ROOM)
-        title = _title_lines(names, one - left - 1.5)
-        if title[0][0].size >= LEGIBLE_TITLE:
-            break
-    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
-    words: list[Primitive] = []
-    y = box.top + 1.4
-    for runs in title:
-        y += 1.25 * runs[0].size
-        words.append(Text(complex(left, y), runs))
-    comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))
-    tools = term("instrument", language) + colon + term(f"instrument {sheet.instrument}", language)
-    second = sheet.scene.name + comma + tools
-    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
-    for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
-        text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
-        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
-    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
-    answers: tuple[Primitive, ...] = ()
-    if report is not None:
-        wrong = sum(row.ok is False for row in report.rows)
-        whole = sum(row.ok is not None for row in report.rows)
-        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
-        answers = tuple(
-            Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
-            for i, each in enumerate(languages(language))
-        )
-    return Piece(
-        {"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words), "answers": answers}
-    )
-
-
-def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
-    """Titles in lines, as large as they fit the block."""
-    lines: list[tuple[Run, ...]] = []
-    for size in (3.2, 2.8, 2.4, 2.0):
-        lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
-        if 1.25 * size * len(lines) <= BLOCK - 7.0:
-            break
-    return lines[:3]
 
 
 READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
