@@ -77,6 +77,9 @@ def drawn_lengths(
     usual = placed(_frame, _bars, _angles, guide_dimensions, travels)
     if usual is None or not usual[1]:
         return usual and usual[0]
+    alone = placed(_angles, travels)
+    if alone is None or alone[1] >= usual[1]:  # others are not in their way
+        return usual[0]
     drivers_first = placed(_angles, travels, _frame, _bars, guide_dimensions)
     return min((usual, drivers_first or usual), key=lambda one: one[1])[0]
 
