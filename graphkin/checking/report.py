@@ -41,7 +41,8 @@ class Compared:
     ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
     ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
     to have a direction).  A value not above ``floor`` is nothing but rounding; a reading is not ``determined`` here
-    where its tolerance accepts anything.
+    where its tolerance accepts anything.  ``by_drivers``: it is determined because the drivers alone give it, where
+    what groups add is not.
     """
 
     reading: Reading
@@ -52,6 +53,7 @@ class Compared:
     uncertainty: Uncertainty | None = None
     floor: float = 0.0
     determined: bool = True
+    by_drivers: bool = False
 
     @property
     def symbol(self) -> Symbol:
@@ -102,8 +104,9 @@ class Report:
 
     @property
     def ok(self) -> bool:
-        """Whether no reading is out of tolerance, and not every one is undetermined."""
-        return all(row.ok is not False for row in self.rows) and (not self.rows or any(row.ok for row in self.rows))
+        """Whether no reading is out of tolerance, and something that was found is determined."""
+        found = any(row.ok and not row.by_drivers for row in self.rows)
+        return not self.rows or (found and all(row.ok is not False for row in self.rows))
 
     @property
     def undetermined(self) -> tuple[Symbol, ...]:
@@ -176,12 +179,13 @@ def compare(
         floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
         if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             tolerance = max(tolerance, floor)
-        fair = _fair(sheet, tolerance, most, least)
+        fair, alone = _fair(sheet, tolerance, most, least), False
         if (not fair or 0.0 < abs(value) <= floor) and by_drivers_alone(sheet.structure, reading.symbol):
             # no group comes before it whose rounding it could have
             tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
-            floor, fair = min(floor, slight(reading)), _fair(sheet, tolerance, most, least)
-        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair))
+            alone, floor = not fair, min(floor, slight(reading))
+            fair = _fair(sheet, tolerance, most, least)
+        rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair, alone))
     have = {r.symbol for r in readings}
     scales = replace(sheet.scales, force=force_scale)
     return Report(sheet.instrument, scales, tuple(rows), tuple(s for s in asked if s not in have))
