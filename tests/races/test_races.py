@@ -20,6 +20,7 @@ from graphkin.scene import mechanism_of
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SIXBAR = "sixbar-guide-40deg"
+SEEDS = 12  # drawings of a pencil, whose mean error hangs less on one of them than that of a race
 
 
 @pytest.fixture(autouse=True)
@@ -32,7 +33,10 @@ def raced(name: str = SIXBAR) -> Race:
     """A race run once; compiled for one mechanism, since numba takes seconds for each."""
     find = importlib.util.find_spec
     hidden = "" if name == SIXBAR else "numba"
-    with patch("importlib.util.find_spec", lambda package: None if package == hidden else find(package)):
+    with (
+        patch("importlib.util.find_spec", lambda package: None if package == hidden else find(package)),
+        patch("graphkin.races.run.SEEDS", SEEDS),
+    ):
         return race(mechanism_of(name), repeats=1, count=480)
 
 
@@ -91,7 +95,7 @@ def test_a_cad_screen_gives_four_digits() -> None:
 
 
 def test_a_pencil_on_a_quarter_of_the_paper_errs_more_than_on_all_of_it() -> None:
-    assert errors("pencil", "0.25")[0] > errors("pencil", "1")[0]
+    assert errors("pencil", "0.25")[0] > 2 * errors("pencil", "1")[0]
 
 
 def test_by_hand_errs_as_the_simulated_pencil_does() -> None:
