@@ -50,6 +50,17 @@ ARM = {  # a guide bar with an arm beside its axis
 }
 
 
+SLANTED_SLOT = {
+    "frame": {"points": {"A": [0, 0]}, "guides": {"y": {"through": "A", "angle": 90}}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 10},
+        "2": {"points": ["B"], "on": "3"},
+        "3": {"points": ["P"], "on": "0.y", "angle_on": -60},
+    },
+    "driver": {"link": "1", "angle": 60, "omega": 10},
+}
+
+
 def given(scene, language="en"):
     sheet = draft(mechanism_of(scene))
     return given_shapes(sheet.scene, letters_of(sheet, "chinese"), language)
@@ -64,6 +75,7 @@ def given(scene, language="en"):
         (["$CD$ at −130° to the axis of 3"], ARM),
         (["guide $s$ on 3: (−140, 0) mm from $C$ along $x$, 90° to it"], "scotch-yoke"),
         (["the axis of 3 at 90° to $y$"], "sine-mechanism"),
+        (["the axis of 3 at −60° to $y$"], SLANTED_SLOT),
         ([], "whitworth"),
     ],
 )
