@@ -70,10 +70,12 @@ class CamMade:
 
     @property
     def _rate(self) -> float:
-        """The cam's angular velocity (rad/s), where it is driven about the frame; 0 elsewhere."""
+        """How fast the degree of the law grows (rad/s), where the cam is driven steadily about the frame; else 0."""
         own = (d for d in self.mechanism.drivers if isinstance(d, AngleDriver) and d.link == self.cam.link)
         driver = next(own, None)
-        return driver.omega if driver is not None and driver.relative_to == self.mechanism.frame.name else 0.0
+        if driver is None or driver.relative_to != self.mechanism.frame.name or driver.alpha or driver.law is not None:
+            return 0.0
+        return self.cam.sense * driver.omega
 
     def _length(self, metres: float) -> str:
         return f"{metres / self.mechanism.units.metres:.6g}"
@@ -106,8 +108,8 @@ class CamMade:
             made.append(Phrase("cam base wanted", (self._length(self.wanted_base), unit)))
         made += self._rates()
         for jump in study.jumps:
-            at = f"{math.degrees(jump.degree):.6g}"
-            made.append(Phrase("cam impact" if jump.order == 1 else "cam soft impact", (at,)))
+            edge = "cam impact" if cam.flat or cam.roller else "cam impact corner"
+            made.append(Phrase(edge if jump.order == 1 else "cam soft impact", (_degrees(jump.degree),)))
         return made
 
     def _undercut(self, start: float, end: float) -> Phrase:
@@ -126,12 +128,14 @@ class CamMade:
         turns, found = self._rate, []
         units = self.mechanism.units
         for key, most, order in (("velocity", self.study.velocity, 1), ("acceleration", self.study.acceleration, 2)):
-            value = most.value * ((abs(turns) if order == 1 else turns**2) or 1.0)
+            value = most.value * (turns**order or 1.0)
             per = ("/s", "/s²") if turns else ("/rad", "/rad²")
             if self._swings:
                 name = "rad" + per[order - 1]
             else:
                 value, name = value / units.metres, units.length + per[order - 1]
+            if order == 2 and any(jump.order == 1 for jump in self.study.jumps):
+                key = "acceleration beside impacts"
             found.append(Phrase(f"cam {key}", (true_minus(f"{value:.6g}"), name, _degree(most))))
         return found
 

@@ -78,6 +78,14 @@ LAWS: Mapping[str, tuple[tuple[float, Form], ...]] = {
     "4567": ((1.0, _4567),),
 }
 """Laws by their names in a scene: the forms of their smooth parts, each up to a share of the angle and of the lift."""
+PEAKS: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
+    "harmonic": ((0.5,), ()),
+    "cycloidal": ((0.5,), (0.25, 0.75)),
+    "345": ((0.5,), (0.5 - math.sqrt(1 / 12), 0.5 + math.sqrt(1 / 12))),
+    "4567": ((0.5,), (0.5 - math.sqrt(1 / 20), 0.5 + math.sqrt(1 / 20))),
+}
+"""Where inside a form its first derivative, and its second, is extreme: the next derivative is 0 there.  The other laws
+are extreme at their ends."""
 SPELLINGS = (*LAWS, *("-".join(name) for name in LAWS if name.isdigit()))
 """The names as people write them: "3-4-5" too."""
 
@@ -107,6 +115,12 @@ class SmoothPart:
         _, form = LAWS[self.by][self.which]
         f, f1, f2, f3 = form((angle - self.start) / wide, m)
         return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
+
+    def extremes(self, order: int) -> tuple[tuple[float, float], ...]:
+        """The first or second derivative at both ends and at its peaks inside, each with its angle (rad), in order."""
+        peaks = PEAKS[self.by][order - 1] if self.by in PEAKS else ()
+        inside = (self.start + x * (self.end - self.start) for x in peaks)
+        return tuple((self.at(angle)[order], angle) for angle in (self.start, *inside, self.end))
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.cams import LawCam
-from graphkin.scene.follower_law import Lift, SmoothPart
+from graphkin.scene.follower_law import FollowerLaw, Lift, SmoothPart
 from graphkin.solver.cam_profile import CamAt, cam_with
 from graphkin.solver.pose import Array
 
@@ -54,7 +54,6 @@ class CamStudy:
     undercut : from where to where the profile cannot be cut: the roller is larger than the pitch curve is round there,
         or the flat face does not touch the whole of it
     jumps : where velocity or acceleration jump
-    corners : angles at which the profile has a corner or a cusp, because the velocity jumps
     """
 
     cam: LawCam
@@ -80,12 +79,10 @@ class CamStudy:
 def study_cam(cam: LawCam) -> CamStudy:
     """Look a cam over.  Raises Unsolvable where the follower does not come to the base circle."""
     most_rise, most_fall = _pressures(cam)
-    velocity = [a for p in cam.law.parts for a in _extremes(cam, p, _slope, lambda at, lift: lift.bend)]
-    bending = [a for p in cam.law.parts for a in _extremes(cam, p, _bend, lambda at, lift: lift.jerk)]
     round_ = [a for p in cam.law.parts for a in _extremes(cam, p, _radius, _radius_rate)]
     convex = [a for a in round_ if a.value + cam.roller > 0.0 or cam.flat]
     return CamStudy(
-        cam, most_rise, most_fall, max(velocity, key=_size), max(bending, key=_size),
+        cam, most_rise, most_fall, _greatest(cam.law, 1), _greatest(cam.law, 2),
         min(convex, key=_value, default=None), tuple(_undercut(cam)), tuple(_jumps(cam)),
     )  # fmt: skip
 
@@ -142,19 +139,14 @@ def _value(at: AtDegree) -> float:
     return at.value
 
 
-def _size(at: AtDegree) -> float:
-    return abs(at.value)
+def _greatest(law: FollowerLaw, order: int) -> AtDegree:
+    """The first or second derivative where it is greatest in size: the first place of several as great."""
+    found = [AtDegree(*extreme) for part in law.parts for extreme in part.extremes(order)]
+    most = max(abs(at.value) for at in found)
+    return next(at for at in found if abs(at.value) >= most * (1 - SAME))
 
 
 Of = Callable[[CamAt, Lift], Array]
-
-
-def _slope(at: CamAt, lift: Lift) -> Array:
-    return np.asarray(lift.slope)
-
-
-def _bend(at: CamAt, lift: Lift) -> Array:
-    return np.asarray(lift.bend)
 
 
 def _radius(at: CamAt, lift: Lift) -> Array:
@@ -196,7 +188,7 @@ def _root(of: Callable[[float], float], low: tuple[float, float], high: tuple[fl
     for _ in range(ROUNDS):
         x = (a * fb - b * fa) / (fb - fa)
         if not min(a, b) < x < max(a, b):
-            break
+            return min(max(x, min(a, b)), max(a, b))  # one of the ends, which is nearer than rounding
         fx = of(x)
         if fx == 0.0:
             return x
@@ -244,13 +236,13 @@ def _edge(cam: LawCam, part: SmoothPart, low: float, high: float, before: bool) 
 
 
 def _jumps(cam: LawCam) -> Iterator[Jump]:
-    parts: Sequence[SmoothPart] = cam.law.parts
-    ends = [(part.at(part.start), part.at(part.end)) for part in parts]
+    """Where a velocity jumps the acceleration is infinite, and its own jump is not told."""
+    law, hard = cam.law, set[int]()
+    ends = [(part.at(part.start), part.at(part.end)) for part in law.parts]
     for order in (1, 2):
-        most = max(abs(lift[order]) for pair in ends for lift in pair) or 1.0
-        middles = (abs(p.at((p.start + p.end) / 2)[order]) for p in parts)
-        most = max(most, *middles)
-        for k, part in enumerate(parts):
+        most = abs(_greatest(law, order).value)
+        for k, part in enumerate(law.parts):
             by = ends[k][0][order] - ends[k - 1][1][order]
-            if abs(by) > CORNER * most:
+            if abs(by) > CORNER * most and k not in hard:
+                hard.add(k)
                 yield Jump(order, part.start, by)

@@ -67,6 +67,90 @@ def test_velocity_and_acceleration_that_jump_are_told():
                                   if j.order == 1}  # fmt: skip
 
 
+HALF = [{"to": 180, "rise": 24, "by": ""}, {"to": 360, "fall": 24, "by": ""}]
+"""Rise and fall of 24 mm, each in half a turn."""
+ALONE = [{"to": 30}, {"to": 150, "rise": 24, "by": ""}, {"to": 200}, {"to": 320, "fall": 24, "by": ""}, {"to": 360}]
+"""The same in 120 degrees each, between dwells."""
+
+
+def with_law(pieces, by, **changed):
+    law = [{**piece, "by": by} if "by" in piece else piece for piece in pieces]
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.law", law)
+    for key, value in changed.items():
+        scene = scene.replace(key.replace("_", "."), value)
+    return graphkin.cam(scene)["1"]
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("pieces", "by", "impacts", "soft"),
+    [
+        (ALONE, "uniform", [30, 150, 200, 320], []),
+        (ALONE, "parabolic", [], [30, 90, 150, 200, 260, 320]),
+        (ALONE, "harmonic", [], [30, 150, 200, 320]),
+        *((pieces, by, [], []) for pieces in (ALONE, HALF) for by in ("cycloidal", "345", "4567")),
+        (HALF, "uniform", [0, 180], []),
+        (HALF, "parabolic", [], [90, 270]),
+        (HALF, "harmonic", [], []),
+    ],
+)
+def test_every_law_jumps_where_textbooks_say_and_nowhere_else(pieces, by, impacts, soft):
+    said = with_law(pieces, by).sentences("en")
+    jumps = {word: [float(re.search(r"φ = ([-\d.]+)", s)[1]) for s in said if f"{word} jumps" in s]
+             for word in ("velocity", "acceleration")}  # fmt: skip
+    assert {"velocity": impacts, "acceleration": soft} == jumps
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("by", "velocity", "at", "acceleration", "bent"),
+    [
+        ("uniform", 1, 30, 0, 0),
+        ("parabolic", 2, 90, 4, 30),
+        ("harmonic", math.pi / 2, 90, math.pi**2 / 2, 30),
+        ("cycloidal", 2, 90, math.tau, 60),
+        ("345", 1.875, 90, 10 / math.sqrt(3), 30 + 120 * (0.5 - math.sqrt(1 / 12))),
+        ("4567", 2.1875, 90, 84 / 25 * math.sqrt(5), 30 + 120 * (0.5 - math.sqrt(1 / 20))),
+    ],
+)
+def test_the_greatest_velocity_and_acceleration_are_those_of_the_law_at_its_own_angle(
+    by, velocity, at, acceleration, bent
+):
+    study, wide = with_law(ALONE, by).study, math.radians(120)
+    assert (0.024 * velocity / wide, at) == pytest.approx((study.velocity.value, math.degrees(study.velocity.degree)))
+    assert (0.024 * acceleration / wide**2, bent) == pytest.approx(
+        (study.acceleration.value, math.degrees(study.acceleration.degree))
+    )
+
+
+@pytest.mark.parametrize(("omega", "velocity"), [(10, "152.789 mm/s"), (-10, "−152.789 mm/s")])
+def test_the_velocity_has_the_sign_with_which_the_lift_changes(omega, velocity):
+    said = with_law(HALF, "cycloidal", driver_omega=omega).sentences("en")
+    assert f"greatest velocity: {velocity} at φ = 90°" in said
+
+
+def test_a_cam_whose_speed_changes_has_its_rates_by_the_angle():
+    said = with_law(HALF, "harmonic", driver_alpha=4).sentences("en")
+    assert "greatest velocity: 12 mm/rad at φ = 90°" in said  # half the rise
+
+
+def test_beside_impacts_the_greatest_acceleration_is_not_called_the_greatest():
+    said = with_law(ALONE, "uniform").sentences("en")
+    assert "greatest acceleration beside the impacts: 0 mm/s² at φ = 0°" in said
+    assert not [s for s in said if s.startswith("greatest acceleration:")]
+
+
+@pytest.mark.parametrize(("roller", "corner"), [(8, False), (None, True)])
+def test_a_velocity_that_jumps_makes_a_corner_under_a_knife_edge_only(roller, corner):
+    scene = graphkin.read("cam-offset-roller").replace("cams.1.law", [{**p, "by": "uniform"} for p in HALF])
+    if roller is None:
+        made = scene.to_dict()
+        del made["cams"]["1"]["roller"]
+        scene = made
+    said = [s for s in graphkin.cam(scene).sentences("en") if "velocity jumps" in s]
+    assert (2, 2 * corner) == (len(said), sum("a corner" in s for s in said))
+
+
 @pytest.mark.quick
 def test_the_table_has_a_row_a_degree_with_the_heads_of_the_contract(tmp_path):
     graphkin.draw("cam-offset-roller", tmp_path, figures=["cam"])
