@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import builtins
 import gc
 import os
 import shutil
@@ -45,6 +46,25 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     if config.option.markexpr != "quick" or collection_path.suffix != ".py":
         return None
     return "mark.quick" not in collection_path.read_text(encoding="utf-8") or None
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _no_builtin_sum_of_floats():
+    """What graphkin writes must not hang on the Python that writes it: from 3.12 on ``sum`` adds floats in another way,
+    from 3.14 on complex numbers too (`graphkin.plane.added_up` adds them alike everywhere)."""
+    builtin = builtins.sum
+
+    def watched(values, /, start=0):
+        caller = sys._getframe(1)
+        if caller.f_globals.get("__name__", "").split(".")[0] == "graphkin":
+            values = list(values)
+            where = f"{caller.f_code.co_filename}:{caller.f_lineno} adds floats by the builtin sum: take added_up"
+            assert not any(isinstance(value, float | complex) for value in (start, *values)), where
+        return builtin(values, start)
+
+    builtins.sum = watched
+    yield
+    builtins.sum = builtin
 
 
 CHROMIUM_FLAGS = [

@@ -14,6 +14,7 @@ from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.audit import Judged
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
+from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol, Value
@@ -95,8 +96,8 @@ def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) ->
 def _points(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], scheme: Scheme) -> dict[str, Json]:
     """Points by part, their sum, and of how many; a part that nobody has marked yet is None and not counted."""
     good = [j.printed.symbol for j in judged if j.verdict in FULL]
-    values = sum(scheme.of(s, asked) for s in good)
-    most = sum(scheme.of(s, asked) for s in asked)
+    values = added_up(scheme.of(s, asked) for s in good)
+    most = added_up(scheme.of(s, asked) for s in asked)
     points: dict[str, float | None] = {"values": values}
     total = values
     for part in ("equations", "drawing"):

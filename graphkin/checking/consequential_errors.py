@@ -10,6 +10,7 @@ from graphkin.construction import GoneOn, Plan, Sheet, Slip
 from graphkin.construction.polygon_pair import Order
 from graphkin.construction.slip import Component
 from graphkin.errors import GraphkinError
+from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol, Value
 
 __all__ = ["Consequences"]
@@ -54,7 +55,7 @@ class Consequences:
             for side in equation.sides:
                 spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
                 if len(side) > 1 and len(spans) == len(side):
-                    values.append(sum(spans, 0j) * scale)
+                    values.append(added_up(spans, 0j) * scale)
         return tuple(values)
 
     def before(self, one: Symbol, other: Symbol) -> bool:

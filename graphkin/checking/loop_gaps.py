@@ -6,7 +6,7 @@ import cmath
 from collections.abc import Mapping
 
 from graphkin.construction.sheet import Sheet
-from graphkin.plane import dot
+from graphkin.plane import added_up, dot
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.loops import Loop, Unknown, loops_of
 
@@ -35,7 +35,7 @@ def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Sy
         vectors = stated_arrows(sheet, loop, stated)
         for symbol in own:
             if vectors and _gives(loop, symbol):
-                found.setdefault(symbol, (loop.name, abs(sum(vectors))))
+                found.setdefault(symbol, (loop.name, abs(added_up(vectors, 0j))))
     return found
 
 

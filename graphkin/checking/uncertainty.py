@@ -30,6 +30,7 @@ from graphkin.construction.board import Hand
 from graphkin.construction.polygon_pair import Order
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
 from graphkin.errors import Unsolvable
+from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
@@ -199,11 +200,11 @@ def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
 
 def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
     """Root of the mean square deviation from a value."""
-    return math.sqrt(sum(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
+    return math.sqrt(added_up(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
 
 
 def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
-    whole = sum(shares.values())
+    whole = added_up(shares.values())
     if not whole:
         return Uncertainty(0.0, ReadOff(symbol), 0.0)
     worst = max(shares, key=shares.__getitem__)

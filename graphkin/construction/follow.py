@@ -18,6 +18,7 @@ from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
 from graphkin.structure.assembly import out_of_reach, ways
@@ -170,7 +171,7 @@ def _nearest(frame: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
         return None
     return min(
         meeting.poses,
-        key=lambda poses: sum(abs(p.origin - guess[n].origin) ** 2 + abs(p.axis - guess[n].axis) ** 2
+        key=lambda poses: added_up(abs(p.origin - guess[n].origin) ** 2 + abs(p.axis - guess[n].axis) ** 2
                               for n, p in poses.items()),
     )  # fmt: skip
 

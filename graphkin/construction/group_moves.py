@@ -14,7 +14,7 @@ from graphkin.construction.polygons import Polygons
 from graphkin.construction.sheet import Equation, Rate, Term
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray
 from graphkin.construction.touching import Touching
-from graphkin.plane import cross, unit
+from graphkin.plane import added_up, cross, unit
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Slide, Turn, Weld, driver_pair, links_of
@@ -149,7 +149,7 @@ class GroupMoves(Polygons):
         for part in parts[:open_at]:
             known = self.drawn[order].get(part.symbol)
             at = known.tip if known is not None else self._vector(order, part, at, number)
-        after = sum((p.span for p in parts[open_at + 1 :] if p.span is not None), 0j)
+        after = added_up((p.span for p in parts[open_at + 1 :] if p.span is not None), 0j)
         self._fill(order, side, self.end(order, last) - after, at, number)
         for edge in path:
             self._measure(order, edge, group)

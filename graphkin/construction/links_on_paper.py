@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.sheet import Pose
-from graphkin.plane import direction, unit
+from graphkin.plane import added_up, direction, unit
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
@@ -22,7 +22,7 @@ Poses = Mapping[str, Pose]
 
 def apart(one: Poses, other: Poses) -> float:
     """How far links lie from where others of the same names do, on paper (mm, and direction by direction)."""
-    return sum(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
+    return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
 
 SAME_HOLE = 1e-9
 """Points of a link that lie nearer to each other on paper (mm) are pricked once."""

@@ -18,7 +18,7 @@ from graphkin.construction.sheet import Pose
 from graphkin.construction.sketched import as_sketched
 from graphkin.construction.trial_fits import all_fits, fits_between
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
+from graphkin.plane import added_up, dot
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, links_of, pick
 
@@ -155,7 +155,7 @@ def _without_twins(
 
     def positive(poses: Poses) -> float:
         ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - frame.mm * s.guide.through for s in slides)
-        return sum(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
+        return added_up(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
 
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
     for poses in sorted(found, key=positive, reverse=True):
@@ -216,7 +216,7 @@ def _sketched(
 
     def distance(poses: Poses) -> float:
         there = _fresh(structure, known, {n: poses[n] for n in reduced.cluster.members if n in poses})
-        return math.sqrt(sum(abs(there[p] * known.mm - places[p]) ** 2 for p in fresh if p in there))
+        return math.sqrt(added_up(abs(there[p] * known.mm - places[p]) ** 2 for p in fresh if p in there))
 
     return cmath.phase(axis / held.axis), abs(way), distance
 

@@ -26,7 +26,7 @@ from graphkin.construction.sizes import Direction
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.terms import parts_of
 from graphkin.errors import Unsolvable
-from graphkin.plane import dot
+from graphkin.plane import added_up, dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
@@ -100,7 +100,7 @@ class TrialPolygons(GroupMoves):
         whole = replace(edge, unknown="")
         parts = parts_of(self, order, whole)
         missing = self.end(order, edge.end) - self.end(order, edge.start)
-        missing -= sum((p.span for p in parts if p.span is not None), 0j)
+        missing -= added_up((p.span for p in parts if p.span is not None), 0j)
         if not across and any(p.span is None for p in parts):
             return None
         return dot(missing, self._measured_along(edge, across))

@@ -22,6 +22,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.mechanism_acts import Missed, Moved, TrialRow, TrialTable
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.removed_constraint import RemovedConstraint
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver
 
 __all__ = ["table_of_one", "table_of_several"]
@@ -92,7 +93,7 @@ def table_of_several(
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
             break
         shares = np.linalg.solve(slopes, -gaps[0])
-        found = at[0] + sum(x * (v - at[0]) for x, v in zip(shares, at[1:], strict=True))
+        found = at[0] + added_up(x * (v - at[0]) for x, v in zip(shares, at[1:], strict=True))
         open_there = missed(found)
         if open_there is None:
             break

@@ -19,6 +19,7 @@ from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, 
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.text import plain, rich, symbol
+from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.scene.model import Mechanism
@@ -328,5 +329,5 @@ def _table(scene: Mechanism, sheet: CamSheet, language: str, y: float) -> tuple[
                 at += width
                 if text:
                     drawn.append(Text(complex(at, line), rich(text, 2.6), "end", classes=("cell",)))
-        drawn.append(Line(complex(x, y + 1.4), complex(x + sum(parts) + 1.0, y + 1.4), strokes.DIMENSION))
+        drawn.append(Line(complex(x, y + 1.4), complex(x + added_up(parts) + 1.0, y + 1.4), strokes.DIMENSION))
     return tuple(drawn), y + LINE * (rows + 1) + 3.0

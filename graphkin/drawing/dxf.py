@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Scan, Stroke, Text
 from graphkin.errors import CallError, Problem
+from graphkin.plane import added_up
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as DxfFile
@@ -149,7 +150,7 @@ class _Board:
             name = "dash-" + "-".join(f"{mm:g}" for mm in stroke.dash)
             if name not in self.document.linetypes:
                 signed = [mm if i % 2 == 0 else -mm for i, mm in enumerate(stroke.dash * (1 + len(stroke.dash) % 2))]
-                self.document.linetypes.add(name, [sum(map(abs, signed)), *signed])
+                self.document.linetypes.add(name, [added_up(map(abs, signed)), *signed])
             look["linetype"] = name
         return look
 

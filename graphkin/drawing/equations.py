@@ -17,6 +17,7 @@ from graphkin.drawing.piece import moved
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.sums import bound, carried_by, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.plane import added_up
 from graphkin.words.written import MOST, product
 
 __all__ = [
@@ -102,7 +103,7 @@ def equations_on_page(lines: Sequence[LineToSet], width: float, height: float) -
     fullest: list[tuple[Written, complex]] = []
     for size in dict.fromkeys(size for size, _ in WAYS):
         blocks = [line(wide, size) for line in lines]
-        whole = sum(block.height for block in blocks)
+        whole = added_up(block.height for block in blocks)
         high = min(height, whole / columns)
         while high < height and len(_in_columns(blocks, wide, high, columns)) < len(blocks):
             high = min(height, high + size)

@@ -8,6 +8,7 @@ from functools import lru_cache
 from graphkin.drawing.box import Box
 from graphkin.drawing.font import EM, Style, glyph
 from graphkin.drawing.primitives import Run, Text
+from graphkin.plane import added_up
 
 __all__ = ["CAP_HEIGHT", "has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "style_of", "text_box", "width"]
 
@@ -35,7 +36,7 @@ def width(text: str, size: float, italic: bool = False, bold: bool = False) -> f
 @lru_cache(maxsize=8192)
 def _length(text: str, style: Style) -> float:
     """Advance width in sizes."""
-    return sum(_advance(character, style) for character in text)
+    return added_up(_advance(character, style) for character in text)
 
 
 def style_of(italic: bool, bold: bool) -> Style:

@@ -23,6 +23,7 @@ from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.equations import SumTerm
 from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.headings import number, written
+from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, about, listed, say, word
 from graphkin.words.written import amount, on_paper, product
@@ -184,7 +185,7 @@ def lever_sum(
     units = sheet.scene.units
     name = f"${force_letters(letters.convention, lever.balance)}$"
     moment = lever.balance.kind == "M"
-    total = sum(row.moment for row in lever.rows) / units.newtons
+    total = added_up(row.moment for row in lever.rows) / units.newtons
     if moment:
         values = lever.value, float(state.moments.get(lever.balance) or 0.0)
     else:

@@ -23,7 +23,7 @@ from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
 from graphkin.drawing.text import symbol
 from graphkin.drawing.touching import marks_cut_free
-from graphkin.plane import unit
+from graphkin.plane import added_up, unit
 
 __all__ = ["colour_of_force", "free_body", "letters_of_force", "links_cut_free", "sketch_height"]
 
@@ -216,7 +216,7 @@ def letters_of_force(letters: Letters, vector: ForceVector) -> str:
 def _middle(sheet: Sheet, link: str) -> complex:
     mass = next((m for m in sheet.scene.loading.masses if m.link == link), None)
     pose = sheet.poses[link]
-    at = mass.at if mass is not None else sum(sheet.structure.links[link].points.values(), 0j) / max(
+    at = mass.at if mass is not None else added_up(sheet.structure.links[link].points.values(), 0j) / max(
         1, len(sheet.structure.links[link].points)
     )
     return pose.origin + pose.axis * at / sheet.scales.length

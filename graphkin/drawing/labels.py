@@ -25,6 +25,7 @@ from graphkin.drawing.label_positions import LabelPosition, LabelPositions, Plac
 from graphkin.drawing.meeting import Flags
 from graphkin.drawing.obstacles import Obstacles
 from graphkin.drawing.primitives import Line, Text
+from graphkin.plane import added_up
 
 __all__ = ["Label", "Mark", "Placement", "place"]
 
@@ -355,8 +356,8 @@ class Placement:
                 queue.append(k)
             self.held.take(j, positions.position(chosen))
         after = self.held.standing
-        cost = sum(position.cost - before[j].cost for j, position in after.items() if position is not before[j])
-        cost += sum(_DROPPED - before[j].cost for j in queue)
+        cost = added_up(position.cost - before[j].cost for j, position in after.items() if position is not before[j])
+        cost += added_up(_DROPPED - before[j].cost for j in queue)
         if cost >= 0 or any(self.ranks[j] < _DISPENSABLE for j in queue):
             self.held.put_back(before)
         self.moves += 1

@@ -25,6 +25,7 @@ from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Prim
 from graphkin.drawing.strokes import colour_of_link
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
@@ -171,8 +172,8 @@ def _gap(sheet: Sheet, loop: LoopValue) -> float | None:
     if any(abs(sheet.drivers[d.key] - d.values[0]) > 1e-9 for d in sheet.scene.drivers):
         return None
     vectors = stated_arrows(sheet, loop.loop, sheet.scene.printed)
-    gap = abs(sum(vectors))
-    return gap if gap > CLOSES * sum(map(abs, vectors)) else None
+    gap = abs(added_up(vectors, 0j))
+    return gap if gap > CLOSES * added_up(map(abs, vectors)) else None
 
 
 def _angle(tail: complex, vector: complex) -> list[Primitive]:
@@ -237,7 +238,7 @@ def _matrix(words: list[Primitive], one: MatrixEquation, at: complex, room: floa
         columns = [[rich(row[k], size) for row in one.rows] for k in range(len(one.unknowns))]
         names, column = [symbol(n, size) for n in one.unknowns], [rich(r, size) for r in one.right]
         wide = [max(map(runs_width, cells)) for cells in columns]
-        whole = sum(wide) + 2.6 * len(wide) + max(map(runs_width, names)) + max(map(runs_width, column)) + 16.0
+        whole = added_up(wide) + 2.6 * len(wide) + max(map(runs_width, names)) + max(map(runs_width, column)) + 16.0
         if whole <= room or size <= 1.6:
             break
         size -= 0.2

@@ -31,7 +31,7 @@ from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive,
 from graphkin.drawing.senses import clearance, drivers, found_rates
 from graphkin.drawing.text import plain, symbol
 from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
-from graphkin.plane import cross, dot
+from graphkin.plane import added_up, cross, dot
 
 __all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
 
@@ -232,7 +232,7 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
 
 def _letter(here: MechanismOnPaper, point: str) -> Label:
     z = here.places[point]
-    away = -sum((w / abs(w) for w in here.ways(z)), 0j)
+    away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
     letter = symbol(here.letters.point(point))
     text = Text(0j, letter, "start", strokes.BLACK, f"label-point-{point}", ("label",))
     return Label(text, page(z), (phase(away),) if abs(away) > 0.1 else ())

@@ -18,6 +18,7 @@ from graphkin.drawing.labels import Label, Mark, Placement
 from graphkin.drawing.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Scan, Text, walk
 from graphkin.drawing.text import rich
+from graphkin.plane import added_up
 
 __all__ = [
     "LAYERS", "Piece", "cut_to", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved", "moved_piece",
@@ -290,7 +291,7 @@ def _in_columns(
     heights = [max(boxes[i].height for i in range(k, len(entries), lines)) for k in range(lines)]
     lefts = accumulate((width + APART[0] for width in widths[:-1]), initial=0.0)
     tops = list(accumulate((height + APART[1] for height in heights), initial=0.0))
-    size = sum(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
+    size = added_up(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
     return tuple(
         replace(entries[i], at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
         for room in free_boxes(1, size, panel, around, clear)

@@ -21,6 +21,7 @@ from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage
 from graphkin.drawing.primitives import Circle, Group, Stroke, Text
 from graphkin.drawing.strokes import link_of_vector
 from graphkin.drawing.text import SMALLEST, plain, symbol
+from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = ["END_RADIUS", "NamedPoint", "named_points", "points", "step_number"]
@@ -189,7 +190,7 @@ def _pole(here: PolygonOnPage, place: _Place) -> Piece:
     shown = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in place.refs)))
     letter = pole(here.letters.convention, here.diagram)
     markup = f"{letter} ({shown})" if shown and runs_width(symbol(shown)) < MOST_AT_POLE else letter
-    away = -sum((v.span for _, v in here.vectors.values() if abs(v.tail) < SAME), 0j)
+    away = -added_up((v.span for _, v in here.vectors.values() if abs(v.tail) < SAME), 0j)
     shape = Circle(here.at(0j), POLE_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE)
     dot = Circle(here.at(0j), 0.3, fill=strokes.BLACK)
     group = Group((shape, dot), id=f"pole-{here.diagram}", classes=("pole",))

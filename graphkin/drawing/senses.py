@@ -20,6 +20,7 @@ from graphkin.drawing.piece import Piece, joined
 from graphkin.drawing.primitives import Group, Line, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import symbol
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, SlideDriver
 
 __all__ = ["clearance", "drivers", "found_rates"]
@@ -173,7 +174,7 @@ def _centres_of_turn(here: MechanismOnPaper, link: str, other: str) -> list[comp
             return [here.places[point]]
     shape = next((s for s in here.shapes if s.link == link), None)
     if shape is not None and shape.corners:
-        return [sum(shape.corners, 0j) / len(shape.corners)]
+        return [added_up(shape.corners, 0j) / len(shape.corners)]
     if shape is not None and shape.longest is not None:
         a, b = shape.longest
         return [a + share * (b - a) for share in (0.5, 0.34, 0.66)]

@@ -13,6 +13,7 @@ from itertools import product
 from graphkin.construction import Room, drawn_sizes
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
+from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 
@@ -116,10 +117,11 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
     ]
     for chosen in ((0,), (1,), (0, 1)):
         less = [spare[i] if i in chosen else 0.0 for i in (0, 1)]
-        if not all(less[i] for i in chosen) or sum(less) < LEAST_BESIDE:
+        if not all(less[i] for i in chosen) or added_up(less) < LEAST_BESIDE:
             continue
         upper = Box(velocity.left, velocity.top, velocity.right, velocity.bottom - less[0])
-        lower = Box(acceleration.left, acceleration.top - less[0], acceleration.right, acceleration.bottom - sum(less))
+        bottom = acceleration.bottom - added_up(less)
+        lower = Box(acceleration.left, acceleration.top - less[0], acceleration.right, bottom)
         room = Box(lower.left, lower.bottom + GUTTER, lower.right, acceleration.bottom)
         yield replace(plan, velocity=upper, acceleration=lower, beside=room)
 

@@ -26,6 +26,7 @@ from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Siz
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.drawing.headings import number, written
 from graphkin.drawing.measured_lengths import arm_written, is_given, scale_of, unit_of
+from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import (
     FINER,
@@ -194,7 +195,7 @@ def _rate_read(sheet: Sheet, rule: RateTimes) -> str:
 def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]) -> float:
     """How a link turns (rad/s, rad/s2), or the first of two as seen from the second."""
     rates = [(sheet.omega if rate == "omega" else sheet.alpha)[name].value for name in links]
-    turning = rates[0] - sum(rates[1:])
+    turning = rates[0] - added_up(rates[1:])
     return turning if abs(turning) > SAME_RATE * max(map(abs, rates)) else 0.0
 
 

@@ -32,6 +32,7 @@ from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, 
 from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.text import rich, wrapped
+from graphkin.plane import added_up
 from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
@@ -313,7 +314,7 @@ def _grid(
 ) -> tuple[tuple[Primitive, ...], float]:
     """A small table with a line under its heads; the first column to the left, numbers to the right."""
     drawn: list[Primitive] = []
-    total = sum(widths)
+    total = added_up(widths)
     lines = wrapped(heads[0], 2.6, widths[0] - 1.0, bold=True)
     for runs in lines[:-1]:  # the longest of the heads may need lines of its own
         drawn.append(Text(complex(x, y), runs, "start", classes=("cell",)))

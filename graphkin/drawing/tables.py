@@ -17,7 +17,7 @@ from graphkin.drawing.given_shapes import along_its_guide, given_shapes, off_its
 from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.text import rich, wrapped
-from graphkin.plane import degrees
+from graphkin.plane import added_up, degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
 from graphkin.words.written import as_given
@@ -109,7 +109,7 @@ def _column(
 ) -> list[Primitive]:
     compared = any(r.compared for r in rows)
     shares = _SHARES if compared else (0.4, 0.25, 0.35)
-    edges = [corner.real + width * sum(shares[:i]) for i in range(len(shares) + 1)]
+    edges = [corner.real + width * added_up(shares[:i]) for i in range(len(shares) + 1)]
     size = 2.4
     heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
     children: list[Primitive] = []

@@ -19,6 +19,7 @@ from typing import Any
 
 from graphkin.files import OwnTables, Tables
 from graphkin.papers.vary_rules import asked_now, free_of_rules, round_step, ruled, ruled_keys
+from graphkin.plane import added_up
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.file_keys import KeyPath, put_at, value_at
@@ -202,12 +203,12 @@ def _cam(was: Tables, cam: OwnTables) -> None:
     if any(b - a < LEAST_PIECE for a, b in pairwise(ends)):
         for piece, before in zip(law, old, strict=True):
             piece["to"] = before["to"]
-    up, down = (sum(piece.get(key) or 0.0 for piece in law) for key in ("rise", "fall"))
+    up, down = (added_up(piece.get(key) or 0.0 for piece in law) for key in ("rise", "fall"))
     falls = [piece for piece in law if piece.get("fall")]
     for piece in falls:
         piece["fall"] = float(f"{piece['fall'] * up / down:.9g}")
     if falls:
-        falls[-1]["fall"] = float(f"{up - sum(piece['fall'] for piece in falls[:-1]):.12g}")
+        falls[-1]["fall"] = float(f"{up - added_up(piece['fall'] for piece in falls[:-1]):.12g}")
 
 
 def _moment(driver: OwnTables, law: Tables) -> None:
@@ -293,7 +294,7 @@ def _radii(scene: Mechanism, made: OwnTables, free: Callable[[KeyPath], bool]) -
         here = _axle_key(made, contact.carrier, centres)
         if here is None or not free(here):
             return False
-        total = sum(sign * abs(r) for sign, r in zip(signs, radii, strict=True))
+        total = added_up(sign * abs(r) for sign, r in zip(signs, radii, strict=True))
         if abs(total) <= ALIKE * max(map(abs, radii)):
             return False
         made["links"][contact.carrier]["length"] = float(f"{abs(total):.12g}")

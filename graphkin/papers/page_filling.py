@@ -11,6 +11,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+from graphkin.plane import added_up
+
 __all__ = ["KEPT", "Filled", "Piece", "Placed", "balanced", "fill_pages"]
 
 KEPT = 50.0  # cost of parting what belongs together: only where a page does not hold it
@@ -61,7 +63,7 @@ def balanced(heights: Sequence[float]) -> tuple[int, float]:
     >>> balanced([10.0, 10.0, 10.0])
     (2, 22.0)
     """
-    whole = sum(heights) + ITEMS * (len(heights) - 1)
+    whole = added_up(heights) + ITEMS * (len(heights) - 1)
     best, left = (len(heights), whole), -ITEMS
     for k, height in enumerate(heights, 1):
         left += height + ITEMS
@@ -164,7 +166,7 @@ class _Run:
         own = self.base
         if not self.columns:
             head = self.numbers[:1] if not self.base else ()
-            return own + sum(self.pieces[n].height for n in head)
+            return own + added_up(self.pieces[n].height for n in head)
         gap = self.pieces[self.columns[0]].gap if self.base else 0.0
         return own + gap + balanced([self.pieces[n].height for n in self.columns])[1]
 
@@ -227,7 +229,7 @@ def _set(page: _Page, pieces: Sequence[Piece], height: float, last: bool) -> lis
 
 def _taken(placed: Sequence[Placed], pieces: Sequence[Piece]) -> float:
     """Height of what stands on a page, without what takes the rest."""
-    return sum(
+    return added_up(
         one.gap + (balanced([pieces[n].height for n in (*one.left, *one.right)])[1] if pieces[one.left[0]].half
                    else pieces[one.left[0]].height)
         for one in placed

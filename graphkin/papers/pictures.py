@@ -24,6 +24,7 @@ from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import rich, symbol
 from graphkin.papers.paper import paper_of
+from graphkin.plane import added_up
 from graphkin.words import languages
 
 __all__ = [
@@ -203,7 +204,7 @@ def shared_workspace(sheet: Sheet, layers: Layers, letters: Letters, language: s
     if not all(map(sheet.vectors, POLYGONS)) or bare.height > page.height:
         return None
     wide, high = page.width - left - GAP, page.height - GAP
-    across, up = sum(z.real for z in leasts), sum(z.imag for z in leasts)
+    across, up = added_up(z.real for z in leasts), added_up(z.imag for z in leasts)
     if across <= wide and max(z.imag for z in leasts) <= page.height:
         sizes = [complex(z.real + (wide - across) / 2, page.height) for z in leasts]
         places = [complex(left, 0.0), complex(left + sizes[0].real + GAP, 0.0)]

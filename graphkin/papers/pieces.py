@@ -26,6 +26,7 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.page_filling import KEPT, Filled, Piece, Placed, fill_pages
 from graphkin.papers.paper import BOTTOM, SIDE, TOP
+from graphkin.plane import added_up
 
 __all__ = [
     "COLUMN_GAP", "HALVES_GAP", "MANY_ROWS", "Leaf", "Measure", "OnPage", "Pair", "Spread", "Wrapped", "pages_of",
@@ -259,7 +260,7 @@ def _piece(before: _Item | None, item: _Item, wide: float, sizes: Sizes) -> Piec
     gap = _gap(before.block, block) if before is not None else 0.0
     if isinstance(block, Wrapped):
         narrow = wide - block.picture.drawing.width - FIGURE_GAP
-        words = sum(gap + sizes[one, narrow][1] for gap, one in block.blocks)
+        words = added_up(gap + sizes[one, narrow][1] for gap, one in block.blocks)
         height = max(words, _high(block.picture, sizes))
     elif isinstance(block, Pair):
         height = sizes[block, wide if block.left.roomy else None][1]

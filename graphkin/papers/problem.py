@@ -47,6 +47,7 @@ from graphkin.papers.pictures import (
     shared_workspace,
     workspace,
 )
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import in_markup
@@ -106,7 +107,7 @@ def _polygon_pages(
     asked = {d: _equations(lesson, d, min(room, A4.body.width)) for d in drawn}
     frames = {}
     for d in drawn if both is None else ():
-        high = sum(block.drawing.height + 3.0 for block in asked[d] if isinstance(block, Picture))
+        high = added_up(block.drawing.height + 3.0 for block in asked[d] if isinstance(block, Picture))
         frames[d] = _workspace(lesson, d, layers, paper, high + ROOM_BETWEEN)
     beside = both is None and all(frames.values())
     before: list[Block] = [Together((Heading(names[d]), *asked[d])) for d in drawn if asked[d] and not beside]
@@ -188,7 +189,7 @@ def _forces(lesson: Lesson, layers: Layers, paper: Paper) -> Iterator[Block]:
     if counts and (sheet.scene.vary is None or sheet.scene.vary.level != "hard"):
         blank = blank_sums(counts, lesson.letters, language, min(paper.body.width, A4.body.width))
         asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
-    high = sum(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
+    high = added_up(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
     page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
     beside = page.height - high >= LEAST_FRAME
     if not beside:

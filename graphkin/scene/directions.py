@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphkin.plane import added_up
 from graphkin.scene.printed import Line, Unreadable
 from graphkin.scene.spelling import plain_text
 from graphkin.scene.symbol import Symbol
@@ -252,7 +253,7 @@ def _by_compass_point(text: str, symbol: Symbol) -> Iterator[tuple[Way, str]]:
         match = pattern.search(text)
         if match and not _letters(match, symbol):
             names = [name.lower() for name in (match["one"], match["two"]) if name]
-            z = sum(cmath.rect(1.0, math.radians(_COMPASS[name])) for name in names)
+            z = added_up((cmath.rect(1.0, math.radians(_COMPASS[name])) for name in names), 0j)
             if "near" in pattern.groupindex:  # of sixteen points
                 z = z / abs(z) + cmath.rect(1.0, math.radians(_COMPASS[match["near"].lower()]))
                 yield Way(cmath.phase(z), ROUGH / 2), _without(text, match)

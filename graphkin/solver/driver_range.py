@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.solver.diagnosis import assembly_words, limit_why
 from graphkin.solver.driver_values import UniformGrid
@@ -207,7 +208,7 @@ class DriverRange:
         """The position from which the range is followed; where that is singular, the middle of the range."""
         start = self.motion(np.zeros(1))
         whole = all(np.isfinite(pose.z).all() for pose in start.poses.values())
-        return start if whole else self.motion(np.array([sum(self.ends) / 2]))
+        return start if whole else self.motion(np.array([added_up(self.ends) / 2]))
 
     @cached_property
     def at_ends(self) -> Motion:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 
 __all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "out_of_reach", "pick",
@@ -55,7 +56,7 @@ def pick(
     if len(candidates) == 1:
         return Choice(0, "only")
     for by, given in (("drawn", scene.drawn), ("sketch", scene.sketch)):
-        sums = [sum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
+        sums = [added_up(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
         best = min(range(len(sums)), key=sums.__getitem__)
         rest = min((s, i) for i, s in enumerate(sums) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart

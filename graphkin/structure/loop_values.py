@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.plane import cross, dot
+from graphkin.plane import added_up, cross, dot
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.loops import Arrow, Loop, Unknown, angle_of, loops_of
 from graphkin.structure.model import Structure
@@ -58,7 +58,7 @@ class LoopValue:
 
     @property
     def gap(self) -> complex:
-        return sum((a.vector for a in self.arrows), 0j)
+        return added_up((a.vector for a in self.arrows), 0j)
 
 
 @dataclass(frozen=True)

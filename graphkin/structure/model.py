@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal
 
+from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 
@@ -285,7 +286,8 @@ class Structure:
         own = self.scene.drivers
         moved = [values.get(d.key, d.values[0]) - d.values[0] for d in own]
         return {**values, **{
-            f.key: f.values[0] + sum(r * way for r, way in zip(f.ratios, moved, strict=True)) for f in self.followers
+            f.key: f.values[0] + added_up(r * way for r, way in zip(f.ratios, moved, strict=True))
+            for f in self.followers
         }}  # fmt: skip
 
     @property

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import chain, islice, product
 
+from graphkin.plane import added_up
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import (
     AngleDriver,
@@ -203,7 +204,7 @@ def _follower(
     links: Mapping[str, PlacedLink],
 ) -> Follower:
     kind, name = coordinate
-    rate, second = (sum((r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)), 0.0) for k in (1, 2))
+    rate, second = (added_up(r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)) for k in (1, 2))
     if kind == "travel":
         return SlideFollower(name, scene.starts.get(name, 0.0), rate, second, ratios=ratios, through=through)
     start = scene.starts.get(name)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
+from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Dyad, DyadKind, Pair, Slide, Structure, Turn
 
@@ -112,7 +113,7 @@ def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) ->
     """
     lengths = {"crank": crank, "coupler": coupler, "rocker": rocker, "frame": frame}
     shortest, longest = min(lengths.values()), max(lengths.values())
-    excess = 2 * (shortest + longest) - sum(lengths.values())
+    excess = 2 * (shortest + longest) - added_up(lengths.values())
     if abs(excess) <= EQUAL * longest:
         short = [k for k, v in lengths.items() if v <= shortest + EQUAL * longest]
         turning = {"crank", "rocker"} if len(short) > 1 or short == ["frame"] else set(short) & {"crank", "rocker"}

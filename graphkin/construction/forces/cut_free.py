@@ -22,7 +22,7 @@ from graphkin.construction.forces.force_sheet import (
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.joints import JointNames, opposite
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_lines, dot, unit
+from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide
 
@@ -88,7 +88,7 @@ class CutFree:
                     self.push(Acting(symbol, carrier, -self.pins[point, other], at))
                     self.pins[point, carrier] -= self.pins[point, other]
             else:
-                whole = -sum(self.pins[point, other] for other in others)
+                whole = -added_up((self.pins[point, other] for other in others), 0j)
                 self.push(Acting(Symbol("F", link=point, other=carrier), carrier, whole, at))
                 self.pins[point, carrier] += whole
 
@@ -156,7 +156,7 @@ class CutFree:
         if abs(arm.mm) <= PARALLEL * self.size:
             raise dead_point(links)
         terms = self.terms([*self.forces_on(links), *(m for m in more if m.force)], self.moments_on(links), about)
-        value = -sum(t.moment for t in terms) / (arm.mm / self.images.mm)
+        value = -added_up(t.moment for t in terms) / (arm.mm / self.images.mm)
         return MomentEquation(tuple(links), letter, tuple(terms), unknown.symbol, part, arm, value, unknown.force)
 
     def couple(
@@ -166,9 +166,9 @@ class CutFree:
         """The couple that is left of the moments of all that acts on some links."""
         forces = [*self.forces_on(links), *(m for m in more if m.force)]
         terms = self.terms(forces, [*self.moments_on(links), *turning], about)
-        value = -sum(t.moment for t in terms)
+        value = -added_up(t.moment for t in terms)
         # what is left of terms that cancel is rounding
-        if abs(value) <= 1e-13 * sum(abs(t.moment) for t in terms):
+        if abs(value) <= 1e-13 * added_up(abs(t.moment) for t in terms):
             value = 0.0
         return MomentEquation(tuple(links), letter, tuple(terms), symbol, "", None, value)
 

@@ -38,7 +38,7 @@ from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.forces.system import of_larger_group
 from graphkin.construction.sheet import Extent, Pose, Sheet, fitting_scale
 from graphkin.construction.touching import Touch, Touching
-from graphkin.plane import cross, unit
+from graphkin.plane import added_up, cross, unit
 from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, Element, Structure, analyse
@@ -127,8 +127,8 @@ def _joints(cut: CutFree, vectors: dict[Symbol, complex], moments: dict[Symbol, 
     for point, first, later in names.turning():
         force = cut.pins[point, later]
         # the block of a pin in a slot belongs to the link of the pin
-        force += sum(cut.pins[point, key] for key, (of, _) in names.blocks.items()
-                     if of == later and point in names.structure.links[key].points)  # fmt: skip
+        force += added_up((cut.pins[point, key] for key, (of, _) in names.blocks.items()
+                           if of == later and point in names.structure.links[key].points), 0j)  # fmt: skip
         vectors[names.between(first, later, point)] = force / cut.per_mm
     for slide in names.structure.slides:
         force, couple = cut.slides[slide.key]
@@ -227,7 +227,7 @@ def _lever(sheet: Sheet, drawn: Sheet, state: ForceState, balance: BalanceForm, 
     unknown = _unknown(images, balance, hand)
     if abs(unknown.moment) <= 1e-12 * max((abs(z) for z in ends.values()), default=0.0):
         return None
-    value = -sum(row.moment for row in rows) / unknown.moment
+    value = -added_up(row.moment for row in rows) / unknown.moment
     vector = 0j if balance.is_moment else value * unknown.force
     return Lever(drawn.scales.velocity, drawn is not sheet, ends, tuple(rows), balance.symbol, unknown, value, vector)
 

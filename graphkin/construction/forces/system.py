@@ -12,7 +12,7 @@ from graphkin.construction.forces.cut_free import CutFree, HeadToTail, dead_poin
 from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLine, ForceTerm, ForceVector
 from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.joints import BalanceForm, opposite
-from graphkin.plane import cross, unit
+from graphkin.plane import added_up, cross, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Slide
 
@@ -96,7 +96,7 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[_Unknown]) 
         for force in cut.forces_on((link,)):
             arm = cross(force.at - about[link], force.force) / mm / size
             right[i : i + 3] -= [force.force.real, force.force.imag, arm]
-        right[i + 2] -= sum(m.moment for m in cut.moments_on((link,))) / size
+        right[i + 2] -= added_up(m.moment for m in cut.moments_on((link,))) / size
     if left.shape[0] != left.shape[1] or not np.isfinite(left).all() or np.linalg.cond(left) > 1.0 / SINGULAR:
         raise dead_point(members)
     found = np.linalg.solve(left, right)

@@ -20,7 +20,7 @@ from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
 from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
-from graphkin.plane import cross_arcs
+from graphkin.plane import added_up, cross_arcs
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import Tools
@@ -277,7 +277,7 @@ def _by_pencil(mp: MPContext) -> list[ErrorLaw]:
 
 
 def _rms(values: list[float]) -> float:
-    return math.sqrt(sum(v * v for v in values) / len(values))
+    return math.sqrt(added_up(v * v for v in values) / len(values))
 
 
 POINTS_ONLY = Tools(line_width=0.2, ruler=0.0, compass=0.0, set_square=0.0, protractor=0.0)
