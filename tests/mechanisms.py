@@ -12,7 +12,10 @@ import random
 from dataclasses import dataclass, field
 from typing import Any
 
-__all__ = ["KINDS", "floating_cylinder", "random_scene"]
+import graphkin
+from graphkin.errors import GraphkinError
+
+__all__ = ["DRIVES", "KINDS", "floating_cylinder", "random_scene", "redriven"]
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP", "pin", "slotted")
 DRIVES = ("crank", "resting", "slider", "cylinder", "slot")
@@ -329,3 +332,38 @@ def floating_cylinder(seed: int) -> dict[str, Any]:
     driver = {"slide": key, "travel": travel, "velocity": r.choice([0, 50, -30]), "acceleration": r.choice([0, 20])}
     scene = {"title": f"cylinder {seed}", "frame": frame, "links": links, "driver": driver, "sketch": sketch}
     return scene | ({"pins": pins} if pins else {})
+
+
+def redriven(seed: int) -> dict[str, Any]:
+    """A random mechanism at its own position, driven elsewhere: between any two links, joined or not, or in any sliding
+    pair or slot."""
+    rng = random.Random(f"redriven {seed}")
+    while True:
+        kinds = tuple(rng.choice(KINDS) for _ in range(rng.randint(1, 3)))
+        try:
+            scene = random_scene(rng.randrange(10**9), kinds, rng.choice([d for d in DRIVES if d != "resting"]))
+            position = graphkin.solve(scene).data["positions"][0]
+        except (ZeroDivisionError, ValueError, GraphkinError):
+            continue
+        break
+    scene["title"] = f"redriven {seed}"
+    scene["sketch"] = {}
+    for key, point in position["points"].items():
+        name, _, link = key.partition("@")
+        own = scene["links"].get(link, {})
+        if name not in scene["frame"]["points"] and (name in own.get("points", ()) or name in own.get("at", {})):
+            scene["sketch"][name] = point["position"]
+    if rng.random() < 0.4 and position["slides"]:
+        key = rng.choice(list(position["slides"]))
+        rates = {"velocity": rng.uniform(-80, 80), "acceleration": rng.uniform(-100, 100)}
+        scene["driver"] = {"slide": key, "travel": position["slides"][key]["travel"], **rates}
+        return scene
+    angles = {"0": 0.0} | {name: link["angle"] for name, link in position["links"].items()}
+    link, other = rng.sample(list(angles), 2)
+    if link == "0":
+        link, other = other, link
+    angle = math.degrees(angles[link] - angles[other])
+    scene["driver"] = {"link": link, "angle": angle, "omega": rng.uniform(-5, 5), "alpha": rng.uniform(-9, 9)}
+    if other != "0":
+        scene["driver"]["relative_to"] = other
+    return scene

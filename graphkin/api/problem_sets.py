@@ -244,11 +244,12 @@ def _jobs(
 
 def _reach(scene: Mechanism) -> tuple[float, float] | None:
     """Between which angles (degrees) a first driver goes that cannot turn fully; None for any other."""
-    from graphkin.solver import driver_range
+    from graphkin.solver import driver_range, structure_of
 
-    if not isinstance(scene.drivers[0], AngleDriver):
+    structure = structure_of(scene)
+    if not isinstance(structure.scene.drivers[0], AngleDriver):
         return None
-    found = driver_range(scene)
+    found = driver_range(structure)
     low, high = sorted(np.degrees(found.value(np.array(found.ends))).tolist())
     return None if found.full or high - low > MOST_OF_A_TURN else (low, high)
 

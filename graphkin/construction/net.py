@@ -129,7 +129,7 @@ class Net:
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
         self.natural |= {PointRef(c.name, side) for c in joined.contacts for side in c.links}
-        between = [*((p.a, p.b) for p in pairs), *(c.links for c in joined.contacts)]
+        between = [*((p.a, p.b) for p in (*pairs, *welds)), *(c.links for c in joined.contacts)]
         around = list(dict.fromkeys([*self.inside, *(n for both in between for n in both)]))
         on = _near(links, joined, around, letters) if joined.near else {}
         self.owners: dict[PointRef, list[str]] = {}

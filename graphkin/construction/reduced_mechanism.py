@@ -170,9 +170,10 @@ def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iter
     touching = {n for c in scene.contacts for n in c.links}
     touching |= {n for c in scene.contacts if c.rolling for n in (c.block, c.carrier)}
     touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
+    touching |= {n for pin in scene.pins for n in (pin.of, pin.on)}
     for name in cluster.members:
         if name in touching:
-            continue  # what stands for its contacts would hang on nothing
+            continue  # what stands for its contacts, and the block of its pin or slot, would hang on nothing
         hinges = [p for p, names in structure.hinges.items() if name in names]
         slides = [s for s in structure.slides if name in (s.a, s.b)]
         # what later groups hang on it hangs on it still when it is put back

@@ -149,7 +149,7 @@ class PreparedMechanisms:
             given["cos", 0], given["sin", 0] = np.ravel(cosine[some]), np.ravel(sine[some])
             rows = np.empty((len(code.asked), len(which[some]) * n))
             code.arrays(same, [given[name] for name in code.inputs], list(rows))
-            out[:, some] = rows.reshape(len(rows), -1, n)
+            out[:, some] = rows.reshape(len(rows), len(which[some]), n)
         return out
 
     @cached_property

@@ -76,8 +76,11 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 
 def _diagnosis(scene: Mechanism) -> Problem | None:
     tried: list[tuple[str, Fit, bool]] = []
+    pins = {pin.key: pin.of for pin in scene.pins}
+    driven = {n for d in scene.drivers for n in (*d.key.split("/"), pins.get(d.key))}
+    driven |= {d.relative_to for d in scene.drivers if isinstance(d, AngleDriver)}
     for link in reversed(scene.links):
-        if link.redundant or any(link.name in d.key.split("/") for d in scene.drivers):
+        if link.redundant or link.name in driven:
             continue
         without = replace(
             scene, links=tuple(replace(x, redundant=True) if x.name == link.name else x for x in scene.links), drawn={}

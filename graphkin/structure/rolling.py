@@ -173,12 +173,12 @@ def followers_of(
             if isinstance(driver, AngleDriver):
                 given = _angles(frame, driver.link, driver.relative_to)
             system.add({**given, k: Fraction(-1)})
-    for relation in relations:
-        whole.add(relation.terms)
+    # what the drivers and others before it settle holds the links a second time: it stays, and the count finds it
+    twice = [relation for relation in relations if not whole.add(relation.terms)]
     candidates: list[Coordinate] = [("angle", name) for name in links if name != frame]
     candidates += [("travel", s.key) for s in slides]
     followers: list[Follower] = []
-    settled = [r for r in relations if all(whole.ratios(c, count) is not None for c in r.terms)]
+    settled = [r for r in relations if r not in twice and all(whole.ratios(c, count) is not None for c in r.terms)]
     through = tuple(dict.fromkeys(chain.from_iterable(r.links for r in settled)))
     for coordinate in candidates:
         ratios = whole.ratios(coordinate, count)
@@ -187,7 +187,7 @@ def followers_of(
         followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links))
         follows: dict[Unknown, Fraction] = {k: -f for k, f in enumerate(ratios)}
         base.add({coordinate: Fraction(1), **follows})
-    left = tuple(r for r in relations if r not in settled and base.add(r.terms))
+    left = tuple(r for r in relations if r in twice or (r not in settled and base.add(r.terms)))
     return tuple(followers), left
 
 

@@ -176,3 +176,13 @@ def test_a_sweep_over_designs_holds_what_they_give():
     every = {"links.2.length": np.repeat(designs["links.2.length"], 2), "driver.rpm": designs["driver.rpm"] * 3}
     over = graphkin.prepare(SHAPER, "omega_4").over(every).sweep(5)
     assert over["omega_4"].ravel() == pytest.approx(table["omega_4 (rad/s)"], rel=1e-12)
+
+
+def test_a_crank_alone_has_designs():
+    crank = {
+        "frame": {"points": {"A": [0, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 50}},
+        "driver": {"link": "1", "angle": 10, "omega": 2},
+    }
+    found = graphkin.sweep(crank, positions=4, designs={"links.1.length": [50, 60]}, find=["v_B"])
+    assert [[100.0] * 4, [120.0] * 4] == pytest.approx(np.abs(found["v_B"]))

@@ -9,6 +9,7 @@ import pytest
 import graphkin
 from tests import EVERYTHING
 from tests.bench.attack import attack, mechanism
+from tests.mechanisms import redriven
 
 MANY = 10 if EVERYTHING else 1
 DEAD = ("refused: links", "refused: driver")
@@ -46,6 +47,24 @@ def test_a_random_mechanism_is_answered_rightly_or_refused_by_name(command: str,
 )
 def test_what_gave_way_once_holds(command: str, seed: int) -> None:
     assert "ok" == attack(mechanism(seed), command)
+
+
+@pytest.mark.parametrize(
+    "seed", [4, 33, 82, 131]  # blocks of pins that lost the link of their pin or of their slot, hinges of three links
+)
+def test_a_driver_where_pins_and_slots_are_is_answered(seed: int) -> None:
+    assert ["ok"] * 2 == [attack(redriven(seed), command) for command in ("check", "centres")]
+
+
+@pytest.mark.parametrize("seed", seeds(200, 20))
+def test_a_driver_between_any_two_links_is_answered_rightly_or_refused_by_name(seed: int) -> None:
+    came = attack(redriven(seed), "check")
+    assert came == "ok" or came.startswith((*DEAD, "refused: mobility: "))
+
+
+@pytest.mark.parametrize("seed", [64, 135])
+def test_what_is_driven_where_it_is_held_already_is_refused_by_name(seed: int) -> None:
+    assert attack(redriven(seed), "check").startswith("refused: mobility: links held too much: ")
 
 
 def test_a_driven_slide_that_carries_nothing_is_swept() -> None:

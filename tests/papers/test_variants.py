@@ -20,7 +20,7 @@ import graphkin
 from graphkin.api.problem_sets import problem_set
 from graphkin.construction import draft
 from graphkin.construction.strokes import Ray
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.papers import problem_set as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
 from graphkin.papers.variants import Answer, _within_reach, asked_of
@@ -230,6 +230,12 @@ def test_a_cell_may_be_given_by_other_columns(text, value):
 def test_a_cell_can_do_nothing_but_arithmetic(text):
     with pytest.raises(ValueError):
         value_of(text, {"O4B": 1.0})
+
+
+def test_variants_of_a_scene_without_a_driver_are_refused_as_the_scene_is():
+    scene = {key: table for key, table in graphkin.read(FOUR_BAR).to_dict().items() if key not in ("driver", "find")}
+    with pytest.raises(Unsolvable, match="no driver given"):
+        problem_set(scene, variants=2)
 
 
 def test_variants_and_rows_together_are_refused(tmp_path):

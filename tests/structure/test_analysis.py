@@ -161,6 +161,42 @@ def test_a_part_held_too_much_is_named_with_the_part_that_is_free() -> None:
         structure(FOUR_BAR.replace("[driver]", more + "[driver]"))
 
 
+TWO_GEARS = """
+[frame]
+points = { A = [0, 0] }
+[links.1]
+points = ["A", "B"]
+length = 30
+[links.2]
+points = ["B"]
+[links.3]
+points = ["A"]
+[links.4]
+points = ["A"]
+[gears.a]
+between = ["0", "2"]
+teeth = [40, 30]
+carrier = "1"
+[gears.b]
+between = ["2", "3"]
+teeth = [14, 29]
+carrier = "1"
+[[driver]]
+link = "2"
+angle = 36
+omega = 3
+[[driver]]
+link = "3"
+angle = 77
+omega = 1
+"""
+
+
+def test_wheels_driven_twice_are_held_too_much_where_another_link_is_free() -> None:
+    with pytest.raises(Unsolvable, match="links held too much: 1, 2, 3; links left free: 4"):
+        structure(TWO_GEARS)
+
+
 def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
     with pytest.raises(Unsolvable, match="link 3, marked redundant, is not counted"):
         structure(FOUR_BAR.replace("[links.3]\n", "[links.3]\nredundant = true\n"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.forces.cut_free import CutFree, HeadToTail
@@ -19,20 +19,32 @@ from graphkin.construction.forces.group_figure import (
 )
 from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.plane import dot
-from graphkin.structure import Body, Driven, Turn
+from graphkin.structure import Body, Driven, Slide, Turn
 
 __all__ = ["at_driver", "between_welded"]
 
 
 def between_welded(
-    cut: CutFree, side: CutBody, found: tuple[Acting, ...], figure: GroupFigure, balances: Mapping[str, BalanceForm]
-) -> None:
+    cut: CutFree, side: CutBody, found: tuple[Acting, ...], slides: Sequence[Slide], figure: GroupFigure,
+    balances: Mapping[str, BalanceForm],
+) -> None:  # fmt: skip
     """The forces between links of a body that drivers hold together, from the outermost link on, with what balances
-    there."""
+    there.
+
+    Parameters
+    ----------
+    found : the forces of the dyad's pairs on this body
+    slides : the sliding pairs of the dyad, whose couples act on this body too
+    """
     extra: dict[str, list[Acting]] = {}
     turning: dict[str, list[KnownMoment]] = {}
     for one in found:
         extra.setdefault(one.link, []).append(one)
+    for slide in slides:
+        symbol, couple = cut.names.of_slide(slide, "M"), cut.slides[slide.key][1]
+        for moment in (KnownMoment(symbol, slide.a, couple), KnownMoment(opposite(symbol), slide.b, -couple)):
+            if couple and moment.link in side.links:
+                turning.setdefault(moment.link, []).append(moment)
     for weld in reversed(side.body.welds):
         leaf, other = weld.b, weld.a
         balance = balances[weld.driver.key]

@@ -43,9 +43,10 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
     one, two = CutBody(cut, dyad.first, dyad.outer_first), CutBody(cut, dyad.second, dyad.outer_second)
     figure = GroupFigure()
     outer, inner = _KINDS[dyad.kind](cut, dyad, one, two, figure)
+    slides = [pair for pair in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(pair, Slide)]
     for side in (one, two):
         if side.body.welds:
-            between_welded(cut, side, inner[side.name], figure, balances)
+            between_welded(cut, side, inner[side.name], slides, figure, balances)
     cut.done |= set(links_of(dyad))
     return figure.group(dyad.links, dyad.kind, outer, False)
 

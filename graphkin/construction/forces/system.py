@@ -9,7 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.construction.forces.cut_free import CutFree, HeadToTail, dead_point
-from graphkin.construction.forces.force_sheet import Acting, ForceGroup, ForceLine, ForceTerm, ForceVector
+from graphkin.construction.forces.force_sheet import (
+    Acting,
+    ForceGroup,
+    ForceLine,
+    ForceTerm,
+    ForceVector,
+    KnownMoment,
+)
 from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.plane import added_up, cross, unit
@@ -129,6 +136,9 @@ def _carried_over(
             couples[one.slide.key] = value
         elif one.along == 0:
             cut.balances[one.symbol] = value
+            for link, sign in ((one.on, 1.0), (one.off, -1.0)):
+                if link not in (*members, frame):  # what drives a link of the group from one still to come loads that
+                    cut.turn(KnownMoment(one.symbol, link, sign * value, sign < 0))
         else:
             key = one.symbol, one.on, one.off
             forces[key] = forces.get(key, 0j) + value * one.along
@@ -153,6 +163,9 @@ def _carried_over(
                 lines.append(ForceLine(one.symbol, at, unit(force), shift))
         else:
             cut.balances[one.symbol] = force
+            for link, sign in ((one.on, 1.0), (one.off, -1.0)):
+                if link not in (*members, frame):
+                    cut.push(Acting(one.symbol, link, sign * force, one.at, sign < 0))
         # forces from outside the group, whose sum closes
         if one.off not in members:
             guide = None if one.slide is None else across(one.slide)
