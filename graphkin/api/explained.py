@@ -241,7 +241,8 @@ def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
 def _mobility(scene: Mechanism) -> Iterator[Sentence]:
     count = mobility_of(scene)
     numbers = count.links, count.lower, count.higher, count.value, len(scene.drivers)
-    key = "explained count" if count.value == len(scene.drivers) else "explained miscount"
+    left = count.value - len(scene.drivers)
+    key = "explained count" if left == 0 else "explained undetermined" if left > 0 else "explained miscount"
     yield "explained mobility", Phrase(key, numbers)
 
 

@@ -144,7 +144,7 @@ def centres_figure(
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
-        back = joined((replacing_links(MechanismOnPaper(sheet, letters)), back))
+        back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
     width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN

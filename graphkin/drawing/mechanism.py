@@ -48,11 +48,13 @@ def links(here: MechanismOnPaper) -> Piece:
 
 
 def links_alone(
-    here: MechanismOnPaper, names: Collection[str], rank: int
+    here: MechanismOnPaper, names: Collection[str], rank: int, replaced: bool = False
 ) -> tuple[list[Primitive], list[Label]]:
-    """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are the caller's."""
-    parts: list[Primitive] = [_cam_alone(here, one) for one in here.cams if one.cam.link in names]
-    parts += [part for one in here.cams if one.cam.follower in names for part in _follower_end(here, one)]
+    """Areas and bars of some links cut free, with their numbers as labels of a ``rank``; pairs are the caller's, and
+    with ``replaced`` all that slides on another link's outline."""
+    cams = () if replaced else here.cams
+    parts: list[Primitive] = [_cam_alone(here, one) for one in cams if one.cam.link in names]
+    parts += [part for one in cams if one.cam.follower in names for part in _follower_end(here, one)]
     labels: list[Label] = []
     for shape in here.shapes:
         if shape.link not in names:
@@ -62,7 +64,7 @@ def links_alone(
         if shape.corners:
             parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
         parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
-        parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
+        parts += [*outlines_of(here, shape.link, replaced), *wheels_of(here, shape.link)]
         text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
         if shape.longest:
             labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=rank))

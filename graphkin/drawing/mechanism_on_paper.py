@@ -25,7 +25,10 @@ from graphkin.scene.model import CircularSlot, Mechanism, SlideDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
 
-__all__ = ["GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider", "page", "sliders"]
+__all__ = [
+    "GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider", "page",
+    "replaced_pairs", "sliders",
+]  # fmt: skip
 
 # mm: how far a bar of no fixed length goes on beyond a block, and a slot beyond its pin
 PAST_BLOCK, PAST_PIN = 9.0, 8.0

@@ -15,14 +15,17 @@ from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.labels import Label
 from graphkin.drawing.mechanism import bare_mechanism, links_alone
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
 from graphkin.drawing.page_text import titled
 from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.symbols import JOINT_RADIUS
 from graphkin.drawing.text import plain, rich, symbol, wrapped
 from graphkin.drawing.touching import replacing_links
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replaced_pairs
+from graphkin.plane import dot
+from graphkin.scene.cams import LawCam
+from graphkin.scene.model import AngleDriver, Follower, SlideDriver
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["structure_figure"]
@@ -90,21 +93,22 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
         if count > 2 and point in here.places:
             text = Text(0j, rich(f"{count} − 1", 2.4, bold=True), "start", strokes.GREY, f"badge-{point}", ("label",))
             labels.append(Label(text, page(here.places[point]), rank=1))
-    for pin in sheet.scene.pins:
-        if pin.point in here.places:
-            name = f"badge-{pin.point}-{pin.on}"
-            text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, name, ("label",))
-            labels.append(Label(text, page(here.places[pin.point]), rank=1))
-    for contact in sheet.scene.contacts:
-        if contact.name in here.places and (contact.carrier or not contact.rolling):
-            text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{contact.name}", ("label",))
-            labels.append(Label(text, page(here.places[contact.name]), rank=1))
+    pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in (sheet.scene.instead_of or sheet.scene).pins]
+    pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
+    higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
+    for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
+        text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{name}", ("label",))
+        labels.append(Label(text, page(place), rank=1))
     for cam in here.cams:
         if cam.roller:
             text = Text(0j, plain(term("own turning", spoken), 2.4), "start", strokes.GREY,
                         f"badge-roller-{cam.cam.follower}", ("label",))  # fmt: skip
             labels.append(Label(text, page(cam.point), rank=1))
-    whole = joined((replacing_links(here), piece, Piece(labels=tuple(labels))))
+    dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
+    stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
+                 if b.slide.key in replaced_pairs(small)}  # fmt: skip
+    piece = replace(piece, labels=tuple(label for label in piece.labels if label.text.id not in stood_for))
+    whole = joined((piece, dashed) if here.cams else (dashed, piece))  # a profile covers what lies under it
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
 
@@ -129,7 +133,6 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
     ]
     compound = {p: len([n for n in names if n in structure.scene.by_name]) for p, names in structure.hinges.items()}
     idle = [link.name for link in structure.scene.links if link.redundant]
-    order = max((_order(g) for g in structure.groups), default=1)
     for each in languages(spoken):
         lines.append((say(Phrase("structure counts", (m.links, m.lower, m.higher)), each), False))
         lines.append((say(Phrase("structure definite", (m.value, drivers)), each), False))
@@ -142,11 +145,19 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
             lines.append((say(Phrase("structure cam", (cam.link, cam.follower)), each), False))
             if cam.roller:
                 lines.append((say(Phrase("structure roller", (cam.follower,)), each), False))
-        lines += [(say(phrase, each), False) for phrase in replaced_pairs(structure)]
+        lines += [(say(phrase, each), False) for phrase in replacement_told(structure)]
         if idle:
             lines.append((say(Phrase("structure redundant", (", ".join(idle),)), each), False))
-        lines.append((say(Phrase("structure class", (class_of(order),)), each), True))
+        order = _class(structure)
+        if order is not None:
+            lines.append((say(Phrase("structure class", (class_of(order),)), each), True))
     return lines
+
+
+def _class(structure: Structure) -> int | None:
+    """The class of the mechanism: the highest of its groups; None where nothing but wheels follows the driver."""
+    led = any(isinstance(e, Driven) and not _drives(e) for e in structure.elements)
+    return max((_order(g) for g in structure.groups), default=None if led else 1)
 
 
 def _order(group: Dyad | Cluster) -> int:
@@ -158,11 +169,14 @@ def _taken_apart(
     words: list[Primitive],
 ) -> float:  # fmt: skip
     """The groups in the reverse order of solution, the drivers last, each in a panel of its own."""
-    order = max((_order(g) for g in structure.groups), default=1)
     names = ", ".join(d.key for d in structure.scene.drivers)
     for each in languages(spoken):
         y += LINE
-        text = say(Phrase("structure driven by", (names, class_of(order))), each)
+        order = _class(structure) if structure.groups else None
+        told = Phrase("structure ungrouped", (names,)) if order is None else Phrase(
+            "structure driven by", (names, class_of(order))
+        )
+        text = say(told, each)
         words.append(Text(complex(MARGIN, y), rich(text, SIZE, bold=True)))
     groups = [*reversed(structure.groups)]
     driven = [e for e in structure.elements if isinstance(e, Driven)]
@@ -177,7 +191,7 @@ def _taken_apart(
         tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
         pieces.append(_group(sheet, elements, letters, panel, tag))
         line = panel.bottom
-        for text in _about(elements, spoken):
+        for text in _about(sheet, elements, spoken):
             for runs in wrapped(text, 2.6, PART[0] - 2.0):
                 line += 4.0
                 words.append(Text(complex(x, line), runs))
@@ -186,20 +200,44 @@ def _taken_apart(
     return bottom + 4.0
 
 
-def _about(elements: Sequence[Element], spoken: str) -> list[str]:
-    said = []
-    for each in languages(spoken):
-        for element in elements:
-            if isinstance(element, Driven):
-                said.append(say(Phrase("structure driver", (element.link,)), each))
-                continue
-            inner, outer = _joints(element)
-            args = (
-                ", ".join(element.links), "" if isinstance(element, Cluster) else f" {element.kind}",
-                class_of(_order(element)), ", ".join(map(_named, inner)), ", ".join(map(_named, outer)),
-            )  # fmt: skip
-            said.append(say(Phrase("structure group", args), each))
-    return said
+def _about(sheet: Sheet, elements: Sequence[Element], language: str) -> list[str]:
+    """What each element is, without blocks that only stand for a pair."""
+    return [_told(sheet, element, each) for each in languages(language) for element in elements
+            if not isinstance(element, Driven) or element.link in sheet.scene.by_name]  # fmt: skip
+
+
+def _told(sheet: Sheet, element: Element, language: str) -> str:
+    """A driver with what it moves against, a link that follows from the drivers, or a group with its joints."""
+    if not isinstance(element, Driven):
+        inner, outer = _joints(element)
+        links = [
+            name if name not in _blocks(sheet) else say(Phrase("structure block", (_blocks(sheet)[name],)), language)
+            for name in (*element.links, *(n for n in links_of(element) if n not in element.links))
+        ]
+        return say(Phrase("structure group", (
+            ", ".join(links), "" if isinstance(element, Cluster) else f" {element.kind}", class_of(_order(element)),
+            ", ".join(map(_named, inner)), ", ".join(map(_named, outer)),
+        )), language)  # fmt: skip
+    driver = element.driver
+    if isinstance(driver, LawCam):
+        return say(Phrase("structure follower", (element.link, driver.link)), language)
+    if not _drives(element):
+        return say(Phrase("structure led", (element.link,)), language)
+    sides = (driver.link, driver.relative_to) if isinstance(driver, AngleDriver) else driver.key.split("/")
+    other = next(name for name in reversed(sides) if name != element.link)
+    if other == sheet.scene.frame.name:
+        return say(Phrase("structure driver", (element.link,)), language)
+    return say(Phrase("structure driver on link", (element.link, other)), language)
+
+
+def _drives(element: Driven) -> bool:
+    """Whether a driver of the scene moves the link, neither wheels that roll nor a cam."""
+    return isinstance(element.driver, AngleDriver | SlideDriver) and not isinstance(element.driver, Follower)
+
+
+def _blocks(sheet: Sheet) -> dict[str, str]:
+    """The pins in slots, by the names of the blocks that replace them."""
+    return {slide.a: slide.pin for slide in sheet.structure.slides if slide.slot and slide.pin}
 
 
 def _joints(element: Dyad | Cluster) -> tuple[list[Pair], list[Pair]]:
@@ -217,7 +255,28 @@ def _named(pair: Pair) -> str:
 
 
 def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: Box, tag: str) -> Piece:
-    """The links of a group alone, where they lie, inner joints filled and outer ones open."""
+    """The links of a group alone, where they lie, inner joints filled and outer ones open; what replaces a higher pair
+    is dashed.  As large as the panel allows, and not larger than in the diagram of the sheet."""
+    here = MechanismOnPaper(sheet, letters)
+    frame = Piece({"construction": (Group((Polygon(panel.corners, "", strokes.DIMENSION),), classes=("panel",)),)})
+    times, (parts, labels) = 1.0, _drawn_apart(here, elements)
+    for _ in range(FITS):  # symbols keep their size
+        drawn = ink_box(parts)
+        if drawn is None:
+            return frame
+        over = max(drawn.width / (panel.width - 16.0), drawn.height / (panel.height - 14.0))
+        if over <= 1.0:
+            break
+        times /= over
+        parts, labels = _drawn_apart(MechanismOnPaper(_scaled(sheet, times), letters), elements)
+    piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
+    ink = ink_box(piece.drawn) or panel
+    return joined((frame, with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))))
+
+
+def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:
+    """Links of elements with their joints, and the names of both."""
+    structure = here.sheet.structure
     links = {n for e in elements for n in links_of(e)}
     inner: list[Pair] = []
     outer: list[Pair] = []
@@ -225,40 +284,46 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: B
         more = ([], [element.pair]) if isinstance(element, Driven) else _joints(element)
         inner += more[0]
         outer += more[1]
-    here = MechanismOnPaper(sheet, letters)
-    frame = Group((Polygon(panel.corners, "", strokes.DIMENSION),), classes=("panel",))
-    spots = [z for shape in here.shapes if shape.link in links for part in shape.segments for z in part]
-    spots += [b.at for b in here.sliders if b.slide.a in links]
-    spots += [here.places[p] for n in links if n in sheet.structure.links
-              for p in sheet.structure.links[n].points if p in here.places]  # fmt: skip
-    if not spots:
-        return Piece({"construction": (frame,)})
-    box = Box.around(map(page, spots))
-    times = min((PART[0] - 22.0) / max(box.width, TOUCH), (PART[1] - 20.0) / max(box.height, TOUCH), 1.0)
-    here = MechanismOnPaper(_scaled(sheet, times), letters)
-    parts, labels = links_alone(here, links, 1)
+    parts, labels = links_alone(here, links, 1, replaced=True)
     for name in links:
-        tips = [here.places[p] for p in sheet.structure.links[name].bar if p in here.places]
-        if name not in here.scene.by_name and len(tips) == 2:  # the bar that replaces a contact
-            parts.append(Line(page(tips[0]), page(tips[1]), strokes.REDUNDANT.coloured(here.colour(name))))
-    for b in here.sliders:
-        if b.slide.key in {p.key for p in (*inner, *outer) if isinstance(p, Slide)}:
-            parts += symbols.block(page(b.at), phase(b.along), here.colour(b.slide.a))
-            if b.slide.b not in links:  # the guide belongs to another link
-                ends = page(b.at - 8.0 * b.along), page(b.at + 8.0 * b.along)
-                parts.append(Line(*ends, strokes.DIRECTION))
-            if b.slide.a in links and not any(s.link == b.slide.a and s.longest for s in here.shapes):
-                text = Text(0j, plain(b.slide.a.split("/")[-1], bold=True), "start", here.colour(b.slide.a),
-                            classes=("label",))  # fmt: skip
-                labels.append(Label(text, page(b.at), rank=1))
-    for pairs, fill in ((outer, strokes.WHITE), (inner, strokes.BLACK)):
-        for pair in pairs:
-            if isinstance(pair, Turn) and pair.point in here.places:
-                at = page(here.places[pair.point])
-                parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
-                letter = Text(0j, symbol(letters.point(pair.point), 3.0), "start", classes=("label",))
-                labels.append(Label(letter, at))
-    piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
-    ink = ink_box(piece.drawn) or panel
-    placed = with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))
-    return joined((Piece({"construction": (frame,)}), placed))
+        dashed = strokes.REDUNDANT.coloured(here.colour(name))
+        held = structure.links[name]
+        shape = next((shape for shape in here.shapes if shape.link == name), None)
+        ends = [here.places[p] for p in (held.bar if shape is None else held.points) if p in here.places]
+        if shape is not None:
+            parts += [Line(page(a), page(b), strokes.LINK.coloured(here.colour(name))) for a, b in shape.slots]
+            parts += [Line(page(ends[0]), page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
+        elif len(ends) > 1:  # the bar that replaces a contact
+            parts.append(Line(page(ends[0]), page(ends[1]), dashed))
+    numbered = {shape.link for shape in here.shapes if shape.longest}
+    known = {b.slide.key: b for b in here.sliders}
+    rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
+    for slide in (pair for pair in (*inner, *outer) if isinstance(pair, Slide) and pair.key not in rolling):
+        stands = slide.key not in known or (slide.slot and slide.key in replaced_pairs(here.sheet))
+        at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
+        along = here.sheet.poses[slide.b].axis * slide.guide.direction
+        colour = here.colour(slide.a)
+        parts += symbols.block(page(at), phase(along), colour)
+        ends = [at - 8.0 * along, at + 8.0 * along]
+        if slide.b not in links:  # the guide belongs to another link
+            parts.append(Line(page(ends[0]), page(ends[1]), strokes.DIRECTION))
+        elif stands:  # along a face, from its link to beyond the block
+            origin = here.sheet.poses[slide.b].origin
+            foot = at + dot(origin - at, along) * along
+            far = max(ends, key=lambda z: abs(z - foot))
+            dashed = strokes.REDUNDANT.coloured(here.colour(slide.b))
+            parts += [Line(page(a), page(b), dashed) for a, b in ((origin, foot), (foot, far)) if abs(b - a) > TOUCH]
+        if slide.a in links and slide.a in here.scene.by_name and slide.a not in numbered:
+            numbered.add(slide.a)
+            text = Text(0j, plain(slide.a, bold=True), "start", colour, classes=("label",))
+            labels.append(Label(text, page(at), rank=1))
+    pins = {pair.point: strokes.WHITE for pair in outer if isinstance(pair, Turn)}
+    if any(isinstance(e, Driven) for e in elements):  # where groups hang on it
+        pins |= {p: strokes.WHITE for n in links for p in structure.links[n].points if p in structure.hinges}
+    pins |= {pair.point: strokes.BLACK for pair in inner if isinstance(pair, Turn)}
+    for point, fill in pins.items():
+        if point in here.places:
+            at = page(here.places[point])
+            parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
+            labels.append(Label(Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",)), at))
+    return parts, labels

@@ -25,6 +25,8 @@ FACE = 16.0
 """mm of a face of the frame to either side of a contact."""
 PITCH = Stroke(0.25, (4.0, 0.8, 0.6, 0.8))
 AXIS = Stroke(0.18, (4.0, 0.8, 0.6, 0.8))
+TOUCHING = 1e-6
+"""mm: centres so near lie on each other."""
 HATCHES = 2.6
 """mm of outline between two hatches of a hatched ring."""
 
@@ -33,13 +35,17 @@ def _on_paper(here: MechanismOnPaper) -> Touching:
     return Touching(here.scene, 1.0 / here.sheet.scales.length, here.sheet.poses)
 
 
-def outlines_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
-    """The round outlines of a link; a hollow one, and every one of the frame, hatched where its body is."""
+def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> list[Primitive]:
+    """The round outlines of a link; a hollow one, and every one of the frame, hatched where its body is.  With
+    ``replaced`` only those that roll: for the others stand bars and blocks."""
     if link not in here.sheet.poses:
         return []
+    rolling = {d for contact in here.scene.contacts if contact.rolling for d in contact.round if d.link == link}
     links, colour = _on_paper(here), here.colour(link)
     parts: list[Primitive] = []
     for disc in here.scene.by_name[link].discs:
+        if replaced and disc not in rolling:
+            continue
         centre = links.place(link, here.scene.by_name[link].points[disc.centre])
         radius = abs(disc.radius) * links.mm
         parts += _outline(page(centre), radius, strokes.LINK.coloured(colour))
@@ -134,12 +140,13 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
     return Piece({"construction": tuple(drawn)}, tuple(names))
 
 
-def replacing_links(here: MechanismOnPaper) -> Piece:
+def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primitive, ...]:
     """What replaces the higher pairs, dashed: the bar between two centres of curvature, that of a cam's pitch curve
-    among them, the block at the one of a disc whose guide runs along the face."""
+    among them with the cam's own to its axis, the block at the one of a disc whose guide runs along the face; bars end
+    ``clear`` mm before the middles of their pins."""
     links, drawn = _on_paper(here), list[Primitive]()
     for contact in links.contacts():
-        if contact.carrier:
+        if contact.rolling:
             continue
         colour = here.colour(contact.block)
         spots = links.centres(contact)
@@ -150,10 +157,30 @@ def replacing_links(here: MechanismOnPaper) -> Piece:
             reach = FACE * along
             drawn.append(Line(page(spots[0] - reach), page(spots[0] + reach), strokes.DIRECTION))
         else:
-            drawn.append(Line(page(spots[0]), page(spots[1]), strokes.REDUNDANT.coloured(colour)))
-    own = {slot.bar for slot in (here.scene.instead_of or here.scene).slots}
+            drawn += _dashed(spots[0], spots[1], colour, clear)
+    whole = here.scene.instead_of or here.scene
+    own = {slot.bar for slot in whole.slots}
     for slot in here.scene.slots:
         if slot.bar not in own and {slot.centre, slot.point} <= here.places.keys():
-            ends = page(here.places[slot.centre]), page(here.places[slot.point])
-            drawn.append(Line(*ends, strokes.REDUNDANT.coloured(here.colour(slot.bar))))
-    return Piece({"construction": tuple(drawn)})
+            drawn += _dashed(here.places[slot.centre], here.places[slot.point], here.colour(slot.bar), clear)
+    for pin in here.scene.pins:
+        if pin not in whole.pins and pin.point in here.places:
+            along = here.sheet.poses[pin.on].axis * here.scene.by_name[pin.on].guides[pin.guide].direction
+            at = page(here.places[pin.point])
+            drawn += symbols.block(at, phase(along), here.colour(pin.on))
+            drawn.append(Circle(at, symbols.JOINT_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE))
+    for cam in whole.cams:
+        added = (p for p in here.scene.by_name[cam.link].points if p not in whole.by_name[cam.link].points)
+        for point in added:
+            if point in here.places:
+                axis = here.sheet.poses[cam.link].origin
+                drawn += _dashed(axis, here.places[point], here.colour(cam.link), clear)
+    return tuple(drawn)
+
+
+def _dashed(start: complex, end: complex, colour: str, clear: float) -> Iterator[Primitive]:
+    """A bar that stands for a higher pair; none between pins that cover each other."""
+    far = abs(end - start)
+    if far > 2 * clear + TOUCHING:
+        off = (end - start) / far * clear
+        yield Line(page(start + off), page(end - off), strokes.REDUNDANT.coloured(colour))

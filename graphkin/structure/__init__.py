@@ -21,7 +21,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 from graphkin.structure.needed_elements import by_drivers_alone, in_stages, links_of, needed, outside_of, part_of
-from graphkin.structure.replacement import named_with_contact, pins_on_circles, replaced_pairs
+from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
 __all__ = [
@@ -56,7 +56,7 @@ __all__ = [
     "pick",
     "pins_on_circles",
     "regrouped",
-    "replaced_pairs",
+    "replacement_told",
     "started",
     "unrolled",
 ]

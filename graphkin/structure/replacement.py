@@ -26,7 +26,7 @@ from graphkin.scene.model import CircularSlot, Mechanism, PinInSlot, PlacedGuide
 from graphkin.structure.model import Dyad, Slide, Structure
 from graphkin.words import Phrase
 
-__all__ = ["cams_replaced", "named_with_contact", "pins_on_circles", "replaced_pairs", "replacing_link", "with_cams"]
+__all__ = ["cams_replaced", "named_with_contact", "pins_on_circles", "replacement_told", "replacing_link", "with_cams"]
 
 
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
@@ -86,7 +86,7 @@ def named_with_contact(structure: Structure, dyad: Dyad) -> str:
     return f"links {', '.join(dyad.links)}"
 
 
-def replaced_pairs(structure: Structure) -> tuple[Phrase, ...]:
+def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, what replaces each, and the mobility counted after the replacement."""
     scene, said = structure.scene, list[Phrase]()
     links = lower = 0
@@ -101,8 +101,9 @@ def replaced_pairs(structure: Structure) -> tuple[Phrase, ...]:
         if not contact.rolling:
             links, lower = links + 1, lower + 2
     said += [Phrase("structure gear", (*g.wheels, g.name)) for g in scene.gears]
-    links, lower = links + len(scene.pins), lower + 2 * len(scene.pins)
-    if any(not c.rolling for c in scene.contacts):
+    replaced = len((scene.instead_of or scene).pins) + len(scene.cams)
+    links, lower = links + replaced, lower + 2 * replaced
+    if scene.cams or any(not c.rolling for c in scene.contacts):
         m = structure.mobility
         after = m.links + links, m.lower + lower, m.higher - links
         said.append(Phrase("structure replaced", (*after, 3 * after[0] - 2 * after[1] - after[2])))

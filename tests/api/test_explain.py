@@ -45,10 +45,26 @@ def test_a_hinge_of_three_links_is_two_turning_pairs() -> None:
     scene["links"]["5"] = {"points": ["C", "F"], "length": 100}
     explained = graphkin.explain(scene)
     assert "C joins the links 2, 3, 5: 2 turning pairs" in explained.data["joints"]
-    assert "F = 3·4 - 2·5 - 0 = 2, but the number of drivers is 1: it cannot move as it is written" in (
+    assert "F = 3·4 - 2·5 - 0 = 2, but the number of drivers is 1: it moves, but its motion is not determined" in (
         explained.data["mobility"]
     )
     assert not explained.ok
+
+
+@pytest.mark.parametrize(
+    ("extra", "said"),
+    [
+        ({}, "= 1, but the number of drivers is 2: by this count it cannot move as it is driven"),
+        ({"5": {"points": ["B", "D"], "length": 300}}, "= 0, but the number of drivers is 2: by this count it cannot"),
+    ],
+)
+def test_more_drivers_than_freedoms_are_told_to_hold_it(extra, said) -> None:
+    scene = graphkin.read("fourbar-150-500-300-400").to_dict()
+    crank = scene["driver"] if isinstance(scene["driver"], dict) else scene["driver"][0]
+    scene["driver"] = [crank, {"link": "3", "angle": 80, "omega": 1}]
+    scene["links"] |= extra
+    (counted,) = graphkin.explain(scene).data["mobility"]
+    assert said in counted
 
 
 def test_the_command_says_it_in_chinese_and_leaves_with_3_where_nothing_moves(tmp_path) -> None:

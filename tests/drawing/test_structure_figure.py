@@ -7,7 +7,9 @@ import xml.etree.ElementTree as ET
 import pytest
 
 import graphkin
-from graphkin.drawing import svg_bytes
+from graphkin.drawing import strokes, svg_bytes
+from graphkin.drawing.piece import ink_box
+from graphkin.drawing.primitives import Circle, Group, Line, Polygon, walk
 from graphkin.errors import CallError
 
 
@@ -63,3 +65,72 @@ def test_a_driver_inside_a_group_has_no_empty_panel() -> None:
     panels = [e for e in root.iter("{http://www.w3.org/2000/svg}g") if e.get("class") == "panel"]
     assert 1 == len(panels)
     assert "级杆组，" in words(root)
+
+
+HIGHER = (
+    "cam-eccentric-flat-rocker", "cam-eccentric-flat-slider", "cam-flat-face", "cam-offset-roller",
+    "cam-swinging-roller", "disc-on-disc", "geared-five-bar", "gears-epicyclic", "geneva-step",
+    "hypocycloid-straight-line", "wheel-on-rail",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("name", [*HIGHER, "elliptic-trammel", "loader-cylinder", "scissor-lift", "whitworth"])
+def test_what_is_taken_apart_stays_in_its_panel(name: str) -> None:
+    figure = graphkin.draw(name, figures=["structure"]).figures["structure"]
+    groups = [g for layer in figure.children for g in layer.children if isinstance(g, Group)]
+    panels = [ink_box(g.children) for g in groups if "panel" in g.classes]
+    apart = [ink_box(g.children) for g in groups if g.id.startswith("group-")]
+    assert apart
+    for panel, drawn in zip(panels, apart, strict=True):
+        assert panel.left < drawn.left
+        assert drawn.right < panel.right
+        assert panel.top < drawn.top
+        assert drawn.bottom < panel.bottom
+
+
+@pytest.mark.parametrize("name", HIGHER)
+def test_with_one_freedom_one_link_is_called_the_driver(name: str) -> None:
+    said = words(drawn(name))
+    assert 1 == said.count("with the frame: class I")
+    assert "class 1" not in said
+
+
+def test_a_wheel_that_follows_is_no_driver() -> None:
+    said = words(drawn("gears-epicyclic"))
+    assert "link 2 follows: rolling ties it to the driver" in said
+    assert "link 3 follows: rolling ties it to the driver" in said
+    assert "a mechanism of class" not in said
+
+
+@pytest.mark.parametrize(
+    ("name", "links"),
+    [
+        ("cam-offset-roller", "links 2, OB: RRP"),
+        ("cam-flat-face", "links 2, block of O: RPP"),
+        ("cam-eccentric-flat-rocker", "links 2, block of O: RPR"),
+        ("disc-on-disc", "links 2, OB: RRR"),
+        ("geneva-step", "links 2, block of B: RPR"),
+    ],
+)
+def test_a_dyad_has_two_links_that_of_the_replacement_among_them(name: str, links: str) -> None:
+    assert links in words(drawn(name))
+
+
+@pytest.mark.parametrize("name", ["cam-offset-roller", "cam-flat-face", "cam-swinging-roller"])
+def test_the_mobility_of_a_cam_is_counted_again_after_its_replacement(name: str) -> None:
+    assert "F = 3 · 3 − 2 · 4 − 0 = 1" in " ".join(words(drawn(name)).split())
+
+
+def test_the_bar_that_replaces_a_cam_hangs_on_its_crank() -> None:
+    figure = graphkin.draw("cam-offset-roller", figures=["structure"]).figures["structure"]
+    groups = {g.id: g for layer in figure.children for g in layer.children if isinstance(g, Group)}
+    for key in ("group-1-1", "group-1-2"):
+        parts = groups[key].children
+        (bar,) = (x for x in parts if isinstance(x, Line) and x.stroke.dash == strokes.REDUNDANT.dash)
+        pins = {x.centre for x in parts if isinstance(x, Circle)}
+        assert pins == {bar.start, bar.end}
+
+
+def test_a_wheel_that_rolls_is_replaced_by_no_block() -> None:
+    figure = graphkin.draw("wheel-on-rail", figures=["structure"]).figures["structure"]
+    assert 1 == sum(isinstance(x, Polygon) for x in walk(figure.children))  # that around its panel
