@@ -80,7 +80,7 @@ class Vary(FileTable):
 
     ranges: dict[str, Range] = field(
         default_factory=dict,
-        metadata=closed("Least and greatest value by key of the scene: \"links.2.length\" = [80, 120]."),
+        metadata=about("Least and greatest value by key of the scene: \"links.2.length\" = [80, 120]."),
     )
     only: bool = field(default=False, metadata=about("Nothing varies but what has a range or is tied to it."))
     keep: Keys = field(default=(), metadata=about("Keys that stay as they are: driver.omega."))

@@ -15,7 +15,7 @@ def about(description: str, **more: object) -> dict[str, object]:
 
 
 def closed(description: str) -> dict[str, object]:
-    """The same of a table whose keys are names."""
+    """The same of a table whose keys are names of a pattern: no others may stand in it."""
     return about(description, json_schema_extra={"additionalProperties": False})
 
 

@@ -318,7 +318,7 @@ class SceneTables(FileTable):
     printed_table: PrintedTable | None = field(default=None, metadata=about("The same from a CSV file."))
     scans: Scans = field(
         default_factory=dict,
-        metadata=closed("Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration."),
+        metadata=about("Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration."),
     )
     positions: Positions | None = field(default=None, metadata=about("Positions with names, and their figure."))
     loops: dict[LinkName, PointNames] = field(

@@ -43,6 +43,30 @@ WRONG = {
 }
 
 
+@pytest.mark.parametrize("tables", [
+    '[vary]\nranges = { "links.2.length" = [80, 120] }\n',
+    '[scans.velocity]\npoints = { pole = [412, 903], B = [988, 610] }\nread = { C = [1100, 880] }\n',
+])  # fmt: skip
+def test_tables_with_keys_of_any_spelling_keep_the_schema(tables: str) -> None:
+    assert valid(FOUR_BAR + tables)
+
+
+def test_a_scan_is_one_of_three_drawings() -> None:
+    assert not valid(FOUR_BAR + "[scans.forces]\npoints = { pole = [412, 903], B = [988, 610] }\nread = {}\n")
+
+
+def test_no_table_is_closed_to_every_key() -> None:
+    def closed(node: object) -> list[object]:
+        if isinstance(node, list):
+            return [found for item in node for found in closed(item)]
+        if not isinstance(node, dict):
+            return []
+        shut = node.get("additionalProperties") is False and not {"properties", "patternProperties"} & node.keys()
+        return [node] * shut + closed([*node.values()])
+
+    assert [] == closed(schema())
+
+
 @pytest.mark.parametrize("change", WRONG)
 def test_the_schema_refuses_what_the_reader_refuses(change: str) -> None:
     assert not valid(changed(FOUR_BAR, WRONG[change]))
