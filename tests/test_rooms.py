@@ -1,4 +1,4 @@
-"""The house as its imports draw it: no circle, and the README's picture has the rooms that there are, by layers."""
+"""The house as its imports draw it: no circle, and the manual's picture has the rooms that there are, by layers."""
 
 from __future__ import annotations
 
@@ -54,18 +54,18 @@ def test_the_import_contracts_hold(monkeypatch: pytest.MonkeyPatch, capsys: pyte
 
 
 def picture() -> list[set[str]]:
-    """The rooms of the README's picture, line by line."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    """The rooms of the manual's picture, line by line."""
+    text = (ROOT / "docs" / "how-it-works.md").read_text(encoding="utf-8")
     (block,) = re.findall(r"(?s)<!-- rooms -->\n```\n(.*?)```", text)
     return [set(line.partition("|")[0].split()) for line in block.splitlines()]
 
 
-def test_the_rooms_of_the_readme_are_those_that_there_are() -> None:
+def test_the_rooms_of_the_manual_are_those_that_there_are() -> None:
     there = {path.stem for path in Path(graphkin.__file__).parent.iterdir() if path.name[0] not in "_."} - {"py"}
     assert there == set.union(*picture())
 
 
-def test_the_readme_has_the_rooms_in_the_layers_of_the_import_contract() -> None:
+def test_the_manual_has_the_rooms_in_the_layers_of_the_import_contract() -> None:
     tool = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]
     (layers,) = [c["layers"] for c in tool["importlinter"]["contracts"] if c["type"] == "layers"]
     assert [set(re.findall(r"\w+", layer)) for layer in layers] == picture()
