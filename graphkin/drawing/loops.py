@@ -127,13 +127,14 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
         labels.append(Label(Text(0j, written, "start", colour, classes=("label",)), (tail, tip)))
         along = (sheet.poses[arrow.arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
         if arrow.arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
-            # the link's own angle, at the end of the arrow where the link begins
-            start, own = (tail, arrow.vector) if along.real > 0 else (tip, -arrow.vector)
-            thin += _angle(start, own)
+            # the angle of the vector: the link's own, and half a turn more where the loop runs against it
+            thin += _angle(tail, arrow.vector)
+            turned = "" if along.real > 0 else " + 180°"
             mark = " ?" if ("theta", loop.loop.ties[arrow.arrow.link]) in open_ else ""
-            middle = cmath.rect(ARC + 0.5, cmath.phase(own) % math.tau / 2).conjugate()
-            letter = Text(0j, rich(f"$θ_{{{arrow.arrow.link}}}${mark}", 3.0), "start", colour, classes=("label",))
-            labels.append(Label(letter, start + middle, rank=1))
+            middle = cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2).conjugate()
+            angle = rich(f"$θ_{{{arrow.arrow.link}}}${turned}{mark}", 3.0)
+            letter = Text(0j, angle, "start", colour, classes=("label",))
+            labels.append(Label(letter, tail + middle, rank=1))
     for k, arrow in enumerate(loop.arrows):
         if arrow.arrow.names[0]:
             drawn.append(Circle(corners[k], 0.55, fill=strokes.BLACK))

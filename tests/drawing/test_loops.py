@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 import xml.etree.ElementTree as ET
 from typing import Any
 
@@ -10,6 +12,7 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
+from graphkin.drawing.primitives import Arc, Group, Line, Text, walk
 from graphkin.errors import CallError
 
 SCENES = ("shaper-scheme-2", "sixbar-coupler-1A", "single-flier", "double-butterfly", "hydraulic-cylinder",
@@ -56,6 +59,24 @@ def test_arrows_on_paper_are_tip_to_tail_and_close(name: str) -> None:
         tails = [(line.get("x1"), line.get("y1")) for line in lines]
         tips = [(line.get("x2"), line.get("y2")) for line in lines]
         assert tails == [tips[-1], *tips[:-1]]
+
+
+@pytest.mark.parametrize(
+    ("name", "turned"),
+    [("fourbar-150-500-300-400", {"3"}), ("sixbar-coupler-1A", {"3", "5", "6"}), ("shaper-scheme-2", {"4"})],
+)
+def test_an_angle_stands_at_the_tail_of_its_vector_in_the_sense_of_it(name: str, turned: set[str]) -> None:
+    figure = graphkin.draw(name, figures=["loops"]).figures["loops"]
+    vectors = [x for g in walk(figure.children) if isinstance(g, Group) and "loop" in g.classes
+               for x in g.children if isinstance(x, Line)]  # fmt: skip
+    arcs = [x for x in walk(figure.children) if isinstance(x, Arc)]
+    assert arcs
+    for arc in arcs:
+        own = [(v.end - v.start).conjugate() for v in vectors if abs(v.start - arc.centre) < 1e-6]
+        angles = [cmath.phase(vector) % math.tau for vector in own]
+        assert [a for a in angles if -1e-9 < a - arc.end <= 0.3 + 1e-9]
+    texts = ["".join(run.text for run in x.runs) for x in walk(figure.children) if isinstance(x, Text)]
+    assert turned == {text[1] for text in texts if "+ 180°" in text}
 
 
 def test_a_scene_chooses_its_loops_as_a_book_does() -> None:
