@@ -200,25 +200,35 @@ def cam_made(scene: Mechanism) -> tuple[CamMade, ...]:
     return tuple(CamMade(scene, one) for one in scene.cams)
 
 
-def cam_table(scene: Mechanism, step: float = STEP) -> Table:
-    """One row a step (degrees) of each cam from 0 on: cam, angle, lift, pitch curve, profile and pressure angle, points
-    in the cam's own axes from its axis."""
+def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = ()) -> Table:
+    """One row a step (degrees) of each cam, of measured discs by the angle of the driver, from 0 on: cam, angle, lift,
+    pitch curve, profile and pressure angle, points in the cam's own axes from its axis."""
+    from graphkin.solver import structure_of
     from graphkin.solver.cam_profile import cam_at
+    from graphkin.solver.contacts import disc_course
     from graphkin.table import Column, Table, text_column
 
     metres = scene.units.metres
     count = max(1, round(360.0 / step))
     degree = np.arange(count) * (360.0 / count)
-    parts = []
+    none = np.full(count, complex(np.nan, np.nan))
+    parts: list[tuple[list[str], list[Array]]] = []
     for one in scene.cams:
         # a degree is a rotation of the law, whatever way the cam turns
         at = cam_at(one, np.radians(degree))
         per = math.radians(1.0) if isinstance(one.motion, SwingingFollower) else metres
-        none = np.full(count, np.nan)
-        pitch = [none, none] if one.flat else [at.pitch.real / metres, at.pitch.imag / metres]
+        pitch = none if one.flat else at.pitch / metres
         profile = at.profile / metres
-        columns = [degree, at.lift / per, *pitch, profile.real, profile.imag, np.degrees(at.pressure)]
+        columns = [degree, at.lift / per, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(at.pressure)]
         parts.append(([one.link] * count, columns))
+    for disc in discs:
+        course = disc_course(structure_of(scene), disc, np.radians(degree))
+        lift = course.lift / (math.radians(1.0) if disc.swings else metres)
+        pitch = none if course.pitch is None else course.pitch / metres
+        profile = course.profile / metres
+        pressure = np.degrees(course.pressure)
+        columns = [degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, pressure]
+        parts.append(([disc.link] * count, columns))
     names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
     joined = [np.concatenate([columns[k] for _, columns in parts]) for k in range(len(names))]
     links = [link for own, _ in parts for link in own]
@@ -287,8 +297,12 @@ class Cams(Result, OfScene):
         rise = (math.degrees(disc.rise), "°") if disc.swings else (disc.rise / metres, f" {unit}")
         size = f"{base / metres:.6g}", unit, kind
         yield Phrase("cam disc", (disc.link, disc.follower, *size, f"{rise[0]:.6g}", rise[1]))
+        yield Phrase("cam disc points", (disc.link,))
         if disc.offset is not None:
             yield Phrase("cam disc offset", (f"{disc.offset / metres + 0.0:.6g}", unit))
+        if not disc.most[0]:
+            yield Phrase("cam disc no pressure")
+            return
         here = "–" if disc.here is None else _degrees(disc.here)
         at = _degrees(disc.most[1] % math.tau)
         yield Phrase("cam disc pressure", (_degrees(disc.most[0]), at, here))
@@ -296,7 +310,7 @@ class Cams(Result, OfScene):
     @cached_property
     def table(self) -> Table:
         """Points of pitch curve and profile at every step."""
-        return cam_table(self.mechanism, self.step)
+        return cam_table(self.mechanism, self.step, self.discs)
 
     @cached_property
     def figures(self) -> dict[str, Drawing]:
@@ -305,7 +319,8 @@ class Cams(Result, OfScene):
         return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
 
     def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the figures, cam.csv, and with the format "dxf" each profile true to size as profile-LINK.dxf.
+        """Write the figures of cams by their law, cam.csv, and with the format "dxf" each profile true to size as
+        profile-LINK.dxf.
 
         Raises
         ------
@@ -313,9 +328,11 @@ class Cams(Result, OfScene):
         """
         known_words(formats)
         files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
-        if self.made:
-            files["cam.csv"] = self.table.csv().encode()
+        files["cam.csv"] = self.table.csv().encode()
         if "dxf" in formats:
+            from graphkin.drawing.cam_dxf import outline_dxf
+
+            files |= {f"profile-{disc.link}.dxf": outline_dxf(*disc.outline) for disc in self.discs}
             files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
         return write_files(own_folder(folder, self.mechanism.name), files)
 

@@ -15,7 +15,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.follower_law import SmoothPart
 from graphkin.solver.cam_profile import cam_with
 
-__all__ = ["arcs_of_profile", "profile_dxf"]
+__all__ = ["arcs_of_profile", "outline_dxf", "profile_dxf"]
 
 KEEPS = 2e-7
 """mm that an arc may lie off the profile."""
@@ -28,6 +28,13 @@ Vertex = tuple[complex, float]
 def profile_dxf(cam: LawCam) -> bytes:
     """The profile in mm in the cam's own axes from its axis, with the axis marked.  Raises CallError without ezdxf."""
     return closed_curve_dxf(arcs_of_profile(cam), cam.base_of_profile * 1e3)
+
+
+def outline_dxf(centre: complex, radius: float) -> bytes:
+    """A round outline in mm about a centre (m) in the cam's own axes from its axis, with the axis marked.  Raises
+    CallError without ezdxf."""
+    ends = [((centre + radius * way) * 1e3, 1.0) for way in (-1.0, 1.0)]
+    return closed_curve_dxf(ends, radius * 1e3)
 
 
 def arcs_of_profile(cam: LawCam) -> list[Vertex]:

@@ -20,10 +20,12 @@ from graphkin.solver.reach import driver_range
 from graphkin.solver.whole_turn import extremes
 from graphkin.structure import Structure
 
-__all__ = ["ContactMotion", "DiscCam", "contact_motion", "disc_cams", "pitch_point"]
+__all__ = ["ContactMotion", "DiscCam", "DiscCourse", "contact_motion", "disc_cams", "disc_course", "pitch_point"]
 
 STANDS = 1e-12
 """A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
+ROUNDED = 1e-12
+"""An angle (rad) between a normal and a way that fall together."""
 
 
 @dataclass(frozen=True)
@@ -62,10 +64,15 @@ def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
     pressure = {}
     for link, v in zip(contact.links, (one, two), strict=True):
         if link != ground:
-            across = np.conj(normal) * v
-            angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
-            pressure[link] = np.where(np.abs(v) > STANDS * fast, angle, np.nan)
+            pressure[link] = np.where(np.abs(v) > STANDS * fast, _between(normal, v), np.nan)
     return ContactMotion(place, normal, np.asarray(one - two), pressure)
+
+
+def _between(normal: Array, way: Array) -> Array:
+    """The angle from the line of a normal to that of a way (rad), 0 .. pi/2; one that is nothing but rounding is 0."""
+    across = np.conj(normal) * way
+    angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
+    return np.where(angle > ROUNDED, angle, 0.0)
 
 
 def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
@@ -99,6 +106,8 @@ class DiscCam:
     offset : distance of a sliding follower's line from the axis, positive where the axis lies to its left; None else
     most : the greatest pressure angle of a turn, and the driver's angle there
     here : pressure angle at the scene's own position; None where the follower stands
+    lowest : travel or angle of the follower where it is nearest to the axis; outline : centre of the disc in the cam's
+        own axes, from the axis, and its radius
     """
 
     contact: str
@@ -111,6 +120,19 @@ class DiscCam:
     offset: float | None
     most: tuple[float, float]
     here: float | None
+    lowest: float
+    outline: tuple[complex, float]
+
+
+@dataclass(frozen=True)
+class DiscCourse:
+    """A disc and its follower at angles of the driver, each of shape (n,): lift from the lowest place (m, rad), contact
+    and centre of a round follower (None of a flat face) in the cam's own axes from its axis (m), pressure angle."""
+
+    lift: Array
+    profile: Array
+    pitch: Array | None
+    pressure: Array
 
 
 def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
@@ -154,6 +176,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
     axis = next(p for p in points if p in scene.frame.points)
     off = abs(points[disc.centre] - points[axis])
     swings = "/" not in of
+    place = points[disc.centre] - points[axis]
     ends = extremes(reach, Symbol.parse(f"swing_{of}" if swings else f"stroke_{of}"))
     offset = None
     if not swings:
@@ -162,11 +185,38 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
         at = reach.motion(np.zeros(1)).point(other.centre, follower).z[0] if other is not None else guide.through
         offset = float(cross(guide.direction, scene.frame.points[axis] - complex(at)))
     here = _pressures(reach, contact, follower, np.zeros(1))[0]
+    touch = reach.motion(np.array([ends.low_offset, ends.high_offset])).position(contact.name)
+    near, far = np.abs(touch - scene.frame.points[axis])
     return DiscCam(
         contact.name, link, follower, abs(abs(disc.radius) - off),
         None if other is None else abs(abs(disc.radius + other.radius) - off),
         ends.stroke, swings, offset, _greatest(reach, contact, follower), None if math.isnan(here) else float(here),
+        ends.low if near <= far else ends.high, (place, abs(disc.radius)),
     )  # fmt: skip
+
+
+def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse:
+    """What a measured disc does at angles of the driver (rad), shape (n,)."""
+    scene, reach = structure.scene, driver_range(structure)
+    contact = next(c for c in scene.contacts if c.name == disc.contact)
+    sides = _sides(scene, contact)
+    assert sides is not None
+    side, of = sides
+    motion = reach.motion(reach.offsets(angle), unit=True)
+    axis = next(scene.frame.points[p] for p in scene.by_name[disc.link].points if p in scene.frame.points)
+    own, place = np.conj(motion.poses[disc.link].u), motion.position(contact.name)
+    if disc.swings:
+        value = reach.angle(motion, disc.follower)
+        pivot = next(p for p in scene.by_name[disc.follower].points if p in scene.frame.points)
+        way = 1j * (place - scene.frame.points[pivot])
+    else:
+        value = motion.slide(of).travel
+        pair = next(s for s in scene.slidings if s.key == of)
+        way = np.full(len(angle), scene.frame.guides[pair.guide].direction)
+    other = contact.discs[1 - side]
+    pitch = None if other is None else (motion.position(other.centre, disc.follower) - axis) * own
+    pressure = _between(contact_motion(motion, contact).normal, way)
+    return DiscCourse(np.abs(value - disc.lowest), (place - axis) * own, pitch, pressure)
 
 
 def _pressures(reach: DriverRange, contact: PlacedContact, follower: str, offset: Array) -> Array:

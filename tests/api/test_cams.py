@@ -243,4 +243,31 @@ def test_an_eccentric_disc_is_measured_as_the_cam_that_it_is():
 def test_a_disc_under_a_flat_rocker_has_no_pressure_angle():
     disc = graphkin.cam("cam-eccentric-flat-rocker").data["discs"]["K"]
     assert 28 == pytest.approx(disc["base"]["profile"])
-    assert 0 == pytest.approx(disc["pressure"]["greatest"], abs=1e-7)
+    assert 0 == disc["pressure"]["greatest"]
+    assert "the pressure angle is 0° all the time" in graphkin.cam("cam-eccentric-flat-rocker").sentences("en")
+
+
+def test_the_points_of_a_disc_are_written_in_its_own_axes_over_a_turn_of_the_driver(tmp_path):
+    found = graphkin.cam(EXERCISE, tmp_path, ["svg", "dxf"])
+    assert {"cam.csv", "profile-1.dxf"} == {path.name for path in tmp_path.iterdir()}
+    table = found.table
+    profile, pitch = (table[f"{name}_x"] + 1j * table[f"{name}_y"] for name in ("profile", "pitch"))
+    assert np.full(360, 16.5) == pytest.approx(np.abs(profile - 11.5), abs=1e-9)
+    assert np.full(360, 21.5) == pytest.approx(np.abs(pitch - 11.5), abs=1e-9)
+    assert (0, 11.5 + 21.5 - 10, 0) == pytest.approx((table["lift"][270], table["lift"][90], table["pressure_deg"][90]))
+    above = 90 - table["angle_deg"]  # of the follower's point in the axes of the cam
+    assert np.abs(pitch) * np.exp(1j * np.radians(above)) == pytest.approx(pitch, abs=1e-9)
+    assert (10 + table["lift"]) == pytest.approx(np.abs(pitch), abs=1e-9)
+    leaning = np.degrees(np.abs(np.angle((pitch - profile) / pitch)))
+    assert leaning == pytest.approx(table["pressure_deg"], abs=1e-6)
+
+
+@pytest.mark.parametrize("name", ["disc-on-disc", "cam-eccentric-flat-rocker", "cam-eccentric-flat-slider"])
+def test_the_command_writes_the_points_of_a_disc_and_says_so(name, tmp_path):
+    done = run("cam", name, "-o", str(tmp_path))
+    assert (0, True) == (done.returncode, "its points over a turn stand in cam.csv" in done.stdout)
+    rows = np.genfromtxt(tmp_path / "cam.csv", delimiter=",", names=True)
+    assert (360, True) == (len(rows), rows["lift"].min() > -1e-12)
+    assert graphkin.cam(name).data["discs"]["K"]["rise"] == pytest.approx(
+        np.ptp(rows["lift"]) * (1 if "slider" in name else math.pi / 180), rel=1e-3
+    )
