@@ -138,11 +138,21 @@ def as_scene(scene: SceneLike) -> Mechanism:
     return given
 
 
-def for_paper(scene: SceneLike) -> Mechanism:
-    """The same, if it is small enough to be read on paper.  Raises CallError for more than 20 moving links."""
+def for_paper(scene: SceneLike, asked: Sequence[Symbol] = ()) -> Mechanism:
+    """The same, if it is small enough to be read on paper; else what leads to the asked.  Raises CallError for more
+    than 20 moving links of it."""
     given = as_scene(scene)
+    if asked and len(given.links) > MOST_DRAWN:
+        from graphkin.solver import structure_of
+        from graphkin.structure import part_of
+
+        given = part_of(structure_of(given), asked)
+        ends = {point for link in given.links for point in link.points}
+        ends |= {ref.point for symbol in asked for ref in (symbol.of, symbol.to) if ref is not None}
+        bearings = {name: z for name, z in given.frame.points.items() if name in ends}
+        given = replace(given, frame=replace(given.frame, points=bearings))
     if len(given.links) > MOST_DRAWN:
-        wanted = f"a sheet shows at most {MOST_DRAWN}; solve and check take it as it is"
+        wanted = f"a sheet shows at most {MOST_DRAWN}: with `find` only what leads to the named quantities is drawn"
         raise CallError(Problem("links", f"{len(given.links)} moving links are too many for a figure", wanted))
     return given
 

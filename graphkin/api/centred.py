@@ -145,7 +145,10 @@ class Centred(Result, OfScene):
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and what it may be."""
-        return {pair: _error(self.centres, self.motion, centre) for pair, centre in self.centres.table.items()}
+        frame, names = self.centres.links.scene.frame.name, self.centres.links.names
+        largest = max(_seen(self.centres, self.motion, (name, frame))[1] for name in names)
+        table = self.centres.table.items()
+        return {pair: _error(self.centres, self.motion, centre, largest) for pair, centre in table}
 
     @cached_property
     def velocities(self) -> tuple[Velocity, ...]:
@@ -312,24 +315,27 @@ def _plain(value: float) -> float:
     return float(f"{value:.15g}") + 0.0
 
 
-def _error(centres: Centres, motion: Motion, centre: Centre) -> tuple[float, float] | None:
+def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
+    """The exact centre of two links as the chart sees it, and the strength of their relative motion: its length."""
     from graphkin.solver.centres import instant_centre
 
+    q, omega = instant_centre(motion, *pair)
+    chart, turn = centres.chart, float(omega[0])
+    away = (complex(q[0]) * centres.links.mm - turn * chart.middle) / chart.unit
+    return (away.real, away.imag, turn), math.hypot(abs(away), turn)
+
+
+def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> tuple[float, float] | None:
+    """How far a drawn centre is from the exact one on the unit sphere, and how far it may be; None for one that moves
+    too little beside the largest motion of a link."""
     if centre.place is None:
         return None
-    q, omega = instant_centre(motion, *centre.pair)
-    chart, mm = centres.chart, centres.links.mm
-    away = (complex(q[0]) * mm - float(omega[0]) * chart.middle) / chart.unit
-    strength = math.hypot(abs(away), float(omega[0]))
-    largest = max(
-        math.hypot(abs(complex(z[0]) * mm - float(w[0]) * chart.middle) / chart.unit, float(w[0]))
-        for z, w in (instant_centre(motion, n, centres.links.scene.frame.name) for n in centres.links.names)
-    )
+    place, strength = _seen(centres, motion, centre.pair)
     if strength <= NO_MOTION * largest:
         return None
-    _, sine = wedge(normal((away.real, away.imag, float(omega[0]))), normal(centre.place))
+    _, sine = wedge(normal(place), normal(centre.place))
     # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
-    unit = chart.unit / mm
+    unit = centres.chart.unit / centres.links.mm
     places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)

@@ -13,6 +13,7 @@ from graphkin.api.arguments import (
     ON_SHEETS,
     At,
     SceneLike,
+    as_scene,
     for_paper,
     known_words,
     own_folder,
@@ -157,10 +158,12 @@ class FigureKind:
 
     by_itself : whether it is drawn of a scene where no figure is asked for by name
     make : draws it; None where there is nothing to draw
+    of_all : whether it shows all links, whatever is asked
     """
 
     by_itself: Callable[[Mechanism], bool]
     make: Callable[[Drawn], Drawing | None]
+    of_all: bool = False
 
 
 def _always(scene: Mechanism) -> bool:
@@ -304,15 +307,15 @@ FIGURES: Mapping[str, FigureKind] = {
     "acceleration": FigureKind(_always, _acceleration),
     "sheet": FigureKind(_always, _sheet),
     "centres": FigureKind(_always, _centres),
-    "structure": FigureKind(lambda scene: False, _structure),
-    "positions": FigureKind(lambda scene: scene.positions is not None, _positions),
-    "polygons": FigureKind(lambda scene: False, _polygons),
+    "structure": FigureKind(lambda scene: False, _structure, of_all=True),
+    "positions": FigureKind(lambda scene: scene.positions is not None, _positions, of_all=True),
+    "polygons": FigureKind(lambda scene: False, _polygons, of_all=True),
     "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
-    "contacts": FigureKind(_touches, _contacts),
-    "plan": FigureKind(_rolls, _plan),
-    "loops": FigureKind(lambda scene: bool(scene.loops), _loops),
-    "forces": FigureKind(lambda scene: bool(scene.loading), _forces),
-    "lever": FigureKind(lambda scene: bool(scene.loading), _lever),
+    "contacts": FigureKind(_touches, _contacts, of_all=True),
+    "plan": FigureKind(_rolls, _plan, of_all=True),
+    "loops": FigureKind(lambda scene: bool(scene.loops), _loops, of_all=True),
+    "forces": FigureKind(lambda scene: bool(scene.loading), _forces, of_all=True),
+    "lever": FigureKind(lambda scene: bool(scene.loading), _lever, of_all=True),
 }
 """Every figure of `draw` by its name: the one place where a further figure is entered."""
 
@@ -376,9 +379,10 @@ def draw(
     from graphkin import solver
 
     known_words(formats, language, convention, instrument, known_languages=ON_SHEETS)
-    given = for_paper(scene)
+    given = as_scene(scene)
     wanted = known_figures(given, figures)
     asked = drawn_symbols(given, find)
+    given = for_paper(given, () if any(FIGURES[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)

@@ -153,10 +153,11 @@ def compare(
         largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
     grain = _grain(sheet)
 
-    def slight(reading: Reading) -> float:
-        """What is nothing beside the largest that drivers alone give of this kind."""
-        alike = ((r.symbol, v) for r, v in pairs if r.symbol.scope == "motion" and r.symbol.kind == reading.symbol.kind)
-        return ROUNDED * max(abs(v) for symbol, v in alike if by_drivers_alone(sheet.structure, symbol))
+    # the largest of each kind that drivers alone give, beside which rounding is nothing
+    led: dict[str, float] = {}
+    for reading, value in pairs:
+        if reading.symbol.scope == "motion" and by_drivers_alone(sheet.structure, reading.symbol):
+            led[reading.symbol.kind] = max(led.get(reading.symbol.kind, 0.0), abs(value))
 
     rows = []
     for reading, value in pairs:
@@ -183,7 +184,7 @@ def compare(
         if (not fair or 0.0 < abs(value) <= floor) and by_drivers_alone(sheet.structure, reading.symbol):
             # no group comes before it whose rounding it could have
             tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
-            alone, floor = not fair, min(floor, slight(reading))
+            alone, floor = not fair, min(floor, ROUNDED * led[reading.symbol.kind])
             fair = _fair(sheet, tolerance, most, least)
         rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair, alone))
     have = {r.symbol for r in readings}

@@ -79,9 +79,10 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
     drive = Drive.at(structure, own_values(structure.scene)[None])
     forms: dict[int, Array] = {}
     start: Mapping[str, Pose] = {}
+    known: dict[int, float] = {}  # of the formulas of the groups before
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
-            forms[i] = _choose_sign(structure, i, element, drive, forms)
+            forms[i], known = _choose_sign(structure, i, element, drive, forms, known)
         elif isinstance(element, Driven):
             if isinstance(element.driver, Rolled):
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
@@ -118,12 +119,16 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
     return state.poses
 
 
-def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array]) -> Array:
+def _choose_sign(
+    structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: Mapping[int, Array], known: Mapping[int, float]
+) -> tuple[Array, dict[int, float]]:
+    """The sign of a dyad, and the numbers of all formulas up to it with that sign, from those up to the one before."""
     scene = structure.scene
     states: list[State] = []
-    for sign in (1.0, -1.0):
+    both = dict(known), dict(known)
+    for sign, own in zip((1.0, -1.0), both, strict=True):
         given = {**{k: f[None] for k, f in forms.items()}, i: np.array([sign])}
-        states.append(positions(structure, drive, given, i + 1, rates=False))
+        states.append(positions(structure, drive, given, i + 1, rates=False, known=own))
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
     links = dyad.links or links_of(dyad)  # what stands for two contacts of one link has no link of the file
@@ -131,7 +136,7 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
             pick(scene, links, [new_places(structure, i, links, states[0])], 0)
-        return np.array(sign)
+        return np.array(sign), both[sign < 0]
     if not solved.discriminant[0] >= -TOUCH:
         raise Unsolvable(
             "not assembled",
@@ -142,9 +147,10 @@ def _choose_sign(structure: Structure, i: int, dyad: Dyad, drive: Drive, forms: 
             ),
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
-        return np.array(1.0)
+        return np.array(1.0), both[0]
     candidates = [new_places(structure, i, links, state) for state in states]
-    return np.array((1.0, -1.0)[pick(scene, links, candidates, 0).index])
+    index = pick(scene, links, candidates, 0).index
+    return np.array((1.0, -1.0)[index]), both[index]
 
 
 def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:

@@ -6,7 +6,6 @@ the last bit.  Names in the code are made from numbers only.  Compiled code: ``g
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import cached_property
@@ -15,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import DTypeLike
 
-from graphkin.solver.expressions import LEAVES, ExpressionGraph, Name, Real, operands
+from graphkin.solver.expressions import FLOATS, LEAVES, ExpressionGraph, Name, Real, operands
 from graphkin.solver.pose import Array
 
 __all__ = ["BLOCK", "Code", "defined"]
@@ -49,17 +48,6 @@ _UFUNCS = {
     "sqrt": np.sqrt,
     "atan2": np.arctan2,
 }
-
-
-def _fmin(a: float, b: float) -> float:
-    return b if a != a or b < a else a
-
-
-def _fmax(a: float, b: float) -> float:
-    return a if a != a or a > b else b
-
-
-_FLOATS = {"sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2}
 
 
 class Code:
@@ -102,7 +90,7 @@ class Code:
     def floats(self) -> Callable[[Sequence[float], Sequence[float]], tuple[float, ...]]:
         """Function of params and inputs to what is asked.  Raises ZeroDivisionError, OverflowError in a singular
         position."""
-        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(self._one({}), _FLOATS)
+        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(self._one({}), FLOATS)
         return made
 
     @cached_property
@@ -185,7 +173,7 @@ class Code:
         order = [at for at in self.order if at not in self.varying]
         body, names = self._straight(order, {}, {})
         text = "\n    ".join(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)])
-        return defined(text, _FLOATS), wanted
+        return defined(text, FLOATS), wanted
 
     @cached_property
     def _blocks(self) -> tuple[Callable[..., None], int]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -13,7 +13,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.solver.code import Code
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import Name, Real, Vec
-from graphkin.solver.extended_precision import ExtendedPrecision
+from graphkin.solver.extended_precision import ExtendedPrecision, known_exactly
 from graphkin.solver.followers import follower_inputs, greatest_jerk
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
@@ -70,6 +70,7 @@ def positions(
     rates: bool = True,
     sure: bool = True,
     fine: bool = True,
+    known: dict[int, float] | None = None,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
@@ -82,13 +83,15 @@ def positions(
     rates : False leaves out velocity, acceleration and bounds
     sure : False leaves out the bounds; with a larger group they need all elements, and are left out for fewer
     fine : False leaves 16 digits where they are rough, and the bounds as they are there: for curves, and on the way
+    known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
+        lines; filled, so that what comes after needs no formulas from the start again
 
     Returns
     -------
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, rates, sure and rates, fine)
+        run = _Run(structure, drive, forms, rates, sure and rates, fine, known)
         return run.state(len(structure.elements) if upto is None else upto)
 
 
@@ -126,10 +129,11 @@ class _Run:
         rates: bool,
         sure: bool,
         fine: bool = True,
+        known: dict[int, float] | None = None,
     ) -> None:
         drive = drive.followed(structure)
         self.structure, self.drive, self.forms = structure, drive, forms
-        self.rates, self.sure, self.fine = rates, sure, fine
+        self.rates, self.sure, self.fine, self.known = rates, sure, fine, known
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
@@ -185,12 +189,13 @@ class _Run:
         rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
         fine = np.zeros(self.n, dtype=bool)
         if names and not in_stages(elements):
-            extended = self._extended(program.code((upto, self.rates, followed), ()))
-            fine = extended.exact()
-            if followed and self.fine:
-                extended.refine(asked, columns, len(names))
-            elif fine.any():
-                extended.place(asked, columns)
+            fine = known_exactly(self.structure.drivers, self.drive.value)
+            if (followed and self.fine) or fine.any():
+                extended = self._extended(program.code((upto, self.rates, followed), _reals(asked)))
+                if followed and self.fine:
+                    extended.refine(asked, columns, len(names))
+                else:
+                    extended.place(asked, columns)
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
@@ -274,19 +279,19 @@ class _Run:
 
     def _values(self, key: Hashable, asked: Sequence[Real | Vec]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
-        reals: list[Real] = []
-        for x in asked:
-            reals += [x.real, x.imag] if isinstance(x, Vec) else [x]
+        reals = _reals(asked)
         program = self.dimensioned.program
+        if self.known is not None and self.n == 1:
+            try:
+                row = program.graph.values(reals, self._given_at_first, self.known)
+                return _as_asked(asked, [np.array([x]) for x in row])
+            except (ZeroDivisionError, OverflowError):
+                self.known = None
         code = program.code(key, reals)
         params = self.dimensioned.params(code.params, self.rates_of)
         inputs = [self.given[name] for name in code.inputs]
         if self.n <= FEW:
-            columns = self._one_by_one(code, params, inputs)
-            found: list[Array] = []
-            for x in asked:
-                found.append(columns.pop(0) + 1j * columns.pop(0) if isinstance(x, Vec) else columns.pop(0))
-            return found
+            return _as_asked(asked, self._one_by_one(code, params, inputs))
         out: list[Array] = []
         found = []
         for x in asked:
@@ -294,6 +299,10 @@ class _Run:
             out += [found[-1].real, found[-1].imag] if isinstance(x, Vec) else [found[-1]]
         code.arrays(code.same(params), inputs, out)
         return found
+
+    def _given_at_first(self, name: Name) -> float:
+        """A number that the formulas are given, at the first position."""
+        return float(self.given[name][0]) if name in self.given else self._known(name)
 
     def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
@@ -327,6 +336,16 @@ def _rough(bounds: Sequence[Array], size: float) -> tuple[Array, Array]:
 def _sure(bound: Array) -> Array:
     """A bound, infinite where it is not known."""
     return np.asarray(np.where(np.isnan(bound), np.inf, bound * SLACK))
+
+
+def _reals(asked: Sequence[Real | Vec]) -> list[Real]:
+    return [x for one in asked for x in ((one.real, one.imag) if isinstance(one, Vec) else (one,))]
+
+
+def _as_asked(asked: Sequence[Real | Vec], columns: Iterable[Array]) -> list[Array]:
+    """Columns of reals as what was asked: two of a vector as one that is complex."""
+    rest = iter(columns)
+    return [next(rest) + 1j * next(rest) if isinstance(x, Vec) else next(rest) for x in asked]
 
 
 def _ends(group: Cluster) -> set[str]:

@@ -6,7 +6,9 @@ or 1 is folded away, what is computed twice is computed once, and what leads to 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import operator
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, TypeAlias, TypeVar, overload
 
 import numpy as np
@@ -14,7 +16,8 @@ import numpy as np
 from graphkin.solver.pose import Array, Pose
 
 __all__ = [
-    "LEAVES", "ExpressionGraph", "Line", "PoseFormula", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum",
+    "FLOATS", "LEAVES", "ExpressionGraph", "Line", "PoseFormula", "Real", "Vec", "fmax", "fmin", "operands", "root",
+    "two_sum",
 ]  # fmt: skip
 
 Line = tuple[Any, ...]
@@ -72,6 +75,63 @@ class ExpressionGraph:
                     stack.append((at, True))
                     stack += [(k, False) for k in reversed(operands(self.lines[at])) if k not in done]
         return order
+
+
+    def values(self, asked: Iterable[Real], given: Callable[[Name], float], known: dict[int, float]) -> list[float]:
+        """Numbers at one position without code of their own, as plain floats.
+
+        Parameters
+        ----------
+        given : params and inputs by their names
+        known : the numbers of lines by their places; those that are computed are added
+
+        Raises
+        ------
+        ZeroDivisionError, OverflowError : a singular position
+        """
+        found = []
+        for real in asked:
+            waiting = [real.at]
+            while waiting:
+                at = waiting[-1]
+                line = self.lines[at]
+                missing = [k for k in operands(line) if k not in known]
+                if missing:
+                    waiting += missing
+                    continue
+                waiting.pop()
+                if line[0] in LEAVES:
+                    known[at] = line[1] if line[0] == "const" else given(line[1])
+                else:
+                    known[at] = _OPERATIONS[line[0]](*(known[k] for k in line[1:]))
+            found.append(known[real.at])
+        return found
+
+
+def _fmin(a: float, b: float) -> float:
+    return b if a != a or b < a else a
+
+
+def _fmax(a: float, b: float) -> float:
+    """Unlike ``max`` it hands on nan: what one term does not know, the greatest does not."""
+    return a if a != a or a > b else b
+
+
+FLOATS: Mapping[str, Callable[..., float]] = {
+    "sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2,
+}  # fmt: skip
+"""What formulas of one position call."""
+_OPERATIONS: Mapping[str, Callable[..., float]] = {
+    **FLOATS,
+    "add": operator.add,
+    "sum": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+    "neg": operator.neg,
+    "abs": abs,
+    "root": lambda x: math.sqrt(abs(x)),
+}
 
 
 def operands(line: Line) -> tuple[int, ...]:

@@ -16,12 +16,21 @@ from graphkin.solver.pose import FIELDS, Array
 from graphkin.solver.program import GIVEN, DimensionedProgram
 from graphkin.solver.rounding import UNIT
 
-__all__ = ["ExtendedPrecision"]
+__all__ = ["ExtendedPrecision", "known_exactly"]
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
 FEW = 8
 """Roundings in a result that is itself exact but for the last place."""
+
+
+def known_exactly(drivers: Sequence[AnyDriver], values: Array) -> Array:
+    """Positions whose driver values, shape (n, drivers), are known to fifty digits, shape (n,)."""
+    found = np.zeros(len(values), dtype=bool)
+    for j, driver in enumerate(drivers):
+        if driver.dead_point and driver.dead_point.exact:
+            found |= values[:, j] == driver.values[0]
+    return found
 
 
 @dataclass(frozen=True)
@@ -40,18 +49,10 @@ class ExtendedPrecision:
     second: Array
     signs: Mapping[Name, Array]
 
-    def exact(self) -> Array:
-        """Positions whose driver values are known to fifty digits, shape (n,)."""
-        found = np.zeros(len(self.value), dtype=bool)
-        for j, driver in enumerate(self.drivers):
-            if driver.dead_point and driver.dead_point.exact:
-                found |= self.value[:, j] == driver.values[0]
-        return found
-
     def place(self, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> None:
         """Compute these positions in 50 digits, in ``columns`` of ``asked``."""
         with working():
-            for k in np.flatnonzero(self.exact()).tolist():
+            for k in np.flatnonzero(known_exactly(self.drivers, self.value)).tolist():
                 self._put(k, asked, columns)
 
     def _put(self, k: int, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> bool:
@@ -69,7 +70,7 @@ class ExtendedPrecision:
         speed, push = (self._largest(columns, links, k) for k in (1, 2))
         size = self.dimensioned.structure.scene.size
         velocity, acceleration = columns[-5] + size * columns[-2], columns[-4] + size * columns[-1]
-        rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH) | self.exact()
+        rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH) | known_exactly(self.drivers, self.value)
         with working():
             for k in np.flatnonzero(rough).tolist():
                 if not self._put(k, asked, columns):

@@ -19,8 +19,10 @@ from graphkin.structure.model import (
     Turn,
     Weld,
     driver_pair,
+    links_of,
+    outside_of,
 )
-from graphkin.structure.needed_elements import by_drivers_alone, in_stages, links_of, needed, outside_of, part_of
+from graphkin.structure.needed_elements import by_drivers_alone, in_stages, needed, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 

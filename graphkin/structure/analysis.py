@@ -13,8 +13,7 @@ from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_me
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
-from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
-from graphkin.structure.needed_elements import links_of
+from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure, links_of
 from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
 

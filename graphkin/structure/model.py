@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
 from typing import Literal
 
 from graphkin.plane import added_up
@@ -32,6 +33,8 @@ __all__ = [
     "Turn",
     "Weld",
     "driver_pair",
+    "links_of",
+    "outside_of",
 ]
 
 
@@ -238,6 +241,35 @@ class Cluster:
 Element = Driven | Dyad | Cluster
 
 
+def links_of(element: Element) -> tuple[str, ...]:
+    """The links that an element places."""
+    if isinstance(element, Driven):
+        return (element.link,)
+    if isinstance(element, Cluster):
+        return element.members
+    return tuple(n for body in element.bodies for n in body.links)
+
+
+def outside_of(element: Element) -> set[str]:
+    """The links that an element hangs on."""
+    if isinstance(element, Driven):
+        if isinstance(element.driver, LawCam):
+            return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
+        if isinstance(element.driver, Rolled):
+            return {element.pair.a, element.pair.b, *element.driver.links} - {element.link}
+        pairs, drivers = [element.pair], [element.driver]
+    elif isinstance(element, Cluster):
+        pairs, drivers = list(element.pairs), list(element.drivers)
+    else:
+        pairs, drivers = [element.outer_first, element.outer_second], []
+    names = {n for pair in pairs for n in (pair.a, pair.b)}
+    names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    held = () if isinstance(element, Driven | Cluster) else (w.driver for body in element.bodies for w in body.welds)
+    names |= {n for d in (*drivers, *held) if isinstance(d, Follower) for n in d.through}
+    names |= {n for r in (element.rolling if isinstance(element, Cluster) else ()) for n in r.links}
+    return names.difference(links_of(element))
+
+
 @dataclass(frozen=True)
 class Mobility:
     """F = 3 n - 2 p_L - p_H (Chebyshev-Gruebler-Kutzbach in the plane; compound hinges count k - 1)."""
@@ -294,6 +326,31 @@ class Structure:
     def groups(self) -> tuple[Dyad | Cluster, ...]:
         """The Assur groups, in the order of solution."""
         return tuple(e for e in self.elements if not isinstance(e, Driven))
+
+    @cached_property
+    def place_of(self) -> Mapping[str, int]:
+        """The place among the elements of the one that places each link."""
+        return {name: i for i, element in enumerate(self.elements) for name in links_of(element)}
+
+    @cached_property
+    def hangs_on(self) -> tuple[frozenset[str], ...]:
+        """The links that each element hangs on; what stands for a contact is there only with both links of it."""
+        found = [outside_of(element) for element in self.elements]
+        for contact in self.scene.contacts:
+            if (place := self.place_of.get(contact.block)) is not None:
+                found[place] |= {*contact.links}
+        return tuple(map(frozenset, found))
+
+    @cached_property
+    def found_by_groups(self) -> frozenset[str]:
+        """The links that are not moved by drivers and cams alone: those of groups, and what hangs on them."""
+        found = {name for element in self.groups for name in links_of(element)}
+        before = -1
+        while len(found) > before:  # what rolls may follow through links that come later
+            before = len(found)
+            found.update(n for e, on in zip(self.elements, self.hangs_on, strict=True)
+                         if not on.isdisjoint(found) for n in links_of(e))  # fmt: skip
+        return frozenset(found)
 
     def slide(self, key: str) -> Slide:
         """The sliding pair or pin in slot of that name."""

@@ -9,9 +9,9 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure
+from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure, links_of
 
-__all__ = ["by_drivers_alone", "in_stages", "links_of", "needed", "outside_of", "part_of"]
+__all__ = ["by_drivers_alone", "in_stages", "needed", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -23,20 +23,14 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     """
     if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
         return list(structure.elements)
-    wanted: set[str] = set()
-    for symbol in asked:
-        wanted.update(_links_for(structure, symbol))
-    kept: list[Element] = []
-    while True:  # what rolls may follow through links that come later
-        before = len(wanted)
-        kept = [e for e in structure.elements if wanted.intersection(links_of(e))]
-        for element in kept:
-            wanted |= outside_of(element)
-        # what stands for a contact is there only with both links
-        blocks = {n for element in kept for n in links_of(element)}
-        wanted |= {n for c in structure.scene.contacts if c.block in blocks for n in c.links}
-        if len(wanted) == before:
-            return kept
+    wanted = [name for symbol in asked for name in _links_for(structure, symbol)]
+    kept: set[int] = set()
+    while wanted:
+        place = structure.place_of.get(wanted.pop())
+        if place is not None and place not in kept:
+            kept.add(place)
+            wanted += structure.hangs_on[place]
+    return [structure.elements[place] for place in sorted(kept)]
 
 
 def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
@@ -47,7 +41,7 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     ):  # of redundant links nothing is asked
         return False
     try:
-        return all(isinstance(element, Driven) for element in needed(structure, [symbol]))
+        return _links_for(structure, symbol).isdisjoint(structure.found_by_groups)
     except CallError:  # a special point of the drawing
         return False
 
@@ -57,15 +51,6 @@ def in_stages(elements: Sequence[Element]) -> bool:
     followers of cams, whose law has pieces, and what rolls."""
     followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam | Follower | Rolled) for e in elements)
     return any(isinstance(e, Cluster) or follows for e, follows in zip(elements, followers, strict=True))
-
-
-def links_of(element: Element) -> tuple[str, ...]:
-    """The links that an element places."""
-    if isinstance(element, Driven):
-        return (element.link,)
-    if isinstance(element, Cluster):
-        return element.members
-    return tuple(n for body in element.bodies for n in body.links)
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
@@ -129,26 +114,5 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
             found.add(ref.link)
         if not ref.link or ref.point not in structure.links[ref.link].points:
             # the pin itself must be placed too: by the first link of the order of solution that has it
-            order = {n: i for i, e in enumerate(structure.elements) for n in links_of(e)}
-            found.add(min(holders, key=lambda n: order.get(n, -1)))
+            found.add(min(holders, key=lambda n: structure.place_of.get(n, -1)))
     return found
-
-
-def outside_of(element: Element) -> set[str]:
-    """The links that an element hangs on."""
-    if isinstance(element, Driven):
-        if isinstance(element.driver, LawCam):
-            return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
-        if isinstance(element.driver, Rolled):
-            return {element.pair.a, element.pair.b, *element.driver.links} - {element.link}
-        pairs, drivers = [element.pair], [element.driver]
-    elif isinstance(element, Cluster):
-        pairs, drivers = list(element.pairs), list(element.drivers)
-    else:
-        pairs, drivers = [element.outer_first, element.outer_second], []
-    names = {n for pair in pairs for n in (pair.a, pair.b)}
-    names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
-    held = () if isinstance(element, Driven | Cluster) else (w.driver for body in element.bodies for w in body.welds)
-    names |= {n for d in (*drivers, *held) if isinstance(d, Follower) for n in d.through}
-    names |= {n for r in (element.rolling if isinstance(element, Cluster) else ()) for n in r.links}
-    return names.difference(links_of(element))

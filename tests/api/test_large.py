@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cProfile
 import math
 
 import pytest
@@ -50,6 +51,33 @@ def test_of_the_centres_of_16_dyads_only_those_of_rods_that_move_alike_are_wanti
 def test_a_figure_of_too_many_links_is_refused_in_a_sentence(command):
     with pytest.raises(CallError, match="49 moving links are too many"):
         command(chain(24))
+
+
+def test_of_too_many_links_those_that_lead_to_what_is_asked_are_drawn():
+    drawn = graphkin.draw(chain(24), find=["v_B4"])
+    assert ["mechanism", "velocity", "sheet", "centres"] == [n for n in drawn.figures if "-" not in n]
+    assert (9, ["A0", "A1", "A2", "A3", "A4"]) == (len(drawn.mechanism.links), list(drawn.mechanism.frame.points))
+    assert drawn.ok
+    assert drawn["v_B4"].exact == pytest.approx(graphkin.check(chain(24))["v_B4"].exact, rel=1e-9)
+
+
+def test_too_many_links_that_lead_to_what_is_asked_are_counted():
+    with pytest.raises(CallError, match="25 moving links are too many"):
+        graphkin.draw(chain(24), find=["v_B12"])
+
+
+@pytest.mark.parametrize(
+    ("most", "command"),
+    [(2.4, graphkin.solve), (4.0, graphkin.check), (4.0, lambda scene: graphkin.centres(scene).table)],
+)
+def test_the_work_grows_no_faster_than_the_square_of_the_links(most, command):
+    command(chain(2))
+    calls = []
+    for dyads in (20, 40):
+        profile = cProfile.Profile()
+        profile.runcall(command, chain(dyads))
+        calls.append(sum(entry.callcount for entry in profile.getstats()))
+    assert calls[1] <= most * calls[0]
 
 
 def test_ten_thousand_links_are_refused_by_the_reader():

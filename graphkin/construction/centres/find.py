@@ -55,10 +55,10 @@ def measured(sheet: Sheet) -> dict[str, LinkMotion]:
 
 
 def relative_centre(
-    motions: Mapping[str, LinkMotion], pair: LinkPair, chart: ProjectiveChart
+    motions: Mapping[str, LinkMotion], pair: LinkPair, chart: ProjectiveChart, largest: float
 ) -> tuple[Place, float] | None:
     """Where two links have the same velocity, and how far the place may be off on the unit sphere; None where they do
-    not move relative to each other.
+    not move relative to each other, beside the ``largest`` strength of all links.
 
     Raises
     ------
@@ -67,7 +67,6 @@ def relative_centre(
     one, two = motions[pair[0]], motions[pair[1]]
     at = chart.middle
     place, strength = chart.pole(at, one.of(at) - two.of(at), one.omega - two.omega)
-    largest = max((abs(chart.pole(at, m.of(at), m.omega)[1]) for m in motions.values()), default=0.0)
     return None if abs(strength) <= AT_REST * largest else (place, MEASURED * max(1.0, SLOW * largest / abs(strength)))
 
 
@@ -231,6 +230,8 @@ def _search(
         direction = chart.direction(p.place) if p.point is None else None
         table[p.pair] = Centre(p.pair, "permanent", p.place, p.point, direction, joint=p.joint, rolls=p.rolls)
         search.learn(p.pair, Known(p.place))
+    at = chart.middle
+    largest = max((abs(chart.pole(at, m.of(at), m.omega)[1]) for m in motions.values()), default=0.0)
     number = 0
     reach = _Reach(links, [normal.pair for normal in slots], motions, set(table))
     while len(table) < len(links.pairs):
@@ -239,7 +240,7 @@ def _search(
         if crossing is not None:
             centre = _crossed(crossing, chart, number, instrument)
         else:
-            centre = _otherwise(chart, motions, search, reach.best(table), number, way)
+            centre = _otherwise(chart, motions, search, reach.best(table), number, way, largest)
         table[centre.pair] = centre
         if centre.place is not None:
             search.learn(centre.pair, Known(centre.place, max(centre.error, 2e-16)))
@@ -299,13 +300,14 @@ def _crossed(crossing: CrossedCentre, chart: ProjectiveChart, number: int, instr
 
 
 def _otherwise(
-    chart: ProjectiveChart, motions: Mapping[str, LinkMotion], search: Search, pair: LinkPair, number: int, way: Way
-) -> Centre:
-    """A centre that Kennedy's theorem does not give now."""
+    chart: ProjectiveChart, motions: Mapping[str, LinkMotion], search: Search, pair: LinkPair, number: int, way: Way,
+    largest: float,
+) -> Centre:  # fmt: skip
+    """A centre that Kennedy's theorem does not give now; ``largest`` is the strongest motion of a link."""
     why = _why(search, pair)
     found = None
     if pair[0] in motions and pair[1] in motions:
-        found = relative_centre(motions, pair, chart)
+        found = relative_centre(motions, pair, chart, largest)
         if found is None:
             return Centre(pair, "undetermined", number=number, why=Phrase("centre no motion", pair))
     if found is None:

@@ -66,7 +66,10 @@ class Search:
         self.best: dict[LinkPair, CrossedCentre] = {}
         self._place = {pair: i for i, pair in enumerate(pairs)}
         self._ranked: list[tuple[int, int]] = []  # powers of ten of the errors, with the place of the pair: a heap
-        self._as_written = {frozenset(pair): pair for pair in pairs}
+        self._bit = {name: 1 << i for i, name in enumerate(names)}
+        # for each link a bit for every other whose centre with it is known, and for every one that needs no more lines
+        self._joined, self._full = dict.fromkeys(names, 0), dict.fromkeys(names, 0)
+        self._as_written = {(a, b): pair for pair in pairs for a, b in (pair, pair[::-1])}
         for normal in normals:
             self._add(CentreRelation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
 
@@ -74,13 +77,15 @@ class Search:
         """Take in a centre, and with it all lines that it completes."""
         self.known[pair] = known
         for a, b in (pair, pair[::-1]):
-            for via in self.names:
-                # the triangle a, b, via: the side from a to via is missing, b is its third link
-                if via in pair:
-                    continue
-                side, missing = self._as_written[frozenset((b, via))], self._as_written[frozenset((a, via))]
-                if side in self.known and missing not in self.known:
-                    self._relate(missing, b, pair, side)
+            self._joined[a] |= self._bit[b]
+        for a, b in (pair, pair[::-1]):
+            # the triangle a, b, via: the side from a to via is missing, b is its third link
+            wanted = self._joined[b] & ~(self._joined[a] | self._full[a] | self._bit[a])
+            while wanted:
+                first = wanted & -wanted
+                wanted ^= first
+                via = self.names[first.bit_length() - 1]
+                self._relate(self._as_written[a, via], b, pair, self._as_written[b, via])
 
     def next(self) -> CrossedCentre | None:
         """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
@@ -103,25 +108,25 @@ class Search:
             self._add(CentreRelation(missing, line, (a.error + b.error + ROUNDING) / sine, via, (one, two)))
 
     def _add(self, relation: CentreRelation) -> None:
-        pair = relation.pair
-        if len(self.lines[pair]) == MOST_LINES:
+        pair, lines = relation.pair, self.lines[relation.pair]
+        if len(lines) == MOST_LINES:
             return
-        for other in self.lines[pair]:
-            crossing = _cross(other, relation)
-            if crossing and (pair not in self.best or crossing.error < self.best[pair].error):
-                self.best[pair] = crossing
-                if crossing.error <= SURE:
-                    heappush(self._ranked, (math.ceil(math.log10(crossing.error)), self._place[pair]))
-        self.lines[pair].append(relation)
-
-
-def _cross(a: CentreRelation, b: CentreRelation) -> CrossedCentre | None:
-    place, sine = wedge(a.line, b.line)
-    if sine == 0.0:
-        return None
-    if place[2] < 0.0:
-        place = -place[0], -place[1], -place[2]
-    return CrossedCentre(a.pair, place, (a, b), sine, (a.error + b.error + ROUNDING) / sine)
+        for other in lines:
+            error = other.error + relation.error + ROUNDING
+            if pair in self.best and error >= self.best[pair].error:
+                continue  # however well they cross
+            place, sine = wedge(other.line, relation.line)
+            if sine == 0.0 or (pair in self.best and error / sine >= self.best[pair].error):
+                continue
+            if place[2] < 0.0:
+                place = -place[0], -place[1], -place[2]
+            self.best[pair] = CrossedCentre(pair, place, (other, relation), sine, error / sine)
+            if error / sine <= SURE:
+                heappush(self._ranked, (math.ceil(math.log10(error / sine)), self._place[pair]))
+        lines.append(relation)
+        if len(lines) == MOST_LINES:
+            for a, b in (pair, pair[::-1]):
+                self._full[a] |= self._bit[b]
 
 
 def closure(
