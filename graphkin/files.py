@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import os
+import re
+import stat
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -10,7 +13,7 @@ from typing import IO, Any
 
 from graphkin.errors import CallError, Problem
 
-__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "path_of", "whole_file"]
+__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "opened", "path_of", "whole_file"]
 
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
@@ -20,6 +23,8 @@ OwnTables = dict[str, Any]
 """The same, to be changed."""
 
 _LOCK = ".graphkin-writes-here"
+_HANDED_OVER = re.compile(r"/dev/stdin|/dev/fd/[0-9]+")
+"""Names of what a shell has opened already for the program."""
 
 
 def path_of(place: str | os.PathLike[str]) -> Path:
@@ -31,6 +36,21 @@ def path_of(place: str | os.PathLike[str]) -> Path:
     if not isinstance(path, str) or "\0" in path:
         raise CallError(Problem("path", f"found {place!r:.60}", "give the name of a file or folder as a text"))
     return Path(path)
+
+
+def opened(path: str | os.PathLike[str]) -> IO[bytes]:
+    """Open a file for reading: no device, which may never end, and no pipe into which perhaps nobody writes, unless the
+    shell hands it over open.
+
+    Raises
+    ------
+    OSError : there is no such file, or it cannot be read
+    ValueError : the name is one that no file can have
+    """
+    mode = os.stat(path).st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode) or _HANDED_OVER.fullmatch(os.fspath(path))):
+        raise OSError(errno.EINVAL, "it is a pipe or a device, no file")
+    return open(path, "rb")
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.files import folder_alone, whole_file
+from graphkin.files import folder_alone, opened, whole_file
 
 HOLDS = """
 import sys
@@ -20,6 +20,23 @@ with folder_alone(Path(sys.argv[1])):
     print("here", flush=True)
     sys.stdin.read()
 """
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+def test_only_files_are_opened(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", "/dev/zero"):
+        with pytest.raises(OSError, match="it is a pipe or a device, no file"):
+            opened(path)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+def test_what_the_shell_hands_over_open_is_read() -> None:
+    handed = subprocess.run(
+        [sys.executable, "-c", "from graphkin.files import opened; print(opened('/dev/stdin').read())"],
+        input=b"here", capture_output=True, check=True,
+    )  # fmt: skip
+    assert b"b'here'\n" == handed.stdout
 
 
 def test_a_file_that_fails_leaves_the_one_before(tmp_path: Path) -> None:

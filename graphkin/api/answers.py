@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
-from graphkin.files import path_of
+from graphkin.files import opened, path_of
 from graphkin.scene.cells import is_blank, read_cell
 from graphkin.scene.directions import Way, read_way
 from graphkin.scene.model import Mechanism
@@ -117,7 +117,7 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
     """
     shown = str(path)[:200]
     try:
-        with path_of(path).open("rb") as stream:
+        with opened(path_of(path)) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)

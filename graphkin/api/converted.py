@@ -11,7 +11,7 @@ from pathlib import Path
 
 from graphkin.api.arguments import SceneLike, as_scene, write_files
 from graphkin.api.results import Result
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
 from graphkin.scene.mapping import toml_text
@@ -63,7 +63,7 @@ class Converted(Result):
         return f"<Converted {self.scene.name}: {len(self.scene.links)} moving links, {len(self.left)} left out>"
 
 
-def convert(source: SceneLike, out: str | os.PathLike[str] | None = None) -> Converted:
+def convert(source: SceneLike, out: str | os.PathLike[str] | None = None, lossy: bool = False) -> Converted:
     """Make a scene of another program's mechanism, or give a scene to another program.
 
     Read are PMKS (its table of joints), PMKS+ (a shared link), Linkage (.linkage2), pyslvs (an expression, .pyslvs),
@@ -73,10 +73,12 @@ def convert(source: SceneLike, out: str | os.PathLike[str] | None = None) -> Con
     ----------
     source : a file of another program, a shared link, or a scene in any of its forms
     out : the file to write, its form by the ending of its name: .toml, .linkage2, .pyslvs or .json
+    lossy : leave out what moves, drives or loads and cannot be carried over
 
     Raises
     ------
-    CallError : the file is of no program known here, holds no mechanism, or ``out`` cannot be written
+    CallError : the file is of no program known here, holds no mechanism, ``out`` cannot be written, or something that
+        moves, drives or loads would be lost
     SceneError : what it holds is no mechanism
     Unsolvable : a scene that cannot be assembled has no position to write
 
@@ -93,16 +95,26 @@ def convert(source: SceneLike, out: str | os.PathLike[str] | None = None) -> Con
     foreign = kind in READ or "://" in shown or is_address(shown) or (kind != ".toml" and _is_file(shown))
     if foreign:
         bodies = read_bodies(shown)
-        scene = Scene.of(bodies.scene(), safe_name(bodies.title))
+        _all_kept(bodies, lossy)
+        mapping = bodies.scene()
+        _all_kept(bodies, lossy)
+        scene = Scene.of(mapping, safe_name(bodies.title))
     else:
         given = as_scene(source)
         scene = source if isinstance(source, Scene) else Scene.of(_written(source, given), given.name)
         bodies = Bodies(given.title) if ending == ".toml" else _bodies(given)
     text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
-    made = Converted(scene, ending, text, tuple(bodies.left))
+    _all_kept(bodies, lossy)
+    made = Converted(scene, ending, text, (*bodies.lost, *bodies.left))
     if target is not None:
         write_files(target.parent, {target.name: text.encode()})
     return made
+
+
+def _all_kept(bodies: Bodies, lossy: bool) -> None:
+    """Raises CallError naming what moves, drives or loads and would be lost."""
+    if bodies.lost and not lossy:
+        raise CallError(*(Problem(t, "would be lost", "with --lossy (lossy=True) it is left out") for t in bodies.lost))
 
 
 def _is_file(path: str) -> bool:
@@ -144,7 +156,7 @@ def _bodies(scene: Mechanism) -> Bodies:
     pairs += [(p.of, p.point, p.on, p.guide, True) for p in scene.pins]
     for body, pin, on, guide, turns in pairs:
         if pin is None:
-            made.left.append(f"slide of {body} on {on} (link {body} has no point)")
+            made.lost.append(f"slide of {body} on {on} (link {body} has no point)")
             continue
         line = scene.by_name[on].guides[guide]
         origin, turn = poses[on]
@@ -152,14 +164,18 @@ def _bodies(scene: Mechanism) -> Bodies:
             BodySlide(_name(scene, body), pin, _name(scene, on), origin + turn * line.through / unit,
                   cmath.phase(turn * line.direction), turns)
         )  # fmt: skip
-    made.left += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
-    made.left += [f"contact {c.name} of {' and '.join(c.links)}" for c in scene.contacts]
-    made.left += [f"gears {g.name} of {' and '.join(g.wheels)}" for g in scene.gears]
+    made.lost += [f"cam {cam.link} with its follower {cam.follower}" for cam in scene.cams]
+    made.lost += [f"contact {c.name} of {' and '.join(c.links)}" for c in scene.contacts]
+    made.lost += [f"gears {g.name} of {' and '.join(g.wheels)}" for g in scene.gears]
+    made.lost += [f"link {link.name} (it is redundant)" for link in scene.links if link.redundant]
+    made.lost += [f"mass of {mass.link}" for mass in scene.loading.masses]
+    made.lost += [f"load {load.name}" for load in scene.loading.loads]
+    made.lost += [f"spring {spring.name}" for spring in scene.loading.springs]
     for driver in scene.drivers:
         if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
             made.drives.append(BodyDrive(driver.link, driver.omega))
         else:
-            made.left.append(f"driver {driver.key}")
+            made.lost.append(f"driver {driver.key}")
     return made
 
 

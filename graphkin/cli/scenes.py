@@ -130,6 +130,7 @@ def convert(
             "-o", "--out", metavar="FILE", help="What to write: .toml, .linkage2, .pyslvs, .json; printed if not given."
         ),
     ] = None,
+    lossy: Annotated[bool, typer.Option("--lossy", help="Leave out what cannot be carried over, and name it.")] = False,
     as_json: JsonOption = False,
     quiet: QuietOption = False,
 ) -> None:
@@ -138,7 +139,7 @@ def convert(
 
     if out is not None and out.exists():
         raise CallError(Problem(str(out), "a file of that name is there already", "name another file"))
-    made = converting(source, out)
+    made = converting(source, out, lossy)
     if as_json:
         print_json(made.data)
     elif out is None:

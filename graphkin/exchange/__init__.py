@@ -13,6 +13,7 @@ from graphkin.exchange.linkage2 import read_linkage2, write_linkage2
 from graphkin.exchange.pmks import is_address, read_address, read_table
 from graphkin.exchange.pylinkage import read_pylinkage, write_pylinkage
 from graphkin.exchange.pyslvs import read_pyslvs, write_pyslvs
+from graphkin.files import opened
 
 __all__ = ["FRAME", "READ", "Bodies", "BodyDrive", "BodySlide", "is_address", "read_bodies", "write_bodies"]
 
@@ -42,7 +43,7 @@ def read_bodies(source: str) -> Bodies:
     if kind not in READ:
         raise CallError(Problem(path.name[:100], f'"{kind}" is of no program known here', f"known: {', '.join(READ)}"))
     try:
-        with path.open("rb") as stream:
+        with opened(path) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)

@@ -47,7 +47,8 @@ class BodyDrive:
 @dataclass
 class Bodies:
     """Points at places in the world (length unit), bodies with the points that they have, the fixed one by the name
-    ``FRAME``; ``left`` are things that cannot be carried over, each by its name."""
+    ``FRAME``; ``lost`` are things that move, drive or load and cannot be carried over, each by its name, ``left`` what
+    else cannot."""
 
     title: str
     places: dict[str, complex] = field(default_factory=dict)
@@ -56,6 +57,7 @@ class Bodies:
     drives: list[BodyDrive] = field(default_factory=list)
     unit: str = "mm"
     left: list[str] = field(default_factory=list)
+    lost: list[str] = field(default_factory=list)
 
     def point(self, name: str, place: complex) -> str:
         """A point by a name that a scene may have, which is returned."""
@@ -116,7 +118,7 @@ class Bodies:
         """The same with pins in slots instead of blocks that only have one pin, and two points of its body on every
         line that bodies slide on: for programs that know no others."""
         made = Bodies(self.title, dict(self.places), {n: list(own) for n, own in self.bodies.items()}, [],
-                      list(self.drives), self.unit, self.left)  # fmt: skip
+                      list(self.drives), self.unit, self.left, self.lost)  # fmt: skip
         guides, driven = {s.on for s in self.slides}, {d.body for d in self.drives if d.point}
         for slide in self.slides:
             block = slide.body
@@ -128,7 +130,7 @@ class Bodies:
                 made.slides.append(replace(slide, body=others[0], turns=True))
                 del made.bodies[block]
             else:
-                self.left.append(f"slide of {block} on {slide.on} (it keeps its angle)")
+                self.lost.append(f"slide of {block} on {slide.on} (it keeps its angle)")
         size = max((abs(a - b) for a in self.places.values() for b in self.places.values()), default=0.0) or 1.0
         for k, slide in enumerate(made.slides):
             way, own = cmath.rect(size, slide.angle), made.bodies.setdefault(slide.on, [])
@@ -140,13 +142,14 @@ class Bodies:
         """A body of one point that only hangs on another is that other's pin; one with none is nothing."""
         for name in [n for n, own in self.bodies.items() if not own and n != FRAME]:
             del self.bodies[name]
+            self.lost += [f"slide of {s.body} on {s.on}" for s in self.slides if name in (s.body, s.on)]
             self.slides = [s for s in self.slides if name not in (s.body, s.on)]
         sliding = {s.body for s in self.slides} | {s.on for s in self.slides}
         for name, own in list(self.bodies.items()):
             if name != FRAME and len(own) == 1 and name not in sliding:
                 del self.bodies[name]
                 self.left.append(f"link {name} (it has one point only)")
-        self.left += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
+        self.lost += [f"driver of {d.body}" for d in self.drives if d.body not in self.bodies]
         self.drives = [d for d in self.drives if d.body in self.bodies]
 
     def _lines(self) -> tuple[dict[str, dict[str, BodySlide]], list[tuple[BodySlide, str]]]:

@@ -79,7 +79,7 @@ class _Construction:
             on = next((n for n, own in holders.items() if ends <= set(own)), None)
             body = next((n for n, own in holders.items() if n != on and self.points[point] in own), None)
             if on is None or body is None:
-                self.made.left.append(f"point {point} on {line} (no link has that line)")
+                self.made.lost.append(f"point {point} on {line} (no link has that line)")
             else:
                 self.made.slides.append(
                     BodySlide(body, self.points[point], on, one, cmath.phase(two - one), turns=True)
@@ -119,13 +119,14 @@ class _Construction:
                     elif curve in self.lines:
                         self.slid.append((point, curve))
                     else:
-                        self.made.left.append(f"curve {curve} through {point}")
+                        self.made.lost.append(f"curve {curve} through {point}")
         elif name == "Midpoint" and len(given) == 2 and set(given) <= set(self.points) and out in self.points:
             self.moving.add(out)
             self.bars += [[*given, out]]
         elif name not in ("Slider", "Locus", "Distance", "Angle", "Length", "Text"):
-            self.made.left.append(f"{name} {', '.join(filter(None, got))}")
-            self.moving |= {p for p in got if p in self.points}
+            made = {p for p in got if p in self.points}
+            (self.made.lost if made else self.made.left).append(f"{name} {', '.join(filter(None, got))}")
+            self.moving |= made
 
     def _plates(self) -> list[list[str]]:
         """Bars that share two points are one body; three bars that close a triangle of moving points too."""

@@ -46,7 +46,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
         own = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in points]
         label = element.get("name") or f"L{element.get('id', '')}"
         if element.get("gear") == "true":
-            made.left.append(f"gear {label}")
+            made.lost.append(f"gear {label}")
         if all(nodes[k].get("anchor") == "true" for k in own) and own:
             continue  # part of the frame
         if element.get("actuator") == "true" and len(own) == 2:
@@ -55,8 +55,8 @@ def read_linkage2(text: str, title: str) -> Bodies:
         name = made.body(label, [points[k] for k in own])
         for key in own:
             names.setdefault(key, []).append(name)
-    made.left += [f"{r.get('type', 'gears')} ratio" for ratios in root if ratios.tag == "ratios" for r in ratios]
-    made.left += [f"fastening of {n.get('name') or n.get('id')}" for n in (*nodes.values(), *elements) if _fastened(n)]
+    made.lost += [f"{r.get('type', 'gears')} ratio" for ratios in root if ratios.tag == "ratios" for r in ratios]
+    made.lost += [f"fastening of {n.get('name') or n.get('id')}" for n in (*nodes.values(), *elements) if _fastened(n)]
     for key, node in nodes.items():
         if node.get("slider") == "true" and key in points:
             holders = names.get(key, []) or [FRAME] * (node.get("anchor") == "true")
@@ -64,7 +64,7 @@ def read_linkage2(text: str, title: str) -> Bodies:
         if node.get("anchor") == "true" and node.get("input") == "true":
             turned = names.get(key, [])
             if not turned:
-                made.left.append(f"motor at {node.get('name') or key} (no link turns about it)")
+                made.lost.append(f"motor at {node.get('name') or key} (no link turns about it)")
             else:
                 made.drives.append(BodyDrive(turned[0], _number(node, "rpm", RPM) * math.tau / 60))
     return made
@@ -93,21 +93,21 @@ def _slider(
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     label = node.get("name") or node.get("id")
     if len(limits) < 2 or any(k not in points for k in limits) or not own:
-        made.left.append(f"slider {label} (it has no two limits)")
+        made.lost.append(f"slider {label} (it has no two limits)")
         return
     if _number(node, "slideradius"):
-        made.left.append(f"slider {label} (its slot is round)")
+        made.lost.append(f"slider {label} (its slot is round)")
         return
     one, two = (made.places[points[k]] for k in limits)
     fixed = all(points[k] in made.bodies[FRAME] for k in limits)
     shared = [n for n in names.get(limits[0], []) if n in names.get(limits[1], [])]
     if not fixed and not shared:
-        made.left.append(f"slider {label} (its limits lie on two links)")
+        made.lost.append(f"slider {label} (its limits lie on two links)")
         return
     point = points[node.get("id", "")]
     on = FRAME if fixed else shared[0]
     if point in made.bodies.get(on, []):
-        made.left.append(f"slider {label} (it is a point of the link that guides it)")
+        made.lost.append(f"slider {label} (it is a point of the link that guides it)")
         return
     made.slides.append(BodySlide(own[0], point, on, one, cmath.phase(two - one), turns=True))
 
@@ -123,7 +123,7 @@ def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list
 
 
 def write_linkage2(bodies: Bodies) -> str:
-    """The text of a file; what it cannot hold is added to ``left``."""
+    """The text of a file; what it cannot hold is added to ``lost``."""
     bodies = bodies.with_pins()
     root = ElementTree.Element("linkage2")
     ElementTree.SubElement(root, "program", units="Millimeters", zoom="1.000000")
@@ -133,7 +133,7 @@ def write_linkage2(bodies: Bodies) -> str:
     for drive in bodies.drives:
         pivot = next((p for p in bodies.bodies.get(drive.body, ()) if p in fixed), "")
         if drive.point or not pivot:
-            bodies.left.append(f"driver of {drive.body}")
+            bodies.lost.append(f"driver of {drive.body}")
         else:
             motors[pivot] = drive.rate * 60 / math.tau
     ends: dict[str, list[str]] = {}

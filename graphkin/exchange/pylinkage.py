@@ -38,7 +38,7 @@ def read_pylinkage(text: str, title: str) -> Bodies:
             _mechanism(made, data)
         else:
             _linkage(made, data["joints"])
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
         raise CallError(Problem(title, f"is no mechanism of pylinkage: {error!r:.100}", "save it anew")) from None
     return made
 
@@ -74,6 +74,8 @@ def _mechanism(made: Bodies, data: Tables) -> None:
         holders = [n for n, own in made.bodies.items() if n != FRAME and points[key] in own]
         if holders:
             made.slides.append(BodySlide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
+        else:
+            made.lost.append(f"slide of joint {key} (no link has it)")
 
 
 def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
@@ -145,7 +147,7 @@ def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
             join(name, first)
             lines.append((name, second, third))
         else:
-            made.left.append(f"joint {name} of the kind {joint['type']}")
+            made.lost.append(f"joint {name} of the kind {joint['type']}")
     made.body(FRAME, [points[k] for k in dict.fromkeys(fixed)])
     names: dict[str, str] = {}
     for key, own in bars.items():
@@ -156,13 +158,13 @@ def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
         held = next((n for n, own in made.bodies.items() if {points[one_end], points[two_end]} <= set(own)), None)
         holders = [n for n, own in made.bodies.items() if points[name] in own]
         if held is None or not holders:
-            made.left.append(f"joint {name} (its line belongs to no link)")
+            made.lost.append(f"joint {name} (its line belongs to no link)")
         else:
             made.slides.append(BodySlide(holders[0], points[name], held, a, cmath.phase(b - a), turns=True))
 
 
 def write_pylinkage(bodies: Bodies) -> str:
-    """The JSON of a mechanism; what it cannot hold is added to ``left``."""
+    """The JSON of a mechanism; what it cannot hold is added to ``lost`` or ``left``."""
     bodies = bodies.with_pins()
     fixed = set(bodies.bodies.get(FRAME, ()))
     slides = {s.point: s for s in bodies.slides}
@@ -174,7 +176,7 @@ def write_pylinkage(bodies: Bodies) -> str:
             joints.append(at | {"type": "ground" if point in fixed else "revolute"})
             continue
         if slide.on != FRAME:
-            bodies.left.append(f"slide of {slide.body} on {slide.on} (its line moves)")
+            bodies.lost.append(f"slide of {slide.body} on {slide.on} (its line moves)")
         axis = cmath.rect(1.0, slide.angle)
         line = [number(slide.through.real), number(slide.through.imag)]
         at |= {"type": "prismatic", "axis": [axis.real, axis.imag]}
@@ -183,14 +185,14 @@ def write_pylinkage(bodies: Bodies) -> str:
     links: list[OwnTables] = [{"id": "ground", "type": "ground", "joints": pivots}]
     bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
     driven = {d.body: d for d in bodies.drives if not d.point}
-    bodies.left += [f"driver of {d.body}" for d in bodies.drives if d.point]
+    bodies.lost += [f"driver of {d.body}" for d in bodies.drives if d.point]
     for name, own in bodies.bodies.items():
         if name == FRAME or (len(own) < 2 and name not in driven):
             continue
         link: OwnTables = {"id": name, "type": "link", "joints": own}
         pivot = next((p for p in own if p in fixed), None)
         if name in driven and (pivot is None or len(own) < 2):
-            bodies.left.append(f"driver of {name} (it has no two points)")
+            bodies.lost.append(f"driver of {name} (it has no two points)")
         elif name in driven and pivot is not None:
             way = next(bodies.places[p] - bodies.places[pivot] for p in own if p != pivot)
             link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name].rate),

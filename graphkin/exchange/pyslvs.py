@@ -56,7 +56,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         if turned:
             made.drives.append(BodyDrive(turned[0], INPUT_SPEED))
         else:
-            made.left.append(f"input from {base} to {drive} (no link has both)")
+            made.lost.append(f"input from {base} to {drive} (no link has both)")
     return made
 
 

@@ -9,6 +9,7 @@ from io import BytesIO
 from pathlib import Path
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.files import opened
 from graphkin.scene.sheet_tables import Background, ReadScan
 
 __all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
@@ -103,7 +104,7 @@ def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
 
     shown = ascii(file)[1:-1][-80:] if not file.isprintable() else file[-80:]
     try:
-        with open(file, "rb") as stream:
+        with opened(file) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)

@@ -11,7 +11,7 @@ from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from graphkin.errors import Problem, SceneError, did_you_mean
-from graphkin.files import OwnTables, Tables
+from graphkin.files import OwnTables, Tables, opened
 from graphkin.scene.mapping import as_mapping
 from graphkin.scene.model import Mechanism
 from graphkin.scene.written import Scene, resolved
@@ -33,6 +33,13 @@ SceneLike = Scene | Mechanism | str | os.PathLike[str] | Tables
 """A scene in any of its forms: built, read, a file, the name of one that comes along, or a mapping."""
 
 LARGEST_FILE = 1_000_000
+DEEPEST = 16
+"""Levels of a key, and of brackets in brackets: more than any scene has, and few enough for the parser, whose memory
+grows with the square of a key's parts."""
+_PARTS = re.compile(
+    r'''"""(?:[^"\\]|\\.|"(?!""))*+(?:""")?|'{3}(?:[^']|'(?!''))*+(?:'{3})?'''  # strings of several lines
+    r'''|"(?:[^"\\\n]|\\.)*+"?|'[^'\n]*+'?|\#[^\n]*+|[][{}.=,\n]''', re.DOTALL)  # fmt: skip
+"""Strings and comments of a TOML text, whole, and the signs that part its keys and values."""
 _AT_LINE = re.compile(r"^(.*?)\s*\(at (?:line (\d+), column (\d+)|(end of document))\)$", re.DOTALL)
 
 
@@ -133,17 +140,37 @@ def parsed(text: str) -> OwnTables:
     """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())
+    deep = Problem("the file", "is nested too deeply", "a scene needs at most four levels")
+    if _depth(text) > DEEPEST:
+        raise SceneError(deep)
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise SceneError(_syntax(str(error), text)) from None
     except RecursionError:
-        raise SceneError(Problem("the file", "is nested too deeply", "a scene needs at most four levels")) from None
+        raise SceneError(deep) from None
     except ValueError as error:
         if "int_max_str_digits" in str(error):
             raise SceneError(Problem("the file", "is not TOML: a number of thousands of digits",
                                      "no number of a scene may exceed 1e+15")) from None
         raise SceneError(Problem("the file", f"is not TOML: {error}", "see https://toml.io")) from None
+
+
+def _depth(text: str) -> int:
+    """The most parts that a key of a TOML text has, or brackets that stand in each other."""
+    most = brackets = dots = 0
+    for part in _PARTS.finditer(text):
+        sign = part[0]
+        if sign == ".":
+            dots += 1
+        elif sign in "[{":
+            brackets, dots = brackets + 1, 0
+        elif sign in "]}":
+            brackets, dots = max(brackets - 1, 0), 0
+        elif sign in "=,\n":
+            dots = 0
+        most = max(most, brackets, dots)
+    return most
 
 
 def _is_file(path: str) -> bool:
@@ -159,7 +186,7 @@ def file_text(path: str) -> str:
     try:
         if os.path.isdir(path):
             raise SceneError(Problem(shown, "is a directory", "name a scene file in it"))
-        with open(path, "rb") as stream:
+        with opened(path) as stream:
             data = stream.read(LARGEST_FILE + 1)
     except FileNotFoundError:
         raise SceneError(_no_scene(path, shown)) from None

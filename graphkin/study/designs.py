@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import csv
+import io
 import math
 import os
 from collections.abc import Mapping, Sequence
@@ -13,7 +14,7 @@ from itertools import islice
 from numbers import Real
 
 from graphkin.errors import CallError, Problem, as_text
-from graphkin.files import OwnTables, Tables, path_of
+from graphkin.files import OwnTables, Tables, opened, path_of
 from graphkin.scene.written import put
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
@@ -145,8 +146,9 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
     """Keys and rows of a CSV file of designs.  Raises CallError, naming the row."""
     shown = path_of(path)
     try:
-        with open(path, newline="", encoding="utf-8-sig") as stream:
-            lines = list(islice(csv.reader(stream), MOST_ROWS + 2))
+        with opened(shown) as stream:
+            text = io.TextIOWrapper(stream, encoding="utf-8-sig", newline="")
+            lines = list(islice(csv.reader(text), MOST_ROWS + 2))
     except OSError as error:
         raise CallError(Problem(str(shown), f"cannot be read: {error.strerror}")) from None
     except (UnicodeDecodeError, csv.Error) as error:

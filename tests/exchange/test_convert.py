@@ -13,6 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.api.converted import convert
+from graphkin.errors import CallError
 
 from ..command import run
 
@@ -251,6 +252,71 @@ def test_slides_slots_and_cylinders_of_pmks_are_sliding_pairs(shared: str, kinds
     assert (1, "ok") == (solved.data["mobility"], solved.data["positions"][0]["status"])
     assert len(solved.data["positions"][0]["slides"]) == 1
     assert kinds == [g["kind"] for g in solved.data["groups"]] or solved.data["groups"][0]["class"] == 2
+
+
+SLIDER_IN_ITS_RECORD = address(
+    [shared_joint("A", 6, 0j), shared_joint("B", 0, 3 + 4j), shared_joint("C", 5, 15 + 1j, "0,,,,,0")],
+    [shared_link("AB"), shared_link("BC")],
+)  # fmt: skip
+
+
+def test_a_slider_of_pmks_that_no_block_names_is_refused_by_name():
+    with pytest.raises(CallError, match=r"slider C \(no block has it\): would be lost"):
+        convert(SLIDER_IN_ITS_RECORD)
+
+
+def test_a_link_of_pmks_with_a_check_sum_is_refused():
+    with pytest.raises(CallError, match="with a check sum after the"):
+        convert(f"{PMKS_PLUS}*1x1bjb")
+
+
+def test_a_number_of_400_digits_in_a_link_of_pmks_is_refused():
+    with pytest.raises(CallError, match=r'"1111.*" is no number of PMKS'):
+        convert(PMKS_PLUS.replace(in_base_64(C.real), "1" * 400))
+
+
+def test_a_number_of_400_digits_in_a_file_of_pylinkage_is_refused(tmp_path: Path):
+    (tmp_path / "a.json").write_text('{"joints": [{"type": "Static", "x": 1%s, "y": 0}]}' % ("0" * 400))
+    with pytest.raises(CallError, match="is no mechanism of pylinkage"):
+        convert(tmp_path / "a.json")
+
+
+WHITWORTH = {
+    "frame": {"points": {"A": [0, 100], "C": [0, 0]}},
+    "links": {
+        "1": {"points": ["A", "B"], "length": 150},
+        "2": {"points": ["B"], "on": "3"},
+        "3": {"points": ["C"], "at": {"D": [300, 0]}},
+    },
+    "driver": {"link": "1", "angle": 30, "omega": 2},
+}
+LOADED = WHITWORTH | {
+    "masses": {"1": {"at": [0, 0], "mass": 2}},
+    "loads": {"P": {"on": "3", "at": "D", "force": 9, "angle": 0}},
+}
+
+
+@pytest.mark.parametrize(
+    ("scene", "ending", "lost"),
+    [
+        (WHITWORTH, ".json", ["slide of 1 on 3 (its line moves)"]),
+        (LOADED, ".pyslvs", ["mass of 1", "load P"]),
+        ("cam-eccentric-flat-rocker", ".linkage2", ["contact K of 1 and 2"]),
+    ],
+)
+def test_what_moves_or_loads_is_only_lost_where_that_is_asked_for(scene, ending: str, lost: list[str], tmp_path: Path):
+    with pytest.raises(CallError) as stop:
+        convert(scene, tmp_path / f"a{ending}")
+    assert lost == [problem.where for problem in stop.value.problems]
+    assert [] == list(tmp_path.iterdir())
+    assert set(lost) <= set(convert(scene, tmp_path / f"a{ending}", lossy=True).left)
+
+
+def test_the_command_says_what_would_be_lost_and_leaves_it_out_where_it_may(tmp_path: Path):
+    out = str(tmp_path / "a.toml")
+    answer = run("convert", SLIDER_IN_ITS_RECORD, "-o", out)
+    assert (2, []) == (answer.returncode, list(tmp_path.iterdir()))
+    assert "slider C (no block has it): would be lost; with --lossy (lossy=True) it is left out" in answer.stderr
 
 
 def test_a_slider_of_pyslvs_keeps_its_angle_and_a_pin_turns_in_its_slot(tmp_path: Path) -> None:

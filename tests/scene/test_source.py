@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text, source
+from tests.command import run
 
 from .scenes import FOUR_BAR
 
@@ -18,6 +21,12 @@ pytestmark = pytest.mark.quick
 def sentence(source: object) -> str:
     with pytest.raises(SceneError) as error:
         mechanism_of(source)  # type: ignore[arg-type]
+    return str(error.value)
+
+
+def sentence_of_text(text: str) -> str:
+    with pytest.raises(SceneError) as error:
+        source.parsed(text)
     return str(error.value)
 
 
@@ -144,6 +153,54 @@ def test_what_is_not_toml_is_named_by_line(text: str) -> None:
 def test_deep_tables_are_one_sentence() -> None:
     with pytest.raises(SceneError, match="nested"):
         mechanism_of_text("[" + ".".join("a" * 50) + "]", "x")
+
+
+PIPE_SCENES = {
+    "scene": "",
+    "background": '[sheet]\nbackground = { file = "pipe", points = { A = [0, 0], D = [9, 9] } }\n',
+    "scans": '[scans.velocity]\nfile = "pipe"\npoints = { a = [0, 0], b = [9, 9] }\nread = { c = [1, 1] }\n',
+    "printed_table": '[printed_table]\nfile = "pipe"\n',
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="pipes of POSIX")
+@pytest.mark.parametrize("table", PIPE_SCENES)
+def test_a_pipe_instead_of_a_file_is_told_and_not_waited_for(table: str, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    path = tmp_path / ("pipe" if table == "scene" else "scene.toml")
+    if table != "scene":
+        path.write_text(FOUR_BAR + PIPE_SCENES[table])
+    answer = run("audit", str(path))
+    assert 2 == answer.returncode
+    assert "cannot be read: it is a pipe or a device, no file" in answer.stderr
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"x{'.a' * 40} = 1", f"x{' . a' * 40} = 1", f"[x{'.a' * 40}]",
+        f"x = {{ y{'.a' * 40} = 1 }}", "x = " + "[" * 40,
+        f"x = {'{ a = ' * 40}1{' }' * 40}", f's = """\n" ]] \'\n"""\nx{".a" * 40} = 1',
+        f'x{"."}"a"' + '."a"' * 40 + " = 1",
+    ],
+)  # fmt: skip
+def test_what_is_nested_deeply_is_not_parsed(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(source.tomllib, "loads", None)
+    assert "the file: is nested too deeply" in sentence_of_text(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f'title = "{"a." * 40}{"[" * 40}"',
+        f"title = '{'a.' * 40}'", f"# {'a.' * 40}{'[' * 40}", f"x = [{'1.5, ' * 40}1]",
+        f"x = [\n{'  [1, 2],' * 40}\n]", f'x = """\n{"[" * 40}\\"""\n{"a." * 40}"""',
+        "x = 'a\\'\ny = '" + "[" * 40 + "'",
+        f"x = \"\\\"{'[' * 40}\"",
+    ],
+)  # fmt: skip
+def test_dots_and_brackets_in_texts_and_remarks_are_no_depth(text: str) -> None:
+    assert tomllib.loads(text) == source.parsed(text)
 
 
 def test_a_mapping_that_holds_itself_is_one_sentence() -> None:
