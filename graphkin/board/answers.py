@@ -31,6 +31,7 @@ from graphkin.scene.source import LARGEST_FILE, parsed
 from graphkin.scene.written import put, resolved, safe_name
 from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, area
+from graphkin.words.refused import refused, refused_as
 
 __all__ = ["LINK", "QUESTIONS", "Desk", "answer", "scene_link", "text_of_link"]
 
@@ -74,11 +75,18 @@ def answer(desk: Desk, message: object) -> Answer:
         return {**head, "ok": False, **_problems(desk, huge, message)}
 
 
+def language_of(message: object) -> str:
+    """The language in which a message wants its answer, English where it does not say."""
+    language = message.get("language") if isinstance(message, Mapping) else None
+    return language if language in LANGUAGES else LANGUAGES[0]
+
+
 def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
     text = message.get("text") if isinstance(message, Mapping) else ""
     text = text if isinstance(text, str) else ""
+    spoken, lines = language_of(message), isinstance(error, SceneError) or text != ""
     found: list[dict[str, Json]] = [
-        {"text": str(problem), "line": line_of(problem, text) if isinstance(error, SceneError) or text else 0}
+        {"text": refused_as(problem, spoken), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
     return {"problems": found, "kind": type(error).__name__, **_draft_of(desk, text, message)}
@@ -201,7 +209,9 @@ def _complete(desk: Desk, message: Message) -> Answer:
     line, column = message.get("line"), message.get("column")
     if not isinstance(line, int) or not isinstance(column, int):
         raise CallError(Problem("complete", "no place in the text", "give line and column"))
-    return {"options": completions(_text(message), line, column)}
+    language = language_of(message)
+    found = completions(_text(message), line, column)
+    return {"options": [{**one, "detail": refused(one["detail"], language)} for one in found]}
 
 
 def _open(desk: Desk, message: Message) -> Answer:
@@ -343,8 +353,7 @@ def _link(desk: Desk, message: Message) -> Answer:
 
 def _names(desk: Desk, message: Message) -> Answer:
     """The words of the page in a language."""
-    language = message.get("language")
-    spoken = language if language in LANGUAGES else LANGUAGES[0]
+    spoken = language_of(message)
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
     return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(FIGURES)}
 

@@ -33,6 +33,7 @@ from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.reach import driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, languages
+from graphkin.words.refused import refused, refused_as
 from graphkin.words.written import in_markup
 
 __all__ = [
@@ -191,7 +192,7 @@ def shown(
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1 or error.status not in ("not assembled", "dead point"):
             raise
-        at, said = _last(scene, at), error.why
+        at, said = _last(scene, at), _said(error, _spoken(options.language, scene))
         drawn, motion = drawn_at(structure, at, options)
     answer: dict[str, Json] = {
         "figures": _figures(drawn),
@@ -242,7 +243,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
-        said = _why(moved.structure, values, error)
+        said = _said(_exactly(moved.structure, values, error), _spoken(options.language, scene))
         what = moved.plan(driver_values(scene, _last(scene, at)))
     moved.last = what
     sheet = execute(replace(what, scales=options.scales or what.scales))
@@ -263,13 +264,22 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     }
 
 
-def _why(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> str:
+def _spoken(language: str | None, scene: Mechanism) -> str:
+    """The language in which is said what is no figure."""
+    return languages(language or scene.sheet.language)[0]
+
+
+def _said(error: GraphkinError, language: str) -> str:
+    return " ".join(refused_as(problem, language) for problem in error.problems)
+
+
+def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> Unsolvable:
     """Why a position cannot be had, in the words of the solver, which tells it in fifty digits, if it finds so too."""
     try:
         solved_here(structure, values, asked_here(tuple(structure.scene.find)))
     except Unsolvable as exact:
-        return exact.why
-    return stop.why
+        return exact
+    return stop
 
 
 def _is_fast(what: Plan) -> bool:
@@ -302,7 +312,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
         try:
             made = FIGURES[name].make(drawn)
         except GraphkinError as error:
-            found[name] = f"<p>{words_html(in_markup(str(error)))}</p>"
+            found[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
             continue
         if made is not None:
             found[name] = figure_svg(made, named=True)
@@ -323,12 +333,13 @@ def _points(motion: Motion) -> dict[str, Json]:
 
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
-    spoken = languages(options.language or scene.sheet.language)[0]
+    spoken = _spoken(options.language, scene)
     speaker = Speaker(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
-        limits: dict[str, Json] = reach(scene)._asdict()
+        found = reach(scene)
+        limits: dict[str, Json] = {**found._asdict(), "why": refused(found.why, spoken)}
     except GraphkinError as error:
-        limits = {"low": None, "high": None, "turns": False, "why": str(error)}
+        limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [
         {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
          "work": [words_html(line) for line in speaker.work(step)]}
@@ -340,7 +351,8 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         "steps": steps + _force_steps(drawn, speaker.letters, spoken),
         "range": limits,
         "drivers": [
-            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i])}
+            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i]),
+             "sense": -1 if d.values[1] < 0 else 1}
             for i, d in enumerate(scene.drivers)
         ],
         "mobility": mobility_text(scene, spoken),

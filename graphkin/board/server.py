@@ -16,8 +16,9 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.board.answers import Desk, answer
+from graphkin.board.answers import Desk, answer, language_of
 from graphkin.errors import CallError, Problem
+from graphkin.words.refused import refused
 
 if TYPE_CHECKING:
     import socket
@@ -172,7 +173,8 @@ def _answered(desk: Desk, text: str) -> str:
         traceback.print_exc()
         number = message.get("id") if isinstance(message, dict) else None
         said = f"this could not be answered ({type(error).__name__}); the terminal says more"
-        return json.dumps({"id": number, "ok": False, "problems": [{"text": said, "line": 0}], "kind": "Defect"})
+        text = refused(said, language_of(message))
+        return json.dumps({"id": number, "ok": False, "problems": [{"text": text, "line": 0}], "kind": "Defect"})
 
 
 def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = None) -> None:

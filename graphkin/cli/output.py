@@ -49,12 +49,9 @@ def complain(*found: Problem | str) -> None:
 def _refused(found: Problem | str, language: str) -> str:
     if language == "en":
         return str(found)
-    from graphkin.words.refused import refused
+    from graphkin.words.refused import refused, refused_as
 
-    def said(text: str) -> str:
-        return refused(text, language)
-
-    return said(found) if isinstance(found, str) else found.text(said, "：", "；")
+    return refused(found, language) if isinstance(found, str) else refused_as(found, language)
 
 
 def print_json(data: object) -> None:

@@ -10,7 +10,9 @@ import re
 from functools import cache
 from pathlib import Path
 
-__all__ = ["clauses", "refused"]
+from graphkin.errors import Problem
+
+__all__ = ["clauses", "refused", "refused_as"]
 
 _FOLDER = Path(__file__).parent / "refusals"
 _GAP = re.compile(r"\{(\d?)\}")
@@ -41,6 +43,11 @@ def refused(text: str, language: str) -> str:
     """
     known = clauses(language)
     return _said(text, language, _DEEPEST) if known and len(text) <= _LONGEST else text
+
+
+def refused_as(problem: Problem, language: str) -> str:
+    """A problem in a sentence of a language."""
+    return str(problem) if language == "en" else problem.text(lambda text: refused(text, language), "：", "；")
 
 
 def _said(text: str, language: str, depth: int) -> str:

@@ -119,6 +119,29 @@ def test_where_the_mechanism_does_not_reach_its_last_position_is_drawn_and_the_r
     assert found["ok"]
     assert pytest.approx(58.997, abs=0.01) == found["at"]["1"]
     assert "not assembled" in found["limit"]
+    quick = {"do": "show", "text": text, "at": {"1": 100.0}, "quick": True, "language": "zh"}
+    for moving in (True, False):
+        found = answer(Desk(), {**quick, "quick": moving})
+        assert "不能装配" in found["limit"]
+        assert "not assembled" not in found["limit"]
+    assert "构件 4, 5" in found["range"]["why"]
+
+
+@pytest.mark.parametrize(("chinese", "question"), [
+    ('question："opne"；是否指“open”？', {"do": "opne"}),
+    ("点 Q：不能拖动；它的位置由其他点决定", {"do": "pull", "point": "Q", "x": 1, "y": 2}),
+    ("bar：起点与终点重合；请把它拖到别处", {"do": "build", "step": {"what": "bar", "from": [1, 2], "to": [1, 2]}}),
+    ('"zz"：这里没有这个机构文件', {"do": "open", "name": "zz"}),
+])  # fmt: skip
+def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, question: dict) -> None:
+    found = answer(DESK, {"text": SIXBAR, "language": "zh", **question})
+    assert found["problems"][0]["text"].startswith(chinese)
+
+
+def test_the_page_is_told_in_which_sense_the_driver_moves() -> None:
+    assert 1 == told("show")["drivers"][0]["sense"]
+    clockwise = SIXBAR.replace("[driver]\n", '[driver]\nsense = "clockwise"\n')
+    assert -1 == told("show", text=clockwise)["drivers"][0]["sense"]
 
 
 def test_a_position_is_kept_in_the_file_with_its_assembly() -> None:

@@ -17,7 +17,10 @@ pytest.importorskip("uvicorn", reason="the extra live is not installed")
 @pytest.fixture(scope="module")
 def url(tmp_path_factory):
     folder = tmp_path_factory.mktemp("page")
-    (folder / "mine.toml").write_text(library_text("sixbar-420rpm"), encoding="utf-8")
+    own = library_text("sixbar-420rpm")
+    (folder / "mine.toml").write_text(own, encoding="utf-8")
+    clockwise = own.replace("[driver]\n", '[driver]\nsense = "clockwise"\n') + "# clockwise\n"
+    (folder / "clockwise.toml").write_text(clockwise, encoding="utf-8")
     with served(".", cwd=folder) as (address, _):
         yield address
 
@@ -111,6 +114,30 @@ def test_a_pulled_joint_is_written_into_the_text_and_undone(page) -> None:
     assert "# coupler" in text_of(page)
     page.click("button:has-text('Undo')")
     until(page, "document.getElementById('board').board.editor.text.includes('length = 0.34\\n')")
+    assert library_text("sixbar-420rpm") == text_of(page)
+
+
+def test_nothing_is_undone_before_the_scene_that_was_opened(page) -> None:
+    open_scene(page)
+    page.click("button:has-text('Undo')")
+    page.click(".cm-content")
+    page.keyboard.press("Control+z")
+    assert library_text("sixbar-420rpm") == text_of(page)
+    page.click("button:has-text('Scenes')")
+    page.click("[data-scene='clockwise.toml']")
+    until(page, "document.getElementById('board').board.editor.text.includes('# clockwise')")
+    page.click("button:has-text('Undo')")
+    assert text_of(page).endswith("# clockwise\n")
+
+
+def test_an_emptied_text_does_not_outlive_a_reload(page) -> None:
+    open_scene(page)
+    page.click(".cm-content")
+    page.keyboard.press("Control+a")
+    page.keyboard.press("Delete")
+    until(page, "document.getElementById('board').board.editor.text === ''")
+    page.reload()
+    page.wait_for_selector("[data-figure=velocity] svg")
     assert library_text("sixbar-420rpm") == text_of(page)
 
 
@@ -255,6 +282,29 @@ def test_the_driver_turns_by_slider_number_and_playing(page) -> None:
     until(page, "document.getElementById('board').board.state.at['1'] > 125")
     page.click("button:has-text('Stop')")
     agrees(page)
+
+
+def test_a_crank_that_turns_clockwise_is_played_clockwise(page) -> None:
+    open_scene(page, "clockwise.toml")
+    page.click("button:has-text('Play')")
+    until(page, "document.getElementById('board').board.state.at?.['1'] < 40")  # from 45
+    page.click("button:has-text('Stop')")
+    agrees(page)
+
+
+def test_what_is_wrong_is_said_in_chinese_on_a_chinese_page(page) -> None:
+    open_scene(page)
+    page.select_option("select >> nth=0", "zh")
+    page.wait_for_selector("button:has-text('撤销')")
+    page.wait_for_selector("[data-figure=velocity] svg")
+    page.click(".cm-line:has-text('length = 0.34')")
+    page.keyboard.press("End")
+    page.keyboard.type("-")
+    page.wait_for_selector(".problems li:has-text('第 20 行：')")
+    for _ in "0.34-":
+        page.keyboard.press("Backspace")
+    page.keyboard.type("-3")
+    page.wait_for_selector(".problems li:has-text('第 20 行：links.2.length：读到 -3，长度为负；长度应为正')")
 
 
 def test_the_page_speaks_chinese_and_keeps_the_scene(page) -> None:

@@ -9,14 +9,15 @@ import { newestOnly, overSockets, overWidget } from "./talk.js";
 const FIRST = ["mechanism", "velocity", "acceleration"];
 const STORE = "graphkin-board";
 
-/** Puts the board into `root`.  `ask(question, long)` asks Python; `kept` remembers the work over a reload. */
-export async function mount(root, ask, { kept = null, nonce = "", wrote = () => {} } = {}) {
+/** Puts the board into `root`.  `send(question, long)` asks Python; `kept` remembers the work over a reload. */
+export async function mount(root, send, { kept = null, nonce = "", wrote = () => {} } = {}) {
   const before = kept?.read() ?? {};
   const state = {
     name: "", text: "", mark: "", own: false, at: null, language: before.language ?? navigator.language.slice(0, 2),
     convention: before.convention ?? "", instrument: "exact", figures: before.figures ?? FIRST, find: "", playing: false, step: null,
   };
-  let names = await ask({ do: "names", language: state.language });
+  const ask = (question, long) => send({ language: state.language, ...question }, long);
+  let names = await ask({ do: "names" });
   state.language = names.language;
   const word = (key) => names.words[key] ?? key;
   let last = null; // the last whole answer
@@ -86,7 +87,7 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
 
   const problems = (found) => {
     editor.problems(found);
-    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(`${word("line")} ${one.line}: ${one.text}`, () => { tab("text"); editor.goTo(one.line); }) : one.text)));
+    list.replaceChildren(...found.map((one) => h("li", {}, one.line ? button(word("line").replace("{0}", one.line) + one.text, () => { tab("text"); editor.goTo(one.line); }) : one.text)));
     if (found.length) {
       verdict.textContent = word("stays");
       verdict.className = "differs";
@@ -174,10 +175,10 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
   const value = h("input", { type: "number", step: "any", "aria-label": word("driver value") });
   const playButton = button(word("play"), () => play(), { "aria-pressed": "false" });
   const drive = {
-    key: "", low: 0, high: 360, turns: true,
+    key: "", low: 0, high: 360, turns: true, sense: 1,
     show(told) {
       if (told.drivers) {
-        [this.key] = told.drivers.map((one) => one.key);
+        [[this.key, this.sense]] = told.drivers.map((one) => [one.key, one.sense]);
         Object.assign(this, { low: told.range.low ?? 0, high: told.range.high ?? 360, turns: told.range.turns });
         [slider.min, slider.max] = [this.low, this.high];
         slider.step = (this.high - this.low) / 720 || "any";
@@ -197,13 +198,13 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
   slider.addEventListener("input", () => drive.to(Number(slider.value), true));
   slider.addEventListener("change", () => drive.to(Number(slider.value), false));
   value.addEventListener("change", () => drive.to(Number(value.value), false));
-  let sense = 1;
   const play = () => {
     state.playing = !state.playing;
     playButton.setAttribute("aria-pressed", state.playing);
     playButton.textContent = word(state.playing ? "stop" : "play");
     if (!state.playing) return show();
     let then = performance.now();
+    let { sense } = drive; // that of omega, until the motion ends
     const tick = (time) => {
       if (!state.playing) return;
       const turn = ((drive.high - drive.low) / 6000) * Math.min(time - then, 100) * sense;
@@ -274,20 +275,20 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
     h("details", {}, h("summary", {}, word("charts")), h("div.row", {}, find, diagramButton, raceButton), charts));
 
   // -- scenes, saving, handing out ----------------------------------------------------------------------------------
-  const take = (told) => {
+  const take = (told, put = editor.open) => {
     Object.assign(state, { name: told.name, mark: told.mark, own: told.own, at: null, step: null, dirty: false });
     fileName.textContent = told.name + (told.own ? "" : told.name ? ` (${word("comes along")})` : "");
-    editor.put(told.text);
+    put(told.text);
     state.text = told.text;
     state.dirty = false;
     saveButton.disabled = true;
     keep();
     show();
   };
-  const opened = async (question) => {
+  const opened = async (question, put) => {
     const told = await ask({ do: "open", ...question });
     if (!told.ok) return problems(told.problems);
-    return take(told);
+    return take(told, put);
   };
   const dialog = (label, fill) => {
     const box = h("dialog", { "aria-label": label });
@@ -368,7 +369,7 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
     state.language = language;
     keep();
     root.replaceChildren();
-    await mount(root, ask, { kept, nonce, wrote });
+    await mount(root, send, { kept, nonce, wrote });
   };
 
   // what somebody else changes in the file is said, not taken
@@ -377,7 +378,7 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
     const told = await ask({ do: "watch", name: state.name, mark: state.mark });
     if (!told.ok || told.changed === null) return;
     const theirs = told.changed;
-    gone.replaceChildren(word("changed elsewhere"), " ", button(word("take theirs"), () => { gone.replaceChildren(); opened({ name: state.name }); }),
+    gone.replaceChildren(word("changed elsewhere"), " ", button(word("take theirs"), () => { gone.replaceChildren(); opened({ name: state.name }, editor.put); }),
       button(word("keep mine"), async () => {
         const now = await ask({ do: "open", name: state.name });
         if (now.ok) state.mark = now.mark;
@@ -401,11 +402,10 @@ export async function mount(root, ask, { kept = null, nonce = "", wrote = () => 
   document.documentElement.lang = state.language;
   root.append(header, h("main", {}, left, right));
   tab("text");
-  if (before.text !== undefined && before.dirty) {
+  if (before.text?.trim() && before.dirty) {
     Object.assign(state, { name: before.name, mark: before.mark, own: before.own, at: before.at });
     fileName.textContent = before.name;
-    editor.put(before.text);
-    state.text = before.text;
+    editor.open(before.text);
     show();
   } else if (before.name && before.text !== undefined) {
     await opened({ name: before.name });

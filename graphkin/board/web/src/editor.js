@@ -25,35 +25,36 @@ export function textEditor(parent, { changed, complete, nonce, label }) {
     const found = await complete(context.state.doc.toString(), line.number, context.pos - line.from);
     return { from: word ? word.from : context.pos, options: found, validFor: /^"?[\w.-]*$/ };
   };
-  const view = new EditorView({
-    parent,
-    state: EditorState.create({
-      doc: "",
-      extensions: [
-        lineNumbers(),
-        history({ minDepth: 1000000 }),
-        drawSelection(),
-        highlightActiveLine(),
-        bracketMatching(),
-        lintGutter(),
-        StreamLanguage.define(toml),
-        syntaxHighlighting(colours),
-        autocompletion({ override: [options] }),
-        keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
-        EditorView.lineWrapping,
-        EditorView.contentAttributes.of({ "aria-label": label }),
-        nonce ? EditorView.cspNonce.of(nonce) : [],
-        EditorView.updateListener.of((update) => {
-          if (!update.docChanged) return;
-          const outside = update.transactions.some((one) => one.annotation(fromOutside));
-          changed(update.state.doc.toString(), outside);
-        }),
-      ],
+  const extensions = [
+    lineNumbers(),
+    history({ minDepth: 1000000 }),
+    drawSelection(),
+    highlightActiveLine(),
+    bracketMatching(),
+    lintGutter(),
+    StreamLanguage.define(toml),
+    syntaxHighlighting(colours),
+    autocompletion({ override: [options] }),
+    keymap.of([...completionKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
+    EditorView.lineWrapping,
+    EditorView.contentAttributes.of({ "aria-label": label }),
+    nonce ? EditorView.cspNonce.of(nonce) : [],
+    EditorView.updateListener.of((update) => {
+      if (!update.docChanged) return;
+      const outside = update.transactions.some((one) => one.annotation(fromOutside));
+      changed(update.state.doc.toString(), outside);
     }),
-  });
+  ];
+  const begin = (doc) => EditorState.create({ doc, extensions });
+  const view = new EditorView({ parent, state: begin("") });
   return {
     get text() {
       return view.state.doc.toString();
+    },
+    /** Begins with a text, before which no undo goes. */
+    open(text) {
+      view.setState(begin(text));
+      changed(text, true);
     },
     /** Puts another text in; what is the same at both ends stays, so that the cursor does. */
     put(text) {
