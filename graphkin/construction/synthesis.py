@@ -36,6 +36,8 @@ __all__ = ["construct"]
 
 DECIMALS = range(2, 9)
 """Of lengths (mm) from which others are reckoned, until that is true as it is written."""
+SEEN = 0.05
+"""Degrees between two lines that are drawn as an angle."""
 
 
 def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXACT) -> DesignSheet:
@@ -86,7 +88,19 @@ def _(task: CrankRockerTask, paper: DesignPaper) -> None:
             DesignLine(D, first, "given"), DesignLine(D, second, "given"), DesignPoint("C1", first),
             DesignPoint("C2", second),
             DesignAngle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
-    middle, radius = _locus(paper, first, second, -1, theta, task.K)
+    A = _pivot_on_line(paper, D, first, second, task) if theta == 0.0 else _pivot_on_circle(
+        paper, D, _locus(paper, first, second, -1, theta, task.K), task
+    )
+    swapped = abs(first - A) < abs(second - A)
+    far, near = (second, first) if swapped else (first, second)
+    _crank_from_limits(paper, A, far, near, swapped)
+    paper.measure("CD", first, D)
+    paper.measure("AD", A, D)
+
+
+def _pivot_on_circle(paper: DesignPaper, D: complex, circle: tuple[complex, float], task: CrankRockerTask) -> complex:
+    """The crank's pivot, where the arc of the frame about D cuts the circle over C1C2."""
+    middle, radius = circle
     reach = paper.hand.compass(paper.mm(task.frame))
     line = middle - D
     if abs(line) < 1e-9 * radius:
@@ -99,11 +113,19 @@ def _(task: CrankRockerTask, paper: DesignPaper) -> None:
     A = paper.hand.point(min(sides, key=lambda z: z.real))
     paper.do("design arc", ("D", paper.shown(paper.mm(task.frame)), "A"),
             DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
-    swapped = abs(first - A) < abs(second - A)
-    far, near = (second, first) if swapped else (first, second)
-    _crank_from_limits(paper, A, far, near, swapped)
-    paper.measure("CD", first, D)
-    paper.measure("AD", A, D)
+    return A
+
+
+def _pivot_on_line(
+    paper: DesignPaper, D: complex, first: complex, second: complex, task: CrankRockerTask
+) -> complex:
+    """The same for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
+    reach = paper.hand.compass(paper.mm(task.frame))
+    A = paper.cut("A", second, unit(first - second), D, reach)[0]
+    paper.do("design theta", (f"{task.K:.6g}", "0"))
+    paper.do("design line", ("D", paper.shown(paper.mm(task.frame)), "A"), DesignLine(second, A, "construction"),
+            DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
+    return A
 
 
 def _locus(
@@ -135,8 +157,8 @@ def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: compl
     crank = paper.hand.compass(abs(far - on_far) / 2)
     ends = (near, far) if cross(near - A, far - A) > 0 else (far, near)
     theta = math.degrees(math.atan2(abs(cross(near - A, far - A)), dot(near - A, far - A)))
-    paper.do("design halve", ("A" + names[0], "A" + names[1]),
-            DesignAngle(A, ends[0] - A, ends[1] - A, theta, "θ"), DesignLine(A, far, "limit"),
+    shown = [DesignAngle(A, ends[0] - A, ends[1] - A, theta, "θ")] if theta > SEEN else []
+    paper.do("design halve", ("A" + names[0], "A" + names[1]), *shown, DesignLine(A, far, "limit"),
             DesignLine(A, near, "limit"), DesignCircle(A, reach, (on_far,)))  # fmt: skip
     out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
     labels = ("B2", "B1") if swapped else ("B1", "B2")

@@ -123,7 +123,7 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
         problems.append(Problem("design.kind", "is missing", f"one of {', '.join(KINDS)}"))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        problems.append(Problem("design.kind", f"found {_shown(kind)}", did_you_mean(str(kind), KINDS)))
+        problems.append(Problem("design.kind", f"found {_shown(kind)}", _kind_meant(str(kind))))
         return None
     made = KINDS[kind]
     keys = {f.name: f for f in fields(made) if f.metadata["form"] != "beside"}
@@ -143,6 +143,12 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     if made is BarPositionsTask:
         return _bar_positions(values, problems)
     return made(**values)
+
+
+def _kind_meant(kind: str) -> str:
+    """The kinds that there are, the nearest first."""
+    hint, known = did_you_mean(kind, KINDS), ", ".join(KINDS)
+    return f"{hint} the kinds are {known}" if hint.startswith("did") else f"the kinds are {known}"
 
 
 def _value(where: str, form: str, value: object, problems: list[Problem]) -> object:

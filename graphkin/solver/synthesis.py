@@ -74,6 +74,13 @@ def _refused(where: str, found: str, wanted: str) -> Unsolvable:
 def _quick_return(K: float, most: float | None = None) -> float:
     if K <= 1.0:
         raise _refused("K", f"{K:.6g} is no quick return", "K must be above 1")
+    return _lag(K, most)
+
+
+def _lag(K: float, most: float | None = None) -> float:
+    """The acute angle of the crank between its limit positions (rad), 0 for K = 1."""
+    if K < 1.0:
+        raise _refused("K", f"{K:.6g} is below 1", "K is the longer of two ways over the shorter: 1 or more")
     if most is not None and most <= K:
         raise _refused("K", f"{K:.6g} cannot be reached", f"K must be below {most:.6g} here")
     return crank_angle(K)
@@ -93,6 +100,9 @@ def synthesise(task: DesignTask) -> Synthesis:
 @synthesise.register
 def _(task: SliderCrankTask) -> Synthesis:
     H, e = task.stroke, task.offset
+    if task.K == 1.0:
+        said = "1 leaves the rod free: offset 0, a crank of half the stroke and any longer rod"
+        raise _refused("K", said, "K must be above 1")
     theta = _quick_return(task.K, 3.0)
     if e == 0.0:
         raise _refused("offset", f"0 gives K = 1, not {task.K:.6g}", "an offset greater than 0")
@@ -118,22 +128,23 @@ def _(task: CrankRockerTask) -> Synthesis:
     psi = math.radians(task.swing)
     # beyond it the circle over the chord lies between the arms of the rocker
     widest = math.pi / 2 + psi / 2
-    theta = _quick_return(task.K, (math.pi + widest) / (math.pi - widest))
-    low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta)))
+    theta = _lag(task.K, (math.pi + widest) / (math.pi - widest))
+    low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta) if theta else math.inf))
     if high - low <= 1e-9 * c:
         said = f"{task.swing:.6g} is twice 180 (K - 1) / (K + 1): the circle over C1C2 is that about D"
         raise _refused("swing", said, "another swing or another K")
+    if not theta and d <= c:
+        said = f"with {d:.6g} A lies between C1 and C2, on the line of both"
+        raise _refused("frame", said, f"it must be greater than {c:.6g}, the rocker")
     if not low < d < high:
         raise _refused(
             "frame", f"the circle about D with {d:.6g} does not cut the circle over C1C2 where A may lie",
             f"it must lie between {low:.6g} and {high:.6g}",
         )
     first, second = c * direction(90.0 + task.swing / 2), c * direction(90.0 - task.swing / 2)
-    chord = abs(first - second)
-    # from D along the middle of the swing: the circle's centre and, of the crossing with the circle about D, its foot
-    centre = c * math.cos(psi / 2) - chord / (2.0 * math.tan(theta))
-    radius = chord / (2.0 * math.sin(theta))
-    up = (d**2 - (radius - centre) * (radius + centre)) / (2.0 * centre) if centre else 0.0
+    # A lies so far from D along the middle of the swing, where the circle over the chord and that about D cross; the
+    # circle of K = 1 is the line C1C2
+    up = (d**2 * math.sin(theta) + c**2 * math.sin(theta - psi)) / (2.0 * c * math.sin(theta - psi / 2))
     A = complex(-math.sqrt(max(0.0, (d - up) * (d + up))), up)
     return _crank_rocker(task, A, 0j, first, second, standing=False)
 

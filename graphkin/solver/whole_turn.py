@@ -27,6 +27,8 @@ EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angl
 STEPS = 6
 NEAR = 1e-14
 """Within this (rad) of what Newton's method gives a rate's sign is looked for digit by digit."""
+ROUNDED = 1e-11
+"""An angle (rad) between limit positions that is nothing but rounding."""
 WHERE_ELSE = "ask for s_, theta_ or d_ at single positions"
 
 
@@ -47,7 +49,8 @@ class Extremes:
     def lag(self) -> float:
         """The angle theta between the crank's two limit positions (rad), what the longer way lacks to half a turn."""
         way = abs(self.high_offset - self.low_offset)
-        return max(way, math.tau - way) - math.pi
+        lag = max(way, math.tau - way) - math.pi
+        return lag if lag > ROUNDED else 0.0
 
     @property
     def ratio(self) -> float:

@@ -20,7 +20,7 @@ from graphkin.solver.continuity import FAR
 from graphkin.solver.engine import positions
 from graphkin.solver.flywheel import FlywheelStudy, flywheel_of
 from graphkin.solver.joints import Drive
-from graphkin.solver.whole_turn import extremes
+from graphkin.solver.whole_turn import Extremes, extremes
 from graphkin.structure import Cluster, Dyad
 from graphkin.structure.assembly import last_true
 from graphkin.study.extremes import Extreme, Least, Traced, trace
@@ -136,16 +136,14 @@ class TurnStudy:
         low, high = output.low, output.high
         if low is None or high is None or self.reach.turns != 1:
             return None
-        way = abs(high.offset - low.offset)
+        ends = Extremes(low.value, high.value, low.offset, high.offset)
         if any(output.quantity.of in (c.follower, getattr(c.motion, "pair", "")) for c in self.reach.scene.cams):
             # a follower may stand still where it is highest or lowest
             name = output.quantity.of
             ends = extremes(self.reach, Symbol.parse(f"{'stroke' if '/' in name else 'swing'}_{name}"))
-            way = abs(ends.high_offset - ends.low_offset)
-        longer = max(way, 2 * np.pi - way)
-        if longer > 2 * np.pi * (1 - 1e-12):
+        if ends.lag > np.pi * (1 - 2e-12):
             return None
-        return longer / (2 * np.pi - longer), float(longer - np.pi)
+        return ends.ratio, ends.lag
 
 
 def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:

@@ -21,12 +21,13 @@ from tests.command import run
 
 SLIDER = {"kind": "slider-crank", "stroke": 50, "offset": 16, "K": 1.2}
 ROCKER = {"kind": "crank-rocker", "swing": 40, "rocker": 50, "K": 1.3, "frame": 45}
+EVEN = {"kind": "crank-rocker", "swing": 60, "rocker": 75, "K": 1, "frame": 100}
 BAR = {"kind": "guide-bar", "stroke": 100, "centres": 150, "K": 2}
 LIMITS = {"kind": "limits", "A": [0, 0], "D": [100, 20], "rocker": 60, "angles": [130, 70]}
 PLACES = {"kind": "three-positions", "BC": 80, "positions": [
     {"B": [10, 60], "angle": 10}, {"B": [35, 80], "angle": -8}, {"B": [70, 82], "angle": -35}]}  # fmt: skip
 PAIRS = {"kind": "function", "frame": 10, "pairs": [[60, 20], [75, 45], [135, 130]]}
-EACH = [SLIDER, ROCKER, BAR, LIMITS, PLACES, {**PLACES, "A": [11, -35], "D": [57, 28]}, PAIRS]
+EACH = [SLIDER, ROCKER, EVEN, BAR, LIMITS, PLACES, {**PLACES, "A": [11, -35], "D": [57, 28]}, PAIRS]
 
 
 def found(task):
@@ -57,6 +58,26 @@ def test_what_was_drawn_and_what_moves_confirm_the_wish(task):
 @pytest.mark.parametrize("name", designs())
 def test_designs_that_come_along_can_be_made(name):
     assert graphkin.design(name).ok
+
+
+@pytest.mark.parametrize(("swing", "rocker", "frame"), [(60, 75, 100), (40, 50, 50.5), (120, 30, 200)])
+def test_a_crank_rocker_without_quick_return_has_its_crank_on_the_line_of_the_limits(swing, rocker, frame):
+    made = found({"kind": "crank-rocker", "swing": swing, "rocker": rocker, "K": 1, "frame": frame})
+    half = math.radians(swing / 2)
+    expected = rocker * math.sin(half), math.sqrt(frame**2 - (rocker * math.cos(half)) ** 2), rocker, frame
+    assert expected == pytest.approx([made.found.lengths[name] for name in ("AB", "BC", "CD", "AD")], rel=1e-12)
+    points = made.sheet.points
+    assert abs(points["C1"] - points["A"]) < abs(points["C2"] - points["A"])
+    assert 0 == pytest.approx(((points["C2"] - points["A"]) / (points["C1"] - points["A"])).imag, abs=1e-12)
+    assert made.ok
+    assert {"K": 1, "swing": pytest.approx(swing)} == {one.what.key.split()[1]: one.found for one in made.confirmed}
+
+
+@pytest.mark.parametrize("more", [1e-12, 1e-9, 1e-6])
+def test_a_crank_rocker_nearly_without_quick_return_is_as_exact(more):
+    task = {"kind": "crank-rocker", "swing": 60, "rocker": 75, "frame": 100}
+    flat, near = (lengths({**task, "K": K}) for K in (1, 1 + more))
+    assert flat == pytest.approx(near, rel=3 * more + 1e-14)
 
 
 def test_lengths_of_a_slider_crank_in_30_digits():
@@ -103,7 +124,11 @@ def test_fixed_pivots_given_the_moving_ones_are_carried_by_the_bar():
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({**SLIDER, "K": 1.0}, "K must be above 1"),
+        ({**SLIDER, "K": 1.0}, "leaves the rod free"),
+        ({**SLIDER, "K": 0.8}, "K must be above 1"),
+        ({**BAR, "K": 1}, "K must be above 1"),
+        ({**ROCKER, "K": 0.9}, "1 or more"),
+        ({**ROCKER, "K": 1}, "greater than 50, the rocker"),
         ({**SLIDER, "offset": 300}, r"it must be below 170\.\d+"),
         ({**SLIDER, "offset": 0}, "an offset greater than 0"),
         ({**ROCKER, "frame": 500}, r"between [\d.]+ and [\d.]+"),
@@ -134,7 +159,8 @@ def test_the_greatest_offset_is_just_not_reached():
         ({**SLIDER, "stroke": -5}, "design.stroke: found -5, a negative number"),
         ({**SLIDER, "strok": 5}, 'did you mean "stroke"'),
         ({**SLIDER, "offset": -1}, "positive or 0"),
-        ({"kind": "slider"}, 'did you mean "slider-crank"'),
+        ({"kind": "slider"}, 'did you mean "slider-crank"? the kinds are slider-crank, crank-rocker, guide-bar'),
+        ({"kind": "four-bar"}, "limits, three-positions, function"),
         ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [1, 0]}]}, "found 1 of them"),
         ({**PLACES, "A": [0, 0]}, "design.D: is missing"),
         ({"kind": "limits", "A": [0], "D": [1, 1], "rocker": 1, "angles": [1, 2]}, "a place is"),
@@ -151,7 +177,7 @@ def test_all_problems_of_a_file_are_told_at_once():
     assert 3 == len(wrong.value.problems)
 
 
-@pytest.mark.parametrize("task", [SLIDER, ROCKER, PLACES], ids=lambda task: task["kind"])
+@pytest.mark.parametrize("task", [SLIDER, ROCKER, EVEN, PLACES], ids=lambda task: f"{task['kind']}-{task.get('K')}")
 def test_pencils_stay_within_what_is_predicted(task):
     given = design_of({"design": task})
     exact = synthesise(given.task).lengths

@@ -350,3 +350,17 @@ def test_seams_are_counted_once_and_the_ends_of_a_turn_as_one() -> None:
     swinging = CurveParameter(driver_range(mechanism_of_text(text.replace("angle = 60", "angle = 20"), "rocker")))
     low, high = swinging.range
     assert [low + 0.5] == swinging._placed([low, low + 1e-12, low + 0.5, high - 1e-12, high]).tolist()
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize("angle", [0, 17, 90, 133, 211])
+@pytest.mark.parametrize("crank", [35, 37.3, 81])
+def test_a_slider_in_line_with_its_crank_has_no_quick_return_at_all(angle, crank):
+    turn = study_turn(driver_range(mechanism_of({
+        "frame": {"points": {"A": [12, -7]}, "guides": {"g": {"through": "A", "angle": angle}}},
+        "links": {"1": {"points": ["A", "B"], "length": crank}, "2": {"points": ["B", "C"], "length": 90},
+                  "3": {"points": ["C"], "on": "0.g"}},
+        "driver": {"link": "1", "angle": angle + 50, "omega": 10},
+    })))  # fmt: skip
+    (one,) = (turn.quick_return(o) for o in turn.outputs if o.quantity.of == "3/0")
+    assert (1.0, 0.0) == one
