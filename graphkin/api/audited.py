@@ -256,6 +256,7 @@ def audit(
     scans = _scanned(given, at) if given.scans and answers is None else ()
     scheme = scheme_of(given, grading)
     people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
+    people = _with_signs(people)
     asked = list(dict.fromkeys(p.symbol for who in people for p in who.values if not p.symbol.at))
     problems = _problems(given, people, variants)
 
@@ -336,6 +337,21 @@ def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhe
         return tuple(found)
 
     return values
+
+
+def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
+    """Answers in which the numbers of a column are signed where a sign was written before one of them."""
+    signed = {
+        (who.person, who.variant, who.by, p.symbol)
+        for who in people for p in who.values if p.shows_sign and p.direction is None and not p.lines
+    }  # fmt: skip
+    if not signed:
+        return tuple(people)
+    return tuple(
+        replace(who, values=tuple(
+            replace(p, signed=(who.person, who.variant, who.by, p.symbol) in signed) for p in who.values
+        )) for who in people
+    )  # fmt: skip
 
 
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:

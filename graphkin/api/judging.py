@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -15,7 +15,7 @@ from graphkin.api.arguments import At, driver_values, own_unit, placed
 from graphkin.api.checked import solved_here
 from graphkin.checking.audit import Judged, explained
 from graphkin.checking.slips import Evidence, ValuesElsewhere
-from graphkin.checking.table_audit import exact_rows, explained_by_digits, judged_by_digits
+from graphkin.checking.table_audit import computing_errors, exact_rows, explained_by_digits, judged_by_digits
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import plan
 from graphkin.errors import Problem, Unsolvable
@@ -54,15 +54,21 @@ def judged_table(
     turning = [s for s in symbols if s.scope in ("turn", "cycle")]
     value = exact_values(solved_here(scene, None), turning)
     exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
+    signed = _signed_columns(table, motion)
     bounds = _Bounds(table, case)
+    computed = any(who.by == "computation" for who in table)
+    errors = computing_errors(motion, [s for s in symbols if s not in turning]) if computed else {}
     names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
     made: dict[int, tuple[Judged, ...]] = {}
     looked_into = 0
     for row, who in enumerate(table):
         judged = []
-        for printed in who.values:
+        for stated in who.values:
+            by_line = who.by == "computation" and stated.symbol in signed and stated.direction is None
+            printed = replace(stated, signed=True) if by_line else stated
             right = exact(row, printed)
-            one = judged_by_digits(printed, right, who.by, 0.0)
+            error = errors.get(printed.symbol) if who.by == "computation" else None
+            one = judged_by_digits(printed, right, who.by, 0.0 if error is None else float(error[row]))
             if one.verdict != "right" and who.by == "drawing":
                 one = judged_by_digits(printed, right, who.by, bounds.bound(row, printed.symbol))
             if one.verdict == "wrong":
@@ -85,6 +91,26 @@ def judged_table(
             ]
         made[id(who)] = tuple(judged)
     return made
+
+
+def _signed_columns(table: Sequence[Answers], motion: Motion) -> set[Symbol]:
+    """The vectors whose computed values are signed, as a program prints them: those along a guide, unless no sign
+    stands in the column although the motion goes both ways, which tells that sizes are meant."""
+    from graphkin.solver import senses_along, value_of
+
+    rows: dict[Symbol, list[int]] = {}
+    for row, who in enumerate(table):
+        for printed in who.values:
+            if who.by == "computation" and printed.symbol.is_vector and len(printed.texts) == 1:
+                rows.setdefault(printed.symbol, []).append(row)
+    signed = set()
+    for symbol, own in rows.items():
+        lines = senses_along(motion, symbol)
+        if lines is not None:
+            along = (value_of(motion, symbol) * lines.conjugate()).real[own]
+            if not (along.min() < 0.0 < along.max()):
+                signed.add(symbol)
+    return signed
 
 
 @dataclass

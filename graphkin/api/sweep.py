@@ -144,7 +144,7 @@ def sweep(
         raise CallError(Problem("differentiate, integrate", "do not go with designs", "give one design"))
     elsewhere = () if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
-        find = list(dict.fromkeys(symbol for symbol, _, _ in elsewhere))
+        find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))
     over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
     spoken = language or given.sheet.language
     if out is None:
@@ -178,16 +178,22 @@ def _over_time_alone(**wishes: object) -> None:
         raise CallError(*(Problem(name, found, "leave it out, or give omega instead of the law") for name in given))
 
 
-def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float], ...]:
-    """Values measured elsewhere: symbol, value of the first driver (rad, m), value (SI; of a vector its size)."""
+def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float, bool], ...]:
+    """Values measured elsewhere: symbol, value of the first driver (rad, m), value (SI; of a vector its size, or its
+    place along the guide on which it lies, where a sign stands in the column), and whether it is along that."""
     from graphkin.api.answers import as_answers
+    from graphkin.solver import senses_along, solve
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
         raise CallError(Problem("measured", "has no column at", "write the driver's value of each row under at"))
     places = [(driver_values(scene, row.at) or {})[scene.drivers[0].key] for row in rows]
+    signed = {one.symbol for row in rows for one in row.values if one.shows_sign}
+    signed -= {one.symbol for row in rows for one in row.values if isinstance(one.value, complex)}
+    along = {s for s in signed if s.is_vector and senses_along(solve(scene), s) is not None}
+    sizes = {one.symbol for row in rows for one in row.values if one.symbol.is_vector} - along
     return tuple(
-        (one.symbol, place, abs(one.value) if one.symbol.is_vector else float(one.value.real))
+        (one.symbol, place, abs(one.value) if one.symbol in sizes else float(one.value.real), one.symbol in along)
         for row, place in zip(rows, places, strict=True)
         for one in row.values
         if one.symbol.scope != "turn" and not one.symbol.at

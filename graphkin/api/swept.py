@@ -6,7 +6,7 @@ import html
 import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -52,7 +52,7 @@ class Swept(Result, OfScene):
     found: Found
     language: str
     arrays: Arrays | None = None
-    elsewhere: tuple[tuple[Symbol, float, float], ...] = ()
+    elsewhere: tuple[tuple[Symbol, float, float, bool], ...] = ()
     on_paper: tuple[tuple[Way, str], ...] = ()
 
     @property
@@ -167,11 +167,12 @@ class Swept(Result, OfScene):
         # what is asked alone is drawn alone; without that the outputs and the coupler curves
         asked = self._wished
         over: dict[Quantity, list[tuple[float, float]]] = {}
-        for symbol, place, value in self.elsewhere:
+        for symbol, place, value, along in self.elsewhere:
             offset = float(self.turn.reach.offsets(np.array([place]))[0])
-            over.setdefault(symbol_quantity(symbol), []).append((offset, value))
+            over.setdefault(replace(symbol_quantity(symbol), along=along), []).append((offset, value))
         if over:
-            asked = list(dict.fromkeys((*asked, *over)))
+            signed = {replace(quantity, along=False): quantity for quantity in over}
+            asked = list(dict.fromkeys((*(signed.get(q, q) for q in asked), *over)))
         pages = {}
         if asked or not self.chords:
             pages = diagrams(self.turn, self.language, asked=asked, over=over)

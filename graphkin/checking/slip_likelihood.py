@@ -42,9 +42,9 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
         return float(value.real)
     if isinstance(printed.value, complex):
         return complex(value)
-    if printed.value >= 0:
+    if printed.value >= 0 and not (printed.signed and line is not None):
         return abs(value)
-    # a negative number for a vector has a sense: along its line, if it has one
+    # a signed number for a vector has a sense: along its line, if it has one
     signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
     return signed if isinstance(value, complex) else float(value)
 
@@ -105,7 +105,7 @@ class Suspects:
             return values.real
         if isinstance(printed.value, complex):
             return values
-        if printed.value >= 0:
+        if printed.value >= 0 and not (printed.signed and line is not None):
             return np.abs(values)
         signed = (values * line.conjugate()).real if line is not None else -np.abs(values)
         return np.where(self.directed, signed, values.real)

@@ -44,7 +44,8 @@ class Printed:
     last digit; ``digits`` the number of its significant digits; ``texts`` its numbers as written, in scene units unless
     ``shown``, the whole cell, says otherwise.  ``direction`` (rad) is that of a vector given by size and direction,
     which may be meant otherwise by ``room``, and as its opposite where ``either``; ``lines`` are others along which it
-    is said to lie.
+    is said to lie.  ``signed`` is whether its number means a place on the line of the motion (a guide), also where it
+    is positive; else a positive number is the size of a vector.
     """
 
     symbol: Symbol
@@ -57,6 +58,12 @@ class Printed:
     room: float = 0.0
     either: bool = False
     lines: tuple[Line, ...] = ()
+    signed: bool = False
+
+    @property
+    def shows_sign(self) -> bool:
+        """Whether a sign was written before its one number."""
+        return len(self.texts) == 1 and self.texts[0].startswith(("+", "-", "\u2212"))
 
     @property
     def text(self) -> str:

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from graphkin.solver.driver_range import DriverRange
-from graphkin.solver.exact_values import exact_values, value_of
+from graphkin.solver.exact_values import exact_values, senses_along, value_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.over_time import over_time
@@ -36,6 +36,7 @@ __all__ = [
     "over_time",
     "own_slides",
     "prepare",
+    "senses_along",
     "solve",
     "structure_of",
     "sweep_in_blocks",

@@ -19,7 +19,7 @@ from graphkin.solver.pose import Array
 from graphkin.solver.reach import driver_range
 from graphkin.solver.solve import solve
 
-__all__ = ["exact_values", "value_of"]
+__all__ = ["exact_values", "senses_along", "value_of"]
 
 
 def value_of(motion: Motion, symbol: Symbol) -> Array:
@@ -46,6 +46,26 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if found is None:
         raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))
     return found
+
+
+def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
+    """Unit vectors of the positive sense of a velocity or acceleration that lies along the straight guide of a sliding
+    pair, shape (n,): of a point of what slides in the frame, and of coincident points relative to each other; None for
+    any other symbol."""
+    of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
+    if of is None or symbol.seen or symbol.kind not in ("v", "a", "ar"):
+        return None
+    for slide in motion.slides:
+        if slide.guide.curvature:
+            continue
+        if to is None:
+            mine = motion.structure.links[slide.a].points if slide.a in motion.structure.links else {}
+            along = slide.b == frame and (of.link == slide.a or (not of.link and of.point in mine))
+        else:
+            along = slide.pin == of.point == to.point and {of.link, to.link} - {""} <= {slide.a, slide.b}
+        if along:
+            return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
+    return None
 
 
 def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:

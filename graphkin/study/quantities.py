@@ -11,7 +11,7 @@ import numpy as np
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import DriverRange, Motion, forces_of
+from graphkin.solver import DriverRange, Motion, forces_of, senses_along
 from graphkin.solver.pose import Array
 
 __all__ = ["Quantity", "force_quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
@@ -48,11 +48,12 @@ _OF_SYMBOLS: dict[str, Measure] = {
 class Quantity:
     """One number that changes over the turn: ``theta_3`` (angle of a link), ``s_6/1`` (travel of a sliding pair), their
     rates ``omega_3``, ``alpha_3``, ``v_6/1``, ``a_6/1``, a force (by its size) or a moment by its name, or another
-    symbol of ``find`` (a vector by its size)."""
+    symbol of ``find`` (a vector by its size, or ``along`` the guide that it lies on, with its sign)."""
 
     kind: Kind
     of: str
     symbol: Symbol | None = None
+    along: bool = False
 
     @property
     def name(self) -> str:
@@ -85,7 +86,7 @@ class Quantity:
     @property
     def is_size(self) -> bool:
         """Whether it is the size of a vector."""
-        return self.kind == "force" or (self.symbol is not None and self.symbol.is_vector)
+        return self.kind == "force" or (self.symbol is not None and self.symbol.is_vector and not self.along)
 
     def unit(self, scene: Mechanism, degrees: bool = False) -> str:
         """The unit of ``in_units``."""
@@ -121,6 +122,8 @@ class Quantity:
             if self.symbol.kind == "theta" and reach is not None:  # between two links, without jumps
                 return reach.angle(motion, self.symbol.link) - reach.angle(motion, self.symbol.other)
             found = motion.value(self.symbol)
+            senses = senses_along(motion, self.symbol) if self.along else None
+            found = found if senses is None else found * senses.conjugate()
             return np.abs(found) if self.is_size else np.asarray(found.real)
         if self.is_load:
             load = forces_of(motion).value(self.of)

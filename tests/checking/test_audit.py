@@ -201,3 +201,72 @@ def test_a_scene_without_printed_values_is_refused():
 def test_a_number_so_small_that_no_double_holds_its_last_digit_is_refused():
     with pytest.raises(ValueError, match="no number of a size that can be meant"):
         stated(Symbol.parse("v_D"), ["1e-400"], Units())
+
+
+COMPUTED = {"by": "computation"}
+
+
+@pytest.mark.parametrize(
+    ("text", "verdict"),
+    [("-114.397", "right"), ("114.397", "wrong"), ("+114.397", "wrong"), ("114.397 mm/s ←", "right")],
+)
+def test_a_computed_velocity_along_a_guide_is_read_with_its_sign(text, verdict):
+    scene = graphkin.read("slotter-75-150").to_dict() | {"printed": COMPUTED | {"v_C": text}}
+    (found,) = graphkin.audit(scene).data["values"]
+    assert (verdict, "sign" if verdict == "wrong" else None) == (found["verdict"], found.get("looks_like"))
+
+
+def test_a_computed_velocity_without_a_line_of_its_own_is_a_size():
+    scene = graphkin.read("slotter-75-150").to_dict() | {"printed": COMPUTED | {"v_A": "471.239"}}
+    assert ["right"] == [v["verdict"] for v in graphkin.audit(scene).data["values"]]
+
+
+@pytest.mark.parametrize(("text", "verdict"), [("482.7", "right"), ("+482.7", "wrong"), ("-482.7", "right")])
+def test_what_was_drawn_is_a_size_unless_a_sign_is_written(text, verdict):
+    assert verdict == judged(SIXBAR, v_D=text)["verdict"]
+
+
+@pytest.mark.parametrize(("first", "verdict"), [("114.397", "right"), ("-114.397", "wrong")])
+def test_one_sign_in_a_column_makes_its_numbers_signed(first, verdict):
+    # a ram that goes to the left at both: -114.397, -110.397
+    rows = [{"at": 0, "v_C": first}, {"at": 180, "v_C": "110.397"}]
+    scene = graphkin.read("slotter-75-150").to_dict() | {"printed": {}, "printed_rows": rows}
+    assert verdict == graphkin.audit(scene).data["values"][1]["verdict"]
+
+
+def computed(rows):
+    """The verdicts of a table of the six-bar of 420 r/min, by driver value and symbol."""
+    rows = [{"at": at, "omega_4": w, "v_F": v, "a_F": a, **COMPUTED} for at, (w, v, a) in rows.items()]
+    source = graphkin.read("sixbar-420rpm").to_dict() | {"printed": {}, "printed_rows": rows}
+    return {(v["at"], v["symbol"]): v["verdict"] for v in graphkin.audit(source).data["values"]}
+
+
+# worked out by hand: angles to 0.01 degrees, omega_1 = 43.98 rad/s, every rate to five digits
+ROUNDED = {
+    0: ("0.2455", "0.7233", "-138.549"), 45: ("-0.1904", "-1.4535", "-80.061"), 90: ("1.8925", "-1.9290", "20.035"),
+    135: ("3.0651", "-1.1393", "56.638"), 180: ("0.7948", "-0.2051", "44.693"), 225: ("-1.8131", "0.5122", "39.966"),
+    270: ("-2.8897", "1.3622", "56.209"), 315: ("-1.1077", "2.1287", "1.3116"),
+}  # fmt: skip
+
+
+def test_values_computed_with_rounded_numbers_are_right():
+    assert {"right"} == set(computed(ROUNDED).values())
+
+
+@pytest.mark.parametrize("slip", [lambda v: f"{1.01 * float(v):.4f}", lambda v: f"{-float(v):.4f}"])
+@pytest.mark.parametrize(("at", "column"), [(0, 2), (90, 0), (90, 1), (135, 2), (180, 1), (225, 1), (270, 2)])
+def test_a_computed_value_that_is_one_per_cent_or_a_sign_off_is_wrong(slip, at, column):
+    row = list(ROUNDED[at])
+    row[column] = slip(row[column])
+    assert [(at, ("omega_4", "v_F", "a_F")[column])] == [
+        place for place, verdict in computed({**ROUNDED, at: row}).items() if verdict != "right"
+    ]
+
+
+def test_a_computed_acceleration_without_its_normal_term_is_wrong():
+    source = graphkin.read("sixbar-420rpm").to_dict()
+    alpha = graphkin.solve("sixbar-420rpm", at=45)["alpha_3"][0]
+    for printed, verdict in ((f"{0.3 * abs(alpha):.3f}", "wrong"), (None, "right")):
+        size = printed or f"{abs(graphkin.solve('sixbar-420rpm', at=45)['a_C'][0]):.3f}"
+        (found,) = graphkin.audit(source | {"printed": COMPUTED | {"a_C": size}}).data["values"]
+        assert verdict == found["verdict"]

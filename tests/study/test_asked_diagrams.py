@@ -62,6 +62,18 @@ def test_values_measured_elsewhere_lie_over_the_theory_that_they_are_held_agains
     assert (30.0, theory + 0.03) == pytest.approx((dot.get_xdata()[0], dot.get_ydata()[0]))
 
 
+@pytest.mark.parametrize(("cells", "shown"), [(("-550", "300"), (-550.0, 300.0)), (("550", "300"), (550.0, 300.0))])
+def test_values_measured_along_a_guide_are_laid_over_the_theory_with_their_sign(tmp_path, cells, shown) -> None:
+    (tmp_path / "class.csv").write_text(f"at,v_C\n60,{cells[0]}\n240,{cells[1]}\n")
+    swept = graphkin.sweep("shaper-scheme-2", positions=2, measured=tmp_path / "class.csv")
+    assert ["diagram-v_C"] == list(swept.figures)
+    (axes,) = swept.figures["diagram-v_C"].figure().axes
+    (dots,) = [line for line in axes.lines if line.get_marker() == "x"]
+    assert shown == pytest.approx(tuple(dots.get_ydata()))
+    theory = max(axes.lines, key=lambda line: len(line.get_xdata())).get_ydata()
+    assert (shown[0] < 0) == (min(theory) < 0)
+
+
 def test_values_measured_elsewhere_need_the_place_of_each_row(tmp_path: Path) -> None:
     (tmp_path / "class.csv").write_text("name,omega_4\nAnn,1\n")
     with pytest.raises(graphkin.CallError, match="no column at"):
