@@ -33,6 +33,10 @@ HEADS: Mapping[str, tuple[str, ...]] = {
 }
 
 
+GROUPS = ("group", "组", "组别")
+"""Heads of schemes that may be meant as groups of students who all have the same lengths."""
+
+
 @dataclass(frozen=True)
 class Scheme:
     """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
@@ -101,11 +105,18 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         found = f"no column of names: {', '.join(table.heads)[:200]}"
         raise CallError(Problem(str(students), found, "write a head name (姓名) or id (学号)"))
     problems: list[Problem] = []
+    head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
+    may_be_groups = len(course) == 1 and head in GROUPS
+    if head and "" in course and not may_be_groups:
+        named = dict.fromkeys(cells[columns["scheme"]] for _, cells in table.rows if len(cells) > columns["scheme"])
+        if schemes := ", ".join(filter(None, named))[:80]:
+            found, wanted = f"schemes without their data: {schemes}", "give a row for each: --rows FILE.csv"
+            raise CallError(Problem(f"{students}, {head}", found, wanted))
     listed = []
     for line, cells in table.rows:
         who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
         where = f"{students}, line {line}"
-        if who.scheme and len(course) > 1 and who.scheme not in course:
+        if who.scheme and who.scheme not in course and not may_be_groups:
             problems.append(Problem(where, f'there is no scheme "{who.scheme}"', did_you_mean(who.scheme, course)))
             continue
         known = course[scheme_name(course, who)].places if who.scheme or len(course) == 1 else None

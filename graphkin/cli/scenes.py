@@ -5,6 +5,7 @@ as a local page."""
 from __future__ import annotations
 
 import json
+import os
 import sys
 from contextlib import suppress
 from pathlib import Path
@@ -38,6 +39,7 @@ def scenes(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="With --new: a length (crank=150); asked for otherwise."),
     ] = None,
+    lang: LangOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """List the scenes that come along, print one, copy one out, or begin a new one."""
@@ -57,7 +59,7 @@ def scenes(
     elif copy:
         raise CallError(Problem("--copy", "no scene is named", "write graphkin scenes NAME --copy"))
     else:
-        _list(as_json)
+        _list(lang, as_json)
 
 
 def _begin(kind: str, given: list[str], file: Path | None) -> None:
@@ -83,14 +85,25 @@ def _begin(kind: str, given: list[str], file: Path | None) -> None:
         _write_new(file, made)
 
 
-def _list(as_json: bool) -> None:
+def _list(lang: str | None, as_json: bool) -> None:
+    from graphkin.api.arguments import known_words
     from graphkin.api.scene_list import scenes as listed
+    from graphkin.words import word
 
-    found = listed()
+    known_words(language=lang)
+    found, language = listed(), lang or _spoken_here()
     if as_json:
         print_json(found.data)
-    else:
-        print_table(["scene", "title", "", "F"], [[n, t, z, str(f)] for n, t, z, f in found.rows])
+        return
+    heads = [word(head, language) for head in ("scene in a list", "title in a list")]
+    rows = [[n, z if language == "zh" else t, str(f)] for n, t, z, f in found.rows]
+    print_table([*heads, "F"], rows, right=(2,))
+
+
+def _spoken_here() -> str:
+    """The language of the terminal: Chinese where its locale is, else English."""
+    locale = next((value for name in ("LC_ALL", "LC_MESSAGES", "LANG") if (value := os.environ.get(name))), "")
+    return "zh" if locale.lower().startswith("zh") else "en"
 
 
 def _write_new(path: Path, text: str) -> None:

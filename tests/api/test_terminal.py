@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import signal
@@ -83,3 +84,34 @@ def test_a_sweep_that_is_interrupted_twice_ends_at_once_with_all_its_processes(t
     assert 130 == program.returncode
     told = "graphkin: interrupted; what is done is kept in out, the same command goes on\n"
     assert said in ("", told)
+
+
+@POSIX
+@pytest.mark.parametrize(
+    ("call", "locale", "title"),
+    [
+        ((), "C.UTF-8", "Slotter: swinging"),
+        (("--lang", "zh"), "C.UTF-8", "插床导杆机构"),
+        ((), "zh_CN.UTF-8", "插床导杆机构"),
+        (("--lang", "en"), "zh_CN.UTF-8", "Slotter: swinging"),
+    ],
+)
+def test_scenes_are_listed_in_eighty_columns_with_their_titles_in_one_language(call, locale, title) -> None:
+    import pty
+
+    from rich.cells import cell_len
+
+    master, slave = pty.openpty()
+    shell = {**os.environ, "COLUMNS": "80", "LC_ALL": locale, "PYTHONUTF8": "1", "TERM": "dumb"}
+    with subprocess.Popen([*PROGRAM, "scenes", *call], stdout=slave, env=shell) as program:
+        os.close(slave)
+        shown = b""
+        with contextlib.suppress(OSError):  # the other end is closed
+            while part := os.read(master, 65536):
+                shown += part
+    assert 0 == program.returncode
+    lines = shown.decode().splitlines()
+    assert max(map(cell_len, lines)) <= 80
+    (row,) = [line for line in lines if " slotter-75-150 " in line]
+    assert title in row
+    assert ("插床" in row) == ("插床" in title)

@@ -69,6 +69,17 @@ def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
     assert "links.1.length" in made.files["01-A-I-1.html"].decode()
 
 
+def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
+    wished = {"find": ["v_C"], "positions": 2, "formats": ("html",)}
+    with pytest.raises(CallError, match=r"方案: schemes without their data: I, II; .*--rows"):
+        graphkin.course_design(SCENE, _file(tmp_path, "姓名,方案\nA,I\nB,II\nC,\n"), **wished)
+    for text in ("姓名,方案\nA,\nB,\n", "name,group\nA,I\nB,II\n"):
+        assert 2 == len(graphkin.course_design(SCENE, _file(tmp_path, text), **wished).rows)
+    rows = _file(tmp_path, "scheme,links.1.length\nI,23.8\n", "schemes.csv")
+    with pytest.raises(CallError, match='line 2: there is no scheme "II"'):
+        graphkin.course_design(SCENE, _file(tmp_path, "name,scheme\nA,II\n"), rows, **wished)
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
