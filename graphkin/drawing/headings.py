@@ -15,7 +15,7 @@ from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, plain_in
 from graphkin.drawing.conventions import Letters
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
@@ -25,7 +25,7 @@ from graphkin.words.written import amount, in_markup, on_paper, product, true_mi
 
 __all__ = [
     "FIGURE_WORDS", "describe", "dimensions_in", "drivers", "facts", "figure_title", "number", "once", "punctuation",
-    "remarks", "slide_index", "spoken_ref", "spoken_vector", "term", "titles", "written",
+    "remarks", "slide_index", "spoken_ref", "spoken_vector", "structure_words", "term", "titles", "written",
 ]  # fmt: skip
 
 FIGURE_WORDS: Mapping[DiagramName, str] = {
@@ -282,7 +282,16 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
 
 
 def _mechanism(sheet: Sheet, language: str) -> list[str]:
-    scene = sheet.scene
+    said = structure_words(sheet.scene, language)
+    per_mm = sheet.scales.length / sheet.scene.units.metres
+    for ref, z in sheet.points.items():
+        place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), sheet.scene.units.length)
+        said.append(say(Phrase("point lies", (ref.point, *place)), language))
+    return said
+
+
+def structure_words(scene: Mechanism, language: str) -> list[str]:
+    """Sentences on what is joined to what: the links with their points, and the pairs that are no turning pairs."""
     said = [say(Phrase("fixed link", (scene.frame.name, listed([*scene.frame.points] or ["-"]))), language)]
     for link in scene.links:
         if link.points:
@@ -296,10 +305,9 @@ def _mechanism(sheet: Sheet, language: str) -> list[str]:
         said.append(say(Phrase(key, (*contact.links, contact.name)), language))
     for gear in scene.gears:
         said.append(say(Phrase("meshes", (*gear.wheels, gear.carrier)), language))
-    per_mm = sheet.scales.length / scene.units.metres
-    for ref, z in sheet.points.items():
-        place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), scene.units.length)
-        said.append(say(Phrase("point lies", (ref.point, *place)), language))
+    for cam in scene.cams:
+        kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
+        said.append(say(Phrase("cam moves", (cam.link, cam.follower, Phrase(f"cam {kind}"))), language))
     return said
 
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from xml.sax.saxutils import escape
 
 from graphkin.checking.slips import Evidence
+from graphkin.drawing.headings import structure_words
 from graphkin.errors import GraphkinError
 from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean
@@ -59,13 +60,13 @@ class AskedNumber:
 
 @dataclass(frozen=True)
 class Question:
-    """A problem as a platform asks it: title, the given data as HTML and as plain lines, the figure (PNG)."""
+    """A problem as a platform asks it: title, structure and data as HTML, the figure (PNG), and what is seen on it."""
 
     name: str
     title: str
     html: str
-    plain: tuple[str, ...]
     picture: bytes
+    seen: str
     asked: tuple[AskedNumber, ...]
     sign_rule: str
     number: str
@@ -80,7 +81,11 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
     """The question of a lesson; quantities for which a drawing promises nothing are left out."""
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
-    paragraphs = [p.words for p in given(lesson)]
+    built = tuple(
+        (each, word("between sentences", each).join(structure_words(scene.instead_of or scene, each)))
+        for each in languages(lesson.language)
+    )
+    paragraphs = [built, *(p.words for p in given(lesson))]
     drawing = mechanism_picture(
         lesson.sheet, parts(lesson.sheet, "mechanism", lesson.letters, lesson.language), lesson.letters, lesson.language
     )
@@ -97,8 +102,8 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
         name,
         clean(plain_words(scene_title(lesson)[0][1])),
         "".join(said_html(words, "p") for words in paragraphs),
-        tuple(clean(plain_words(text)) for words in paragraphs for _, text in words),
         drawing.content("png", DPI),
+        clean(drawing.desc),
         tuple(asked),
         word("sign of answers", first),
         scene.name,
@@ -173,13 +178,18 @@ def moodle_entries(question: Question) -> str:
 
 
 def _question_text(question: Question, more: str) -> str:
-    picture = f'<p><img src="@@PLUGINFILE@@/{PICTURE}" alt="{_quoted(question.title)}"></p>'
+    body = _body(question, f"@@PLUGINFILE@@/{PICTURE}", more)
     data = base64.b64encode(question.picture).decode()
-    body = f"{question.html}{picture}<p>{escape(question.sign_rule)}</p>{more}"
     return (
         f'<questiontext format="html"><text>{_cdata(body)}</text>'
         f'<file name="{PICTURE}" path="/" encoding="base64">{data}</file></questiontext>'
     )
+
+
+def _body(question: Question, source: str, more: str) -> str:
+    """The HTML of a question: structure, data, the figure, the rule of signs, and what is asked."""
+    picture = f'<p><img src="{source}" alt="{_quoted(question.seen)}"></p>'
+    return f"{question.html}{picture}<p>{escape(question.sign_rule)}</p>{more}"
 
 
 def _quoted(text: str) -> str:
@@ -197,13 +207,16 @@ def _named(text: str) -> str:
 def _numerical(question: Question, one: AskedNumber) -> str:
     answers = [_answer(100, one.value, one.tolerance, "")]
     answers += [_answer(0, slip.value, one.tolerance / 2, slip.words) for slip in one.slips]
-    ask = f"<p>{one.html} = ? ({escape(one.unit)})</p>"
     return (
-        f'<question type="numerical">{_named(f"{question.title}: {one.plain}")}{_question_text(question, ask)}'
+        f'<question type="numerical">{_named(f"{question.title}: {one.plain}")}{_question_text(question, _asks(one))}'
         "<defaultgrade>1</defaultgrade><penalty>0.3333333</penalty><hidden>0</hidden>"
         f"{''.join(answers)}<unitgradingtype>0</unitgradingtype><unitpenalty>0.1</unitpenalty>"
         "<showunits>3</showunits><unitsleft>0</unitsleft></question>\n"
     )
+
+
+def _asks(one: AskedNumber) -> str:
+    return f"<p>{one.html} = ? ({escape(one.unit)})</p>"
 
 
 def _answer(fraction: int, value: float, tolerance: float, words: str) -> str:
@@ -236,15 +249,17 @@ def _cloze_words(words: str) -> str:
 
 
 def gift(question: Question) -> str:
-    """The same in plain text, without the figure: a numerical question for each quantity."""
+    """The same in plain text, the figure within it as a data URI: a numerical question in HTML for each quantity."""
+    figure = f"data:image/png;base64,{base64.b64encode(question.picture).decode()}"
     made = []
     for one in question.asked:
         title = _gift_words(f"{question.title}: {one.plain}")
-        lines = " ".join((*question.plain, question.sign_rule))
-        ask = _gift_words(f"{lines} {one.plain} = ? ({one.unit})")
+        ask = _gift_words(_body(question, figure, _asks(one)))
         answers = [f"=%100%{one.value:.10g}:{one.tolerance:.3g}#"]
-        answers += [f"=%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_gift_words(slip.words)}" for slip in one.slips]
-        made.append(f"::{title}::{ask} {{#\n" + "\n".join(answers) + "\n}\n")
+        answers += [
+            f"=%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_gift_words(escape(slip.words))}" for slip in one.slips
+        ]
+        made.append(f"::{title}::[html]{ask} {{#\n" + "\n".join(answers) + "\n}\n")
     return "\n".join(made)
 
 
@@ -271,7 +286,7 @@ def prairielearn(question: Question) -> dict[str, bytes]:
         for one in question.asked
     ]
     page = (
-        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\" alt=\"{_quoted(question.title)}\">"
+        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\" alt=\"{_quoted(question.seen)}\">"
         "</pl-figure>\n"
         f"<p>{escape(question.sign_rule)}</p>\n</pl-question-panel>\n" + "\n".join(rows) + "\n"
     )

@@ -91,6 +91,44 @@ def test_gift_questions_have_the_form_that_is_published(made, files):
         assert all(line.startswith("=%") for line in answers.splitlines())
 
 
+def texts_of(files):
+    """The HTML of each question, by its platform, as an importer gets it."""
+    quiz = ElementTree.fromstring(files["moodle.xml"])
+    gift = re.findall(r"::(?:[^:\\]|\\.)+::\[html\]((?:[^{\\]|\\.)+)\{#\n", files["questions.gift"].decode())
+    return {
+        "moodle": [q.find("questiontext/text").text for q in quiz.findall("question")[1:]],
+        "gift": [re.sub(r"\\([~=#{}:\\])", r"\1", text) for text in gift],
+        "prairielearn": [files[f"prairielearn/{SCENE}/question.html"].decode()],
+    }
+
+
+def test_a_gift_question_brings_its_figure(made, files):
+    texts = texts_of(files)["gift"]
+    assert len(asked(made)) == len(texts)
+    for text in texts:
+        (data,) = re.findall(r'<img src="data:image/png;base64,([A-Za-z0-9+/=]+)" alt="[^"]', text)
+        assert made.question.picture == base64.b64decode(data, validate=True)
+
+
+def test_every_question_says_what_is_joined_to_what_and_what_its_figure_shows(files):
+    for platform, texts in texts_of(files).items():
+        assert texts, platform
+        for text in texts:
+            assert "Link 1 joins A, B. Link 2 joins B. " in re.sub(r"<p[^>]*>", "", text), platform
+            assert "slides on link 6" in re.search(r'alt="([^"]*)"', text)[1], platform
+
+
+@pytest.mark.parametrize(
+    ("scene", "language", "said"),
+    [("cam-offset-roller", "en", "Link 1 is a cam, and link 2 its roller follower."),
+     ("gears-epicyclic", "zh", "齿轮 1 与齿轮 3 啮合，其轴线在构件 2 上。"),
+     ("geneva-step", "en", "Point B of link 1 runs in a slot of link 2.")],
+)  # fmt: skip
+def test_the_structure_of_a_question_is_that_of_the_scene(scene, language, said):
+    made = graphkin.handout(scene, formats=("html",), positions=1, exports=("gift",), language=language)
+    assert said in re.sub("<[^>]+>", "", made.question.html)
+
+
 class Inputs(HTMLParser):
     def __init__(self):
         super().__init__()
