@@ -27,14 +27,14 @@ from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.end_letters import EndLetters, Markup
 from graphkin.drawing.group_lines import carried_over
-from graphkin.drawing.headings import number
+from graphkin.drawing.headings import number, written
 from graphkin.drawing.polygon_on_page import SAME
 from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
 from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase
-from graphkin.words.written import on_paper, pointing
+from graphkin.words.written import amount, on_paper, pointing, quotient
 
 __all__ = ["LetteredSteps"]
 
@@ -150,8 +150,9 @@ class LetteredSteps:
             return None
         where = "before" if along < 0.0 else "within" if along <= 1.0 else "beyond"
         unit = self.sheet.scales.length / self.sheet.scene.units.metres
-        lengths = [number(abs(z - a) * unit, 4) for z in (at, b)]
-        whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *lengths, number(abs(along), 4))
+        lengths = [amount(abs(z - a) * unit, 4) for z in (at, b)]
+        numbers = (written(one) for one in (*lengths, quotient(*lengths, 4)))  # the ratio of what stands there
+        whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *numbers)
         if None in ends or self._at(step, self._ends.place(step.diagram, act.point)) is None:
             return Phrase(f"division {where}", (act.point, *act.between, act.link, *whole))
         names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])

@@ -16,7 +16,7 @@ from graphkin.papers.lettered_steps import LetteredSteps
 from graphkin.papers.moving import motion_data
 from graphkin.papers.reasons import reasons
 from graphkin.papers.speaker import Speaker
-from graphkin.scene import mechanism_of
+from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick
 
@@ -69,6 +69,24 @@ def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
     step = next(s for s in rates if (s.act.rate, s.act.link) == ("alpha", "4"))
     assert "106.1 rad/s²" in speaker.sentence(step.phrase, "en")
     assert speaker.work(step)[0].endswith("= 106.1 rad/s²")
+
+
+@pytest.mark.parametrize("name", sorted(library()))
+def test_a_ratio_of_an_image_is_the_quotient_of_the_lengths_before_it(name):
+    sheet = draft(mechanism_of(name))
+    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    for step in sheet.steps:
+        for language in ("en", "zh"):
+            said = re.findall(r"= ([\d.]+) : ([\d.]+) = (\d+(?:\.\d+)?)", speaker.step(step, language))
+            for part, whole, ratio in [map(Decimal, one) for one in said]:
+                half = Decimal("0.5").scaleb(ratio.as_tuple().exponent)
+                assert abs(part / whole - ratio) <= half, (part, whole, ratio)
+
+
+def test_the_guide_bar_on_paper_divides_its_image_as_it_is_written():
+    sheet, speaker = _six_bar()
+    whole = " ".join(speaker.step(step, "en") for step in sheet.steps)
+    assert "= 167.6 : 381.6 = 0.4392" in whole
 
 
 def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_twice():
