@@ -150,8 +150,8 @@ class LetteredSteps:
             return None
         where = "before" if along < 0.0 else "within" if along <= 1.0 else "beyond"
         unit = self.sheet.scales.length / self.sheet.scene.units.metres
-        lengths = [amount(abs(z - a) * unit, 4) for z in (at, b)]
-        numbers = (written(one) for one in (*lengths, quotient(*lengths, 4)))  # the ratio of what stands there
+        part, bar = (amount(abs(z - a) * unit, 4) for z in (at, b))
+        numbers = (written(one) for one in (part, bar, quotient(part, bar, 4)))  # the ratio of what stands there
         whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *numbers)
         if None in ends or self._at(step, self._ends.place(step.diagram, act.point)) is None:
             return Phrase(f"division {where}", (act.point, *act.between, act.link, *whole))
