@@ -171,7 +171,10 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         return None
     if not scene.drivers:
         raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
-    if isinstance(at, str) and scene.positions is not None:
+    if isinstance(at, str):
+        if scene.positions is None:
+            wanted = f"give a value of driver {scene.drivers[0].key}: --at 75, or at=75"
+            raise CallError(Problem(f'position "{at:.40}"', "the scene has no [positions] table", wanted))
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     values: dict[str, float] = {}

@@ -57,7 +57,7 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
     structure = solver.structure_of(scene)
     key = scene.drivers[0].key
     named = named_positions(scene)
-    if named is not None:
+    if named is not None and named.names.names:
         drivers = dict(named.values)
     else:
         drivers = {str(k): row[key] for k, row in enumerate(positions(structure, None, count)[0], 1)}

@@ -291,13 +291,15 @@ class PreparedDesigns(Tabled, OfScene):
 
     @cached_property
     def _here(self) -> Samples:
-        return self.at(self.prepared.here)
+        columns, ok, values = self._designs.at(None)
+        return self._samples(columns, ok, values / self.prepared.own_unit)
 
     def at(self, value: float) -> Samples:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
         value = driver_value(value)
         given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.mechanism.units.metres
-        return self._samples(*self._designs.at(given), np.asarray(float(value)))
+        columns, ok, _ = self._designs.at(given)
+        return self._samples(columns, ok, np.asarray(float(value)))
 
     def sweep(self, n: int) -> Samples:
         """All designs over the whole range of the first driver, as ``Prepared.sweep``: arrays of shape (designs, n).
@@ -306,12 +308,13 @@ class PreparedDesigns(Tabled, OfScene):
         each; others (a rocker that is driven, a larger group) are followed one by one, in some milliseconds.
         """
         self.prepared.allowed(n)
-        columns, ok = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
-        return self._samples(columns, ok, self._designs.values(n) / self.prepared.own_unit)
+        columns, ok, values = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
+        return self._samples(columns, ok, values / self.prepared.own_unit)
 
     def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Samples:
         if self.single:
-            columns, ok, driver = columns[:, 0], ok[0], driver if driver.ndim < 2 else driver[0]
+            one_each = driver.shape[:1] == ok.shape[:1] and driver.ndim == ok.ndim
+            columns, ok, driver = columns[:, 0], ok[0], driver[0] if one_each else driver
         found = self.prepared.samples(columns, ok, driver)
         found.designs = {key: x.reshape(()) if self.single else x for key, x in self.values.items()}
         return found

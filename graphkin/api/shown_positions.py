@@ -49,6 +49,7 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
 
     numbered = {name: drawn(values[name]) for name in names}
     limits: dict[str, tuple[Sheet, Sheet]] = {}
+    without: dict[str, str] = {}
     measured: dict[tuple[str, str], float] = {}
     if "limits" in show:
         for output in _outputs(scene, structure):
@@ -56,8 +57,10 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
             asked = tuple(Symbol.parse(f"{kind}_{output}") for kind in kinds)
             try:
                 turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
-            except Unsolvable:
-                continue  # no whole turn, or an output that turns on and on
+            except Unsolvable as stop:  # no whole turn, or an output that turns on and on
+                problem = stop.problems[0]
+                without[problem.where] = problem.found
+                continue
             found = turned.limits[output]
             limits[output] = drawn(found.low.value), drawn(found.high.value)
             for reading in read_off(turned):
@@ -66,7 +69,8 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
             break
     turn = _turn(structure, own)
     least = _least(structure, turn, drawn) if turn and "gamma" in marks else None
-    return Shown(own, limits, numbered, least, _paths(structure, turn, own) if turn else {}, measured, tuple(marks))
+    return Shown(own, limits, numbered, least, _paths(structure, turn, own) if turn else {}, measured, tuple(marks),
+                 {} if limits else without)  # fmt: skip
 
 
 def _numbered(scene: Mechanism) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
@@ -28,6 +28,7 @@ from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase, languages, say
+from graphkin.words.refused import refused
 
 __all__ = ["Shown", "positions_figure"]
 
@@ -55,6 +56,7 @@ class Shown:
     least : where the transmission angle of the last group is least, and the angle (rad)
     paths : places (mm) of points of couplers over a turn
     measured : readings of the whole turn (m, rad), by kind ("stroke", "swing", "K", "theta_lag") and output
+    without : where limit positions are asked for and there are none, why, by output
     """
 
     own: Sheet
@@ -64,6 +66,7 @@ class Shown:
     paths: Mapping[str, Sequence[complex]]
     measured: Mapping[tuple[str, str], float]
     marks: tuple[str, ...]
+    without: Mapping[str, str] = field(default_factory=dict)
 
 
 def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
@@ -299,4 +302,6 @@ def _measured_lines(shown: Shown, spoken: str) -> list[str]:
             values.append(f"${letter}$ = {text}")
         told = Phrase("positions of", (pair, ",  ".join(values)))
         said += in_both([say(told, each) for each in languages(spoken)])
+    for output, why in shown.without.items():
+        said += in_both([say(Phrase("no limits", (output, refused(why, each))), each) for each in languages(spoken)])
     return said

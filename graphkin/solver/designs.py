@@ -179,16 +179,18 @@ class PreparedMechanisms:
         along = range_from(structure, forms, own_values(scene))
         return prepare(structure, ready.wanted, ready.units, ready.bounded, along)
 
-    def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array]:
+    def sweep(self, n: int, fast: bool = False) -> tuple[Array, Array, Array]:
         """As for one mechanism.
 
         Returns
         -------
         columns : shape (columns, designs, n), in the units of the mechanism; 0 where not ok
         ok : bool, shape (designs, n)
+        values : of the first driver (rad, m), shape (n,), or (designs, n) where they differ
         """
         out = np.zeros((len(self.ready.asked), self.count, n))
         ok = np.repeat(self.together[:, None], n, axis=1)
+        values = self._values(n) if self.ready.turns else np.full((self.count, n), np.nan)
         which = np.flatnonzero(self.together)
         if fast and n >= LOOP:
             self._loops(which, n, out.reshape(len(out), -1))
@@ -198,11 +200,13 @@ class PreparedMechanisms:
             one = self._alone(k)
             if one is not None:
                 out[:, k], ok[k] = one.sweep(n)
-        return out, ok
+                if not self.ready.turns:
+                    values[k] = one.range.grid(n).values
+        return out, ok, values
 
-    def values(self, n: int) -> Array:
-        """Values of the first driver in ``sweep(n)``, shape (n,), or (designs, n) where they differ (rad, m)."""
-        if not self.ready.turns or len(self._start) == len(self._way) == 1:
+    def _values(self, n: int) -> Array:
+        """Values of an angle driver over a turn, shape (n,), or (designs, n) where they differ (rad)."""
+        if self.given.keys().isdisjoint({("value", 0), ("rate", 0)}):
             return self.ready.range.grid(n).values
         start, way = (np.broadcast_to(x, (self.count,)) for x in (self._start, self._way))
         return np.asarray(start[:, None] + way[:, None] / n * np.arange(n))
@@ -210,7 +214,7 @@ class PreparedMechanisms:
     def _turns(self, which: Array, n: int) -> tuple[Array, Array]:
         """Cosines and sines of the driver at n positions of each design, shape (designs, n)."""
         shape = len(which), n
-        values = self.values(n)
+        values = self._values(n)
         if values.ndim == 1:
             c, s = self.ready.range.grid(n).turn
             return np.broadcast_to(c, shape), np.broadcast_to(s, shape)
@@ -228,16 +232,19 @@ class PreparedMechanisms:
         for k in which.tolist():
             code.kernel.run(k * n, (k + 1) * n, numbers[k], n, -k * n, out)
 
-    def at(self, value: float) -> tuple[Array, Array]:
-        """All designs at one value of the first driver: columns, shape (columns, designs), and ok, shape (designs,)."""
+    def at(self, value: float | None) -> tuple[Array, Array, Array]:
+        """All designs at one value of the first driver (rad, m), or each at its own: columns, shape (columns, designs),
+        ok, shape (designs,), and the values, shape () or (designs,)."""
+        values = np.array(value) if value is not None else self._start if ("value", 0) in self.given else self._start[0]
+        each = np.broadcast_to(values, (self.count,))
         out, ok = np.zeros((len(self.ready.asked), self.count)), self.together.copy()
         which = np.flatnonzero(ok)
         if len(which):
-            c, s = (np.broadcast_to(x, (len(which), 1)) for x in GivenValues(np.array([value])).turn)
+            c, s = (x[:, None] for x in GivenValues(each[which]).turn)
             out[:, which] = self._compute(self._code.columns, which, c, s)[:, :, 0]
         for k in np.flatnonzero(~self.together).tolist():
             one = self._alone(k)
-            found = one.at(value) if one is not None else None
+            found = one.at(float(each[k])) if one is not None else None
             if found is not None:
                 out[:, k], ok[k] = found, True
-        return out, ok
+        return out, ok, np.asarray(values)

@@ -118,8 +118,8 @@ class DriverRange:
         return np.asarray((offset >= low) & (offset <= high))
 
     def table_offsets(self, n: int, first: int = 0, last: int | None = None) -> Array:
-        """Offsets of positions ``first`` to ``last`` (not included) of a table of n: over a turn from the start on, or
-        evenly inside the range of travel."""
+        """Offsets of positions ``first`` to ``last`` (not included) of a table of n, in the sense of the driver: over a
+        turn from the start on, or evenly inside the range of travel."""
         k = np.arange(first, n if last is None else last)
         if isinstance(self.driver, AngleDriver):
             return np.asarray(2 * np.pi * k / n)
@@ -216,22 +216,18 @@ class DriverRange:
         return self.motion(np.array(self.ends))
 
     def sweep(self, n: int) -> Motion:
-        """The motion at n positions: over a full turn from the start on, or, by increasing travel, spread evenly inside
-        the range of a driver that slides."""
-        return replace(self.motion(self._sweep_offsets(n)), passed=self.change_points)
+        """The motion at n positions in the sense of the driver: over a full turn from the start on, or spread evenly
+        inside the range of a driver that slides."""
+        return replace(self.motion(self.table_offsets(n)), passed=self.change_points)
 
     def sweep_in_blocks(self, n: int) -> Iterator[Motion]:
         """``sweep`` a block of positions at a time: no more of it is in memory."""
-        offset = self._sweep_offsets(n)
+        offset = self.table_offsets(n)
         before: Motion | None = None
         for first in range(0, n, BLOCK):
             found = replace(self.motion(offset[first : first + BLOCK]), passed=self.change_points)
             before = found if before is None else found.after(before)
             yield before
-
-    def _sweep_offsets(self, n: int) -> Array:
-        offset = self.table_offsets(n)
-        return offset if isinstance(self.driver, AngleDriver) or self.sense > 0 else offset[::-1]
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
         why = "" if good.all() or not fine else self.limit_why

@@ -37,8 +37,8 @@ def solve(
     ----------
     at : driver values other than the scene's, by driver key (link, or sliding pair), in rad or m
     sweep : this many positions: over a full turn of the first driver, in the sense of its omega (counter-clockwise if
-        it is 0), from the scene's own value (or that of ``at``) on; for a slide driver spread evenly inside the range
-        of travel that the motion reaches
+        it is 0), from the scene's own value (or that of ``at``) on; for a slide driver, in the same sense, spread
+        evenly inside the range of travel that the motion reaches
 
     Returns
     -------

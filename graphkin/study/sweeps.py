@@ -237,7 +237,7 @@ def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, st
     numbers = np.array([*alike])[together]
     if not len(numbers):
         return {}
-    columns, ok = PreparedMechanisms(ready, {name: x[together] for name, x in given.items()}).sweep(sweep.positions)
+    columns, ok, _ = PreparedMechanisms(ready, {name: x[together] for name, x in given.items()}).sweep(sweep.positions)
     return {n: sweep.base.arrays_of(ready, columns[:, k], ok[k]) for k, n in enumerate(numbers.tolist())}
 
 

@@ -186,3 +186,33 @@ def test_a_crank_alone_has_designs():
     }
     found = graphkin.sweep(crank, positions=4, designs={"links.1.length": [50, 60]}, find=["v_B"])
     assert [[100.0] * 4, [120.0] * 4] == pytest.approx(np.abs(found["v_B"]))
+
+
+@pytest.mark.parametrize("angle", [30.0, [30.0], [30.0, 50.0], [-20.0, 200.0, 30.0]])
+def test_a_design_with_another_driver_angle_begins_there(angle):
+    ready = graphkin.prepare(SHAPER, ["theta_4", "omega_4"])
+    found = ready.over({"driver.angle": angle})
+    for k, one in enumerate(np.atleast_1d(angle).tolist()):
+        anew = graphkin.prepare(applied(SHAPER, ("driver.angle",), (one,)), ["theta_4", "omega_4"])
+        turn, here = found.sweep(5), found["omega_4"]
+        rows = (turn["omega_4"], turn.driver) if np.ndim(angle) == 0 else (turn["omega_4"][k], turn.driver[k])
+        assert anew.sweep(5)["omega_4"].tolist() == pytest.approx(rows[0].tolist(), rel=1e-12)
+        assert anew.sweep(5).driver.tolist() == pytest.approx(rows[1].tolist(), rel=1e-12)
+        assert float(anew["omega_4"][0]) == pytest.approx(float(np.atleast_1d(here)[k]), rel=1e-12)
+
+
+def test_the_driven_slide_of_each_design_has_its_own_range():
+    lift = {
+        "frame": {"name": "1", "points": {"A": [0, 0], "C": [200, -300]}},
+        "links": {
+            "2": {"points": ["A", "B"], "length": 400},
+            "3": {"points": ["B"], "on": "4"},
+            "4": {"points": ["C"]},
+        },
+        "driver": {"slide": "3", "travel": 520, "velocity": -60},
+    }
+    found = graphkin.prepare(lift, ["theta_2"]).over({"links.2.length": [400, 380]}).sweep(5)
+    for k, length in enumerate([400, 380]):
+        anew = graphkin.prepare(applied(lift, ("links.2.length",), (length,)), ["theta_2"]).sweep(5)
+        assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-9)
+        assert anew["theta_2"].tolist() == pytest.approx(found["theta_2"][k].tolist(), rel=1e-9)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from typer.testing import CliRunner
 import graphkin
 from graphkin.cli.commands import app_of
 from graphkin.errors import CallError, Unsolvable
+from graphkin.scene import library_text
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from tests.scenes import four_bar
@@ -196,3 +198,17 @@ def test_rows_are_numbered_as_the_scene_numbers_its_positions() -> None:
     # position 1 is the start of the stroke; the crank turns clockwise
     assert table["x_C (mm)"][0] == pytest.approx(-322.8693781, abs=1e-6)
     assert [-30.0] * 11 == pytest.approx(np.diff(table["driver_2 (deg)"]))
+
+
+@pytest.mark.parametrize("velocity", [60, -60])
+def test_solve_sweep_and_prepare_go_in_the_sense_of_a_driven_slide(velocity: float) -> None:
+    scene = tomllib.loads(library_text("boom-lifted"))
+    scene["driver"]["velocity"] = velocity
+    swept = graphkin.sweep(scene, positions=7, find=["theta_1"])
+    travels = swept["driver_2/3"]
+    assert [velocity > 0] * 6 == (np.diff(travels) > 0).tolist()
+    solved = graphkin.solve(scene, sweep=7)
+    assert travels.tolist() == pytest.approx(solved["driver_2/3"].tolist(), rel=1e-9)
+    assert swept["theta_1"].tolist() == pytest.approx(solved["theta_1"].tolist(), rel=1e-9)
+    prepared = graphkin.prepare(scene, ["theta_1"]).sweep(7)
+    assert prepared.driver.tolist() == pytest.approx(travels.tolist(), rel=1e-9)

@@ -66,3 +66,45 @@ def test_no_line_runs_through_a_stroke_an_angle_or_the_swing(name: str) -> None:
     assert boxes
     struck = [words for words, box in boxes.items() if any(box.clip(*line) for line in (*ink.solid, *ink.dashed))]
     assert [] == struck
+
+
+def limits_alone(driver: str) -> dict[str, object]:
+    """A crank-rocker whose `[positions]` ask for nothing but the limits, driven by its crank 2 or its rocker 4."""
+    return {
+        "frame": {"name": "1", "points": {"A": [0, 0], "D": [100, 0]}},
+        "links": {
+            "2": {"points": ["A", "B"], "length": 30},
+            "3": {"points": ["B", "C"], "length": 90},
+            "4": {"points": ["D", "C"], "length": 60},
+        },
+        "driver": {"link": driver, "angle": {"2": 60, "4": 110}[driver], "omega": 2},
+        "positions": {"show": ["limits"]},
+    }
+
+
+def words_of(drawn: graphkin.Drawn) -> str:
+    parts = walk(drawn.figures["positions"].children)
+    return " ".join("".join(run.text for run in part.runs) for part in parts if isinstance(part, Text))
+
+
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [
+        ("en", "No limit positions are drawn (swing_2: belongs to a whole turn, but driver 4 does not turn fully (it"),
+        ("zh", "未画极限位置（swing_2：属于整周运动，但原动件 4 不能转整周（"),
+    ],
+)
+def test_limits_that_there_are_not_are_said_not_to_be(language: str, said: str) -> None:
+    drawn = graphkin.draw(limits_alone("4"), figures=["positions"], language=language)
+    assert said in words_of(drawn)
+
+
+def test_limits_that_there_are_need_no_number_of_positions() -> None:
+    drawn = graphkin.draw(limits_alone("2"), figures=["positions"], language="en")
+    assert (b"limit-4-low" in svg_bytes(drawn.figures["positions"]), "No limit" in words_of(drawn)) == (True, False)
+
+
+@pytest.mark.parametrize("driver", ["2", "4"])
+def test_a_scene_that_shows_its_limits_alone_has_tables_of_a_turn(driver: str) -> None:
+    assert len(graphkin.sweep(limits_alone(driver)).table) == 36
+    assert graphkin.course_design(limits_alone(driver)).ok
