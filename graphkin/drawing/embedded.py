@@ -4,11 +4,12 @@ family as a rule of a style sheet; or as outlines, for programs that have no fon
 
 from __future__ import annotations
 
+import struct
 from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from zlib import crc32
 
-from graphkin.drawing.font import EM, FAMILY, Glyph, Style, glyph, part
+from graphkin.drawing.font import EM, FAMILY, Glyph, Style, glyph, held, part
 from graphkin.drawing.font_widths import style_of
 from graphkin.drawing.primitives import Run
 
@@ -26,16 +27,22 @@ _LOOK: Mapping[Style, str] = {"regular": "", "italic": ";font-style:italic", "bo
 def face_rules(used: Mapping[Style, Iterable[str]]) -> tuple[str, str]:
     """The name of a family with the used characters of each style, and the rules that hold it.
 
-    The name tells the glyphs, since several figures with different ones may stand in one page.
+    The name tells the glyphs, since several figures with different ones may stand in one page; not how they are packed,
+    which may differ with the version of a library.
     """
-    parts = {style: part(style, "".join(sorted(set(used[style])))) for style in _LOOK if used.get(style)}
-    if not parts:
+    letters = {style: frozenset(used[style]) for style in _LOOK if used.get(style)}
+    if not letters:
         return FAMILY, ""
-    name = f"{FAMILY} {crc32(b''.join(parts.values())):08x}"
+    glyphs = b"".join(
+        struct.pack(">IH", code, found.advance) + found.outline
+        for style, characters in letters.items()
+        for code, found in held(style, characters).items()
+    )
+    name = f"{FAMILY} {crc32(glyphs):08x}"
     rules = (
         f"@font-face{{font-family:'{name}'{_LOOK[style]};"
-        f"src:url(data:font/woff2;base64,{b64encode(data).decode()}) format('woff2')}}"
-        for style, data in parts.items()
+        f"src:url(data:font/woff;base64,{b64encode(part(style, characters)).decode()}) format('woff')}}"
+        for style, characters in letters.items()
     )
     return name, "".join(rules)
 
