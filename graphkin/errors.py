@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 __all__ = [
-    "CallError", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list", "as_text",
-    "did_you_mean", "printable",
+    "CallError", "Disagreement", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list",
+    "as_text", "did_you_mean", "printable",
 ]  # fmt: skip
 
 PAGE = 4000
@@ -93,6 +93,12 @@ class Unsolvable(GraphkinError):
     def why(self) -> str:
         """The reason in one line."""
         return " ".join(str(p) for p in self.problems)
+
+
+class Disagreement(GraphkinError):
+    """A drawing does not agree with the analytic solver: no paper is made of it (exit status 1)."""
+
+    exit_code = 1
 
 
 class NoDriver(Unsolvable):

@@ -10,8 +10,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from graphkin.api.arguments import (
     INSTRUMENTS,
     MOST_SEED,
@@ -28,9 +26,8 @@ from graphkin.api.arguments import (
 from graphkin.api.reading_rows import in_scene_units, reading_row
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import Compared, Report, compare
+from graphkin.checking.report import Compared, Report, compare, rounding_of
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.construction.sheet import DiagramName
 from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
@@ -283,12 +280,7 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
 
     turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
     readings = read_off(sheet, (), hand, forces)
-    rounding: dict[DiagramName, float] = {
-        "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
-        "velocity": float(motion.rough[0][0]),
-        "acceleration": float(motion.rough[1][0]),
-        "force": lost,
-    }
+    rounding = rounding_of(motion, lost)
     if hand is EXACT:
         report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
         return Checked(sheet, report, None, what.asked, passed, turning, forces)

@@ -11,7 +11,7 @@ from graphkin.api.answers import table_of
 from graphkin.api.arguments import SceneLike, as_scene, asked_symbols, for_paper
 from graphkin.api.checked import solved_here
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare
+from graphkin.checking.report import compare, rounding_of
 from graphkin.construction import execute
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.papers.course_design import PlaceValues, Student, value_read
@@ -67,8 +67,11 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
         try:
             motion = solved_here(structure, {key: value})
             sheet = execute(paper_plan(structure, {key: value}, asked))
-            exact = solver.exact_values(solver.as_drawn(motion, sheet.structure), asked)
-            lesson = Lesson(sheet, compare(sheet, read_off(sheet), exact, asked), {}, "en", "chinese", asked)
+            motion = solver.as_drawn(motion, sheet.structure)
+            exact = solver.exact_values(motion, asked)
+            report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding_of(motion))
+            report.must_agree(scene)
+            lesson = Lesson(sheet, report, {}, "en", "chinese", asked)
             places[place] = read_at(place, value, lesson, asked)
         except Unsolvable:
             places[place] = PlaceValues(place, scene.in_file_units(scene.drivers[0], value))

@@ -124,8 +124,14 @@ class Drawn(Result, OfScene):
         Raises
         ------
         CallError : an unknown format, a folder that cannot be written
+        Disagreement : a value that was drawn exactly is out of tolerance
         """
         known_words(formats, text=text)
+        if self.checked.sheet.instrument == EXACT.name:
+            forces = self.with_forces if {"forces", "lever"}.intersection(self.wanted) else None
+            for made in (self.checked, forces):
+                if made is not None:
+                    made.report.must_agree(self.mechanism)
         target = own_folder(folder, self.checked.mechanism.name)
         files: dict[str, bytes] = {}
         figures = self.figures

@@ -9,8 +9,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.errors import Disagreement, Problem
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.structure import by_drivers_alone
@@ -18,8 +21,12 @@ from graphkin.words.written import MOST, amount, computed, figures, on_paper, pr
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
+    from graphkin.scene.model import Mechanism
+    from graphkin.solver import Motion
 
-__all__ = ["JUDGED", "Compared", "Report", "compare", "deviation", "exact", "measured", "paper"]
+__all__ = [
+    "JUDGED", "Compared", "Report", "compare", "deviation", "exact", "measured", "paper", "rounding_of",
+]  # fmt: skip
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
@@ -108,10 +115,32 @@ class Report:
         found = any(row.ok and not row.by_drivers for row in self.rows)
         return not self.rows or (found and all(row.ok is not False for row in self.rows))
 
+    def must_agree(self, scene: Mechanism) -> None:
+        """Raises Disagreement, naming every reading that is out of tolerance with what was drawn and what is right."""
+        off = [row for row in self.rows if row.ok is False]
+        if not off:
+            return
+        problems = []
+        for row in off:
+            drawn, exact = (_written(scene, row.symbol, value) for value in (row.measured, row.true))
+            found = f"{drawn} by the drawing, {exact} by computation"
+            problems.append(Problem(str(row.symbol), found, "no paper is written: please report this scene"))
+        raise Disagreement(*problems)
+
     @property
     def undetermined(self) -> tuple[Symbol, ...]:
         """Readings of which nothing can be said at this position."""
         return tuple(row.symbol for row in self.rows if row.ok is None)
+
+
+def rounding_of(motion: Motion, forces: float = 0.0) -> dict[DiagramName, float]:
+    """How far rounding may have moved the exact values of one position, as `compare` takes it; ``forces`` those (N)."""
+    return {
+        "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
+        "velocity": float(motion.rough[0][0]),
+        "acceleration": float(motion.rough[1][0]),
+        "force": forces,
+    }
 
 
 def compare(
@@ -190,6 +219,14 @@ def compare(
     have = {r.symbol for r in readings}
     scales = replace(sheet.scales, force=force_scale)
     return Report(sheet.instrument, scales, tuple(rows), tuple(s for s in asked if s not in have))
+
+
+def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
+    """A value in the units of a file, a vector by its size and its direction."""
+    size = (abs(value) if symbol.is_vector else float(value.real)) / symbol.per_unit(scene.units)
+    unit = symbol.written_unit(scene.units)
+    way = f" at {math.degrees(cmath.phase(value)):.4g}°" if symbol.is_vector and value else ""
+    return f"{size:.6g}{f' {unit}' if unit else ''}{way}"
 
 
 @dataclass(frozen=True)

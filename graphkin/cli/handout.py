@@ -206,4 +206,4 @@ def _problem_set(
     for failure in made.made.failures:
         complain(f"{failure.name}: {failure.why}")
     if not made.ok:
-        raise typer.Exit(3)
+        raise typer.Exit(min(failure.exit_code for failure in made.made.failures))

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare
+from graphkin.checking.report import compare, rounding_of
 from graphkin.checking.slips import Evidence
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
@@ -39,6 +39,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
+from graphkin.solver.force_values import force_values
 from graphkin.structure import Structure
 from graphkin.words import languages
 
@@ -48,12 +49,19 @@ MANY_LINKS = 10
 
 
 def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Lesson:
-    """The lesson of a plan, with its check and with the tolerances of a pencil drawing."""
+    """The lesson of a plan, with its check and with the tolerances of a pencil drawing.
 
+    Raises
+    ------
+    Disagreement : its own check finds a value out of tolerance
+    """
     sheet = execute(what)
-    exact = solver.exact_values(solver.as_drawn(motion, what.structure), what.asked)
-    scale = force_scale(sheet) if sheet.has_forces else 0.0
-    report = compare(sheet, read_off(sheet), exact, what.asked, force_scale=scale)
+    motion = solver.as_drawn(motion, what.structure)
+    exact = solver.exact_values(motion, what.asked)
+    scale, lost = (force_scale(sheet), force_values(motion)[1]) if sheet.has_forces else (0.0, 0.0)
+    rounding = rounding_of(motion, lost)
+    report = compare(sheet, read_off(sheet), exact, what.asked, rounding=rounding, force_scale=scale)
+    report.must_agree(sheet.scene)
     tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
     return Lesson(sheet, report, tolerance, language, convention, what.asked)
 
@@ -111,8 +119,8 @@ def views_of(
     """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
 
     ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
-    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points) are left
-    out.
+    solution on paper, kept wherever the figures fit.  Positions in which the construction fails (dead points), or its
+    check, are left out.
     """
     rows, start = positions(structure, values, count)
     made = {start: plan(structure, rows[start], asked)}
@@ -125,13 +133,17 @@ def views_of(
     plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
     centres = _centres(structure, sheets, given, progress or _silent)
-    views = []
-    for sheet, here in zip(sheets, centres, strict=True):
+    views: list[View] = []
+    start = given
+    for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
         motion = solver.as_drawn(solver.solve(structure, at=sheet.drivers), sheet.structure)
         exact = solver.exact_values(motion, tuple(asked))
-        report = compare(sheet, read_off(sheet), exact, tuple(asked))
+        report = compare(sheet, read_off(sheet), exact, tuple(asked), rounding=rounding_of(motion))
+        if number != given and any(row.ok is False for row in report.rows):
+            start -= number < given
+            continue
         views.append(View(Lesson(sheet, report, {}, language, convention, tuple(asked)), here))
-    return views, given
+    return views, start
 
 
 def _followed(structure: Structure, row: Mapping[str, float], asked: Sequence[Symbol], last: Plan) -> Plan:

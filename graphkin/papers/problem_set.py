@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass, field, is_dataclass
 from itertools import islice
 from pathlib import Path
 
-from graphkin.errors import GraphkinError
+from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
@@ -69,6 +69,7 @@ class Failure:
 
     name: str
     why: str
+    exit_code: int = Unsolvable.exit_code
 
 
 @dataclass
@@ -230,7 +231,7 @@ def make(
         elif points is not None and job.number not in done:
             points.save(job.number, {**asdict(result), "files": files})
         if result.variant is None or why:
-            made.failures.append(Failure(job.name, why))
+            made.failures.append(Failure(job.name, why, rendered.exit_code))
         else:
             made.names.append(job.name)
             made.answers[job.name] = result.variant.answers
@@ -318,13 +319,14 @@ class RenderedPapers:
 
     files: Mapping[str, bytes] = field(default_factory=dict)
     why: str = ""
+    exit_code: int = Unsolvable.exit_code
 
 
 def _rendered(render: Render | None, variant: Variant) -> RenderedPapers:
     try:
         return RenderedPapers(render(variant)) if render is not None else RenderedPapers()
     except Exception as error:  # whatever goes wrong with one must not take the others along
-        return RenderedPapers(why=_reason(error))
+        return RenderedPapers(why=_reason(error), exit_code=getattr(error, "exit_code", Unsolvable.exit_code))
 
 
 def _reason(error: Exception) -> str:

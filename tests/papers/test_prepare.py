@@ -1,10 +1,19 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+import graphkin
+from graphkin.api import checked, course_schemes
+from graphkin.checking.readings import read_off
+from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
+from graphkin.papers import prepare
 from graphkin.papers.prepare import usual_count
 from graphkin.scene import mechanism_of
+from graphkin.structure import analyse
+from tests.command import run
 
 pytestmark = pytest.mark.quick
 
@@ -23,3 +32,65 @@ def test_centres_followed_from_a_neighbour_are_those_found_afresh():
 
 def test_a_mechanism_of_many_links_is_shown_in_fewer_positions():
     assert 12 == usual_count(mechanism_of("double-butterfly"))
+
+
+FOUR_BAR = "fourbar-150-500-300-400"
+
+
+@pytest.fixture
+def misread(monkeypatch):
+    """A drawing of which omega_3 is read with the wrong sign."""
+
+    def wrong(reading):
+        return replace(reading, value=-reading.value) if str(reading.symbol) == "omega_3" else reading
+
+    for room in (prepare, checked, course_schemes):
+        monkeypatch.setattr(room, "read_off", lambda *given: [wrong(reading) for reading in read_off(*given)])
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        ["handout", FOUR_BAR, "--format", "html"],
+        ["handout", FOUR_BAR, "--export", "gift"],
+        ["handout", FOUR_BAR, "--template", "course-design", "--format", "html"],
+        ["draw", FOUR_BAR],
+        ["draw", FOUR_BAR, "--figure", "sheet"],
+    ],
+)
+def test_a_paper_whose_own_check_fails_is_refused_and_nothing_is_written(call, misread, tmp_path):
+    answer = run(*call, "-o", str(tmp_path / "out"), "--quiet")
+    assert (1, False) == (answer.returncode, (tmp_path / "out").exists())
+    drawn, right = (f"{sign}{graphkin.solve(FOUR_BAR)['omega_3'][0]:.6g} rad/s".replace("--", "") for sign in ("-", ""))
+    assert f"graphkin: omega_3: {drawn} by the drawing, {right} by computation; no paper is written" in answer.stderr
+
+
+def test_a_variant_whose_own_check_fails_is_named_and_none_of_its_papers_written(misread, tmp_path):
+    call = ["handout", FOUR_BAR, "--variants", "1", "--workers", "1", "--format", "html", "--quiet"]
+    answer = run(*call, "-o", str(tmp_path))
+    assert 1 == answer.returncode
+    assert "01: omega_3: " in answer.stderr
+    assert [] == [path.name for path in tmp_path.rglob("*.html")]
+
+
+def test_a_pencil_drawing_that_misses_is_drawn_all_the_same(misread, tmp_path):
+    answer = run("draw", FOUR_BAR, "--instrument", "pencil", "--figure", "velocity", "-o", str(tmp_path), "--quiet")
+    assert (1, True) == (answer.returncode, (tmp_path / "velocity.svg").exists())
+
+
+def test_positions_of_the_screen_whose_check_fails_are_left_out(monkeypatch):
+    structure = analyse(mechanism_of("boom-lifted"))
+    key = structure.drivers[0].key
+    bare = plan(structure, None, ())
+    paper = execute(bare).scales
+    whole, start = prepare.views_of(structure, None, (), "en", "us", paper, 4)
+    missed = {whole[k].lesson.sheet.drivers[key] for k in (0, start + 1)}
+
+    def wrong(sheet):
+        off = 1.01 if sheet.drivers[key] in missed else 1.0
+        return [replace(reading, value=off * reading.value) for reading in read_off(sheet)]
+
+    monkeypatch.setattr(prepare, "read_off", wrong)
+    kept, now = prepare.views_of(structure, None, (), "en", "us", paper, 4)
+    assert whole[start].lesson.sheet.drivers == kept[now].lesson.sheet.drivers
+    assert (start - 1, len(whole) - 2) == (now, len(kept))
