@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.reading_rows import in_scene_units, reading_row
+from graphkin.api.reading_rows import in_scene_units, reading_row, without_residues
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
@@ -112,7 +112,7 @@ class Checked(Result, OfScene):
 
         units, rows = self.mechanism.units, []
         for row in self.report.rows:
-            cells = {**reading_row(self.mechanism, row, degrees=True), "unit": row.symbol.unit(units)}
+            cells = {**reading_row(self.mechanism, without_residues(row), degrees=True), "unit": row.symbol.unit(units)}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 

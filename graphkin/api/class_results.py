@@ -188,4 +188,4 @@ def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
 
 
 def _plain(value: float) -> float:
-    return float(f"{value:.12g}")
+    return float(f"{value:.12g}") + 0.0

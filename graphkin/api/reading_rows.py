@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphkin.checking.report import Compared
@@ -11,11 +12,15 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, say
+from graphkin.words.written import ROUNDED
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
 
-__all__ = ["finite", "in_scene_units", "reading_row"]
+__all__ = ["finite", "in_scene_units", "reading_row", "without_residues"]
+
+RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
+TURNED = 1e-12  # rad, likewise
 
 
 def in_scene_units(scene: Mechanism, symbol: Symbol, value: float, degrees: bool = False) -> float:
@@ -35,7 +40,7 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
 
     return {
         "symbol": str(row.symbol),
-        "on_paper_mm": row.reading.on_paper,
+        "on_paper_mm": 0.0 if row.on_paper is not None and abs(row.on_paper) < ROUNDED else row.on_paper,
         "measured": size(row.measured),
         "exact": size(row.true),
         "error": unit(row.error),
@@ -45,6 +50,12 @@ def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[
         **({"why": say(Phrase("not determined", (str(row.symbol),)))} if row.ok is None else {}),
         **(_predicted(finite(unit(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
     }
+
+
+def without_residues(row: Compared) -> Compared:
+    """A reading whose deviations are 0 where they are nothing but rounding, for tables that people read."""
+    error = 0.0 if row.error <= RESIDUE * row.tolerance else row.error
+    return replace(row, error=error, direction_error=0.0 if abs(row.direction_error) <= TURNED else row.direction_error)
 
 
 def finite(value: float) -> float | None:

@@ -24,7 +24,7 @@ from graphkin.checking.slip_likelihood import (
     comparable,
     likelihood,
 )
-from graphkin.checking.slips import NOTHING, Evidence
+from graphkin.checking.slips import CANCELLING, NOTHING, Evidence
 from graphkin.scene.printed import Line, Printed
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.words import Phrase
@@ -90,7 +90,7 @@ def _judged(case: Evidence, printed: Printed) -> Judged:
     share = deviation(printed, exact)
     judged = Judged(printed, exact, share, "right", bound)
     turned = _turned(case, judged, held.right)
-    nothing = NOTHING * held.largest if exact == 0 and symbol.scope == "motion" else 0.0
+    nothing = NOTHING * held.largest if exact == 0 and symbol.scope in CANCELLING else 0.0
     if off <= printed.rounding + max(1e-9 * abs(exact), nothing):
         return turned or judged
     if math.isinf(bound):

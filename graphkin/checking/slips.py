@@ -27,7 +27,7 @@ from graphkin.solver import Motion
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 
-__all__ = ["NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere"]
+__all__ = ["CANCELLING", "NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere"]
 
 
 def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
@@ -73,6 +73,7 @@ def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
 
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
+CANCELLING = ("motion", "position", "force")  # scopes of what may be a difference that leaves nothing
 
 
 @dataclass(frozen=True)
@@ -151,11 +152,11 @@ class Evidence:
             exact = self.exact(symbol)
             alike = [abs(v) for s, v in self.others.items() if dimension(s) == dimension(symbol)]
             largest = max([abs(exact), *alike]) or math.inf
-            residue = symbol.scope == "motion" and abs(exact) <= NOTHING * largest
+            residue = symbol.scope in CANCELLING and abs(exact) <= NOTHING * largest
             uncertainty = self.predicted.get(symbol)
             bound = uncertainty.bound if uncertainty else 0.0
             bound = math.inf if symbol.scope == "motion" and bound > largest else bound
-            right = 0.0 * exact if residue else exact
+            right = type(exact)(0.0) if residue else exact
             self._held[symbol] = ExpectedValue(right, largest, bound, _line_of(self.sheet, symbol))
         return self._held[symbol]
 

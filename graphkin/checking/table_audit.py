@@ -11,10 +11,11 @@ import numpy as np
 
 from graphkin.checking.audit import COMPUTED_SHARE, Judged, deviation, difference
 from graphkin.checking.slip_likelihood import comparable, transcription_errors
+from graphkin.checking.slips import NOTHING
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.solver import Motion, listed_points, senses_along, value_of
+from graphkin.solver import Motion, forces_of, listed_points, senses_along, value_of
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
 
@@ -30,7 +31,13 @@ def exact_rows(motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbo
     ----------
     of_turn : the quantities of the whole turn, which are the same at all positions
     """
-    columns = {s: value_of(motion, s).tolist() for s in symbols if s not in of_turn}
+    largest = computing_errors(motion, symbols)
+    columns = {}
+    for s in symbols:
+        if s not in of_turn:
+            column = value_of(motion, s)
+            nothing = NOTHING / COMPUTED_SHARE * largest[s] if s in largest else _rounding(motion, s)
+            columns[s] = np.where(np.abs(column) <= nothing, 0.0, column).tolist()
     lines: dict[Symbol, Array | None] = {}
 
     def exact(row: int, printed: Printed) -> Value:
@@ -44,6 +51,11 @@ def exact_rows(motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbo
         return comparable(printed, value, None if line is None else complex(line[row]))
 
     return exact
+
+
+def _rounding(motion: Motion, symbol: Symbol) -> Array | float:
+    """What rounding leaves of a force or a moment that is none (SI), shape (n,)."""
+    return np.nan_to_num(forces_of(motion).bound[symbol.measure == "moment"]) if symbol.scope == "force" else 0.0
 
 
 def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, Array]:

@@ -11,8 +11,8 @@ import math
 from decimal import Decimal, localcontext
 
 __all__ = [
-    "FINER", "LEAST", "MOST", "amount", "as_given", "computed", "difference", "figures", "in_markup", "increase",
-    "increased", "is_quotient", "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
+    "FINER", "LEAST", "MOST", "ROUNDED", "amount", "as_given", "computed", "difference", "figures", "in_markup",
+    "increase", "increased", "is_quotient", "on_paper", "pointing", "product", "quotient", "to_lay_off", "true_minus",
 ]  # fmt: skip
 
 MOST = 5  # figures of a computed number

@@ -9,7 +9,7 @@ from decimal import Decimal
 
 import pytest
 
-from graphkin import check, draw, solve
+from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
 from graphkin.words.written import amount
 
@@ -90,3 +90,20 @@ def test_the_advice_is_not_of_a_reading_that_is_not_told_from_zero():
 def test_loops_that_close_have_the_sum_0(name):
     said = [line for line in solve(name).loops("en").plain.splitlines() if "sum of all arrows" in line]
     assert {"the sum of all arrows is 0"} == {line.strip() for line in said}
+
+
+RESIDUE = re.compile(r"(?<![\w.])-0(?:\.0+)?(?![\d.])|\de-1[2-9]")
+
+
+@pytest.mark.parametrize(("name", "at"), [*DEAD, ("boom-lifted", None), ("boom-lifted", 180), ("shaper-forces", 90)])
+def test_no_table_shows_what_rounding_leaves(name, at):
+    made = check(name, at=at)
+    nought = {row["symbol"]: "0" for row in made.data["readings"] if row["symbol"] != "arm_P_P"}
+    computed = {s: v for s, v in nought.items() if s[:2] in ("F_", "M_", "v_", "om")}
+    printed = read(name).to_dict() | {"printed": {"by": "computation", **computed}}
+    tables = {
+        "check": made.table.csv(),
+        "audit": audit(name, {"x": nought}, at=at).table.csv(),
+        "computed": audit(printed, at=at).table.csv(),
+    }
+    assert [] == [(t, line) for t, text in tables.items() for line in text.splitlines() if RESIDUE.search(line)]
