@@ -6,6 +6,7 @@ import ast
 import json
 import re
 from collections.abc import Iterator
+from dataclasses import MISSING, fields
 from pathlib import Path
 
 import pytest
@@ -13,13 +14,19 @@ import pytest
 import graphkin
 from graphkin.api.report_text import report_text
 from graphkin.errors import Problem
+from graphkin.scene import reading
+from graphkin.scene.design_file import KINDS
+from graphkin.scene.file_table import keys_of
+from graphkin.scene.source import library_text
 from graphkin.words.refused import clauses, refused
 from tests.command import run
 
 ROOMS = Path(graphkin.__file__).parent
 GAP = re.compile(r"\{\d?\}")
 PARTS = {"drive a sliding pair: ", "it may be ", "write ", "paste one of these at the head of the file:\n", " or 0",
-         ", and link {} slides on it or it on link {}"}  # fmt: skip
+         ", and link {} slides on it or it on link {}", " and another with link {}",
+         "{} redundant, is not counted: only a link that repeats what others hold may be marked so",
+         ": write in the file [driver] with link, angle and omega, or with slide, travel and velocity"}  # fmt: skip
 """What is put together with something else before it is a clause; the clauses themselves have a translation."""
 
 
@@ -44,10 +51,36 @@ def literals(node: ast.expr) -> Iterator[str]:
 def clauses_made() -> Iterator[str]:
     for path in sorted(ROOMS.rglob("*.py")):
         source = path.read_text(encoding="utf-8")
-        for call in ast.walk(ast.parse(source)) if "Problem(" in source else ():
-            if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "Problem":
-                for part in (*call.args[1:], *(k.value for k in call.keywords if k.arg != "where")):
-                    yield from literals(part)
+        if "Problem(" in source:
+            yield from clauses_of(ast.parse(source))
+
+
+def clauses_of(module: ast.Module) -> Iterator[str]:
+    """The clauses of the problems that a module makes, as they stand there or in variables and arguments."""
+    named = set()
+    for call in ast.walk(module):
+        if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "Problem":
+            for part in (*call.args[1:], *(k.value for k in call.keywords if k.arg != "where")):
+                yield from literals(part)
+                if isinstance(part, ast.Name):
+                    named.add(part.id)
+    made = {f.name: [a.arg for a in f.args.args] for f in ast.walk(module) if isinstance(f, ast.FunctionDef)}
+    for node in ast.walk(module):
+        if isinstance(node, ast.Assign | ast.AugAssign | ast.NamedExpr):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            values = [(target, node.value) for target in targets]
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            values = [*zip(map(ast.Name, made.get(node.func.id, ())), node.args, strict=False)]
+            values += [(ast.Name(k.arg or ""), k.value) for k in node.keywords]
+        else:
+            continue
+        for target, value in values:
+            pairs = [(target, value)]
+            if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
+                pairs = [*zip(target.elts, value.elts, strict=True)]
+            for name, said in pairs:
+                if isinstance(name, ast.Name) and name.id in named:
+                    yield from (text.removeprefix("; ") for text in literals(said) if " " in text)
 
 
 def is_said(text: str) -> bool:
@@ -58,6 +91,15 @@ def is_said(text: str) -> bool:
 def test_every_clause_of_a_refusal_has_a_chinese_one():
     known = clauses("zh")
     assert [] == sorted({c for c in clauses_made() if is_said(c) and c not in known and c not in PARTS})
+
+
+def test_what_a_key_is_about_has_chinese():
+    about = {
+        reading.clause_of(one.metadata.get("description", "")) for _, table in reading._TABLES for one in keys_of(table)
+    }
+    # of a design what must be given is named where it is missing
+    about |= {one.metadata["description"] for made in KINDS.values() for one in fields(made) if one.default is MISSING}
+    assert [] == sorted(text for text in about if refused(text, "zh") == text != "")
 
 
 def test_clauses_have_the_same_gaps_in_chinese():
@@ -149,3 +191,32 @@ def test_what_is_printed_for_programs_says_the_same_in_every_language():
 def test_a_report_in_chinese_has_no_english_in_its_steps_and_equations(name):
     text = report_text(graphkin.check(name), "zh")
     assert [] == re.findall(r"\b(?:seen|from|given|the|of|on|link|links)\b", text)
+
+
+ENGLISH = re.compile(r"[a-z]{3,} [a-z]{2,}")
+
+
+def test_a_scene_without_a_driver_is_refused_in_chinese(tmp_path):
+    text = re.sub(r"\[driver\][^\[]*", "", library_text("sixbar-420rpm"))
+    (tmp_path / "still.toml").write_text(text, encoding="utf-8")
+    for command in ("check", "explain"):
+        done = run(command, str(tmp_path / "still.toml"), "--lang", "zh")
+        assert (2, [
+            "graphkin: 自由度：F = 3*5 - 2*7 = 1，但没有给原动件；自由度为 1 的机构需要同样多的原动件："
+            "请在文件中写 [driver]，含 link、angle 和 omega，或含 slide、travel 和 velocity",
+        ]) == (done.returncode, done.stderr.splitlines())  # fmt: skip
+
+
+def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_path):
+    solved = run("solve", "sixbar-AE70", "--at", "100", "--lang", "zh")
+    swept = run("sweep", "sixbar-420rpm", "--set", "links.2.length=0.01,0.34", "-o", str(tmp_path), "--lang", "zh")
+    assert (3, 0) == (solved.returncode, swept.returncode)
+    assert "\n不能装配：构件 4, 5" in solved.stdout
+    assert "2 个方案：1 不能装配, 1 可解\n" in swept.stdout
+    assert [None, None] == [ENGLISH.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
+
+
+def test_two_clauses_that_stand_in_a_third_are_both_known():
+    said = "not assembled: links 2, 3: they do not reach each other in the scene's own position; the nearest position "
+    assert "不能装配：构件 2, 3：在机构自身的位置上它们够不着彼此；最近的能装配的位置在 1 = -14.6°" == (
+        refused(f"{said}where they do is at 1 = -14.6 deg", "zh"))  # fmt: skip

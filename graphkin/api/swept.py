@@ -23,6 +23,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, have
 from graphkin.table.csv_files import table_of_csv
 from graphkin.words import Phrase, say
+from graphkin.words.refused import refused
 
 if TYPE_CHECKING:
     import xarray
@@ -239,7 +240,7 @@ class Swept(Result, OfScene):
         if self.time is not None:
             lines += self.time.lines(self.language)
         if self.over.designs.keys:
-            outcomes = ", ".join(f"{n} {status}" for status, n in self.outcomes.items())
+            outcomes = ", ".join(f"{n} {refused(status, self.language)}" for status, n in self.outcomes.items())
             lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
         lines.append(say(Phrase("positions solved", (self.good, self.rows)), self.language))
         return "\n".join(lines)

@@ -27,6 +27,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_y
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.new_scene import NEW, new_scene
+from graphkin.scene.reading import clause_of
 from graphkin.scene.source import LARGEST_FILE, parsed
 from graphkin.scene.written import put, resolved, safe_name
 from graphkin.structure import mobility_of
@@ -209,9 +210,10 @@ def _complete(desk: Desk, message: Message) -> Answer:
     line, column = message.get("line"), message.get("column")
     if not isinstance(line, int) or not isinstance(column, int):
         raise CallError(Problem("complete", "no place in the text", "give line and column"))
-    language = language_of(message)
-    found = completions(_text(message), line, column)
-    return {"options": [{**one, "detail": refused(one["detail"], language)} for one in found]}
+    language, found = language_of(message), completions(_text(message), line, column)
+    if language != "en":
+        found = [{**one, "detail": refused(clause_of(one["detail"]), language)} for one in found]
+    return {"options": found}
 
 
 def _open(desk: Desk, message: Message) -> Answer:

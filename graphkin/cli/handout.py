@@ -182,6 +182,8 @@ def _problem_set(
     from graphkin.api.handouts import papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.scene import mechanism_of
+    from graphkin.words import languages
+    from graphkin.words.refused import refused
 
     target = out if out is not None else Path(mechanism_of(scene).name)
     papers = papers_of(scene, formats, lang, convention, exports)
@@ -201,7 +203,8 @@ def _problem_set(
     if as_json:
         print_json(made.data)
     elif not quiet:
-        tell(f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}")
+        said = f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}"
+        tell(refused(said, languages(lang or mechanism_of(scene).sheet.language)[0]))
     tell_unused(made.unused)
     for failure in made.made.failures:
         complain(f"{failure.name}: {failure.why}")

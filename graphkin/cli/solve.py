@@ -106,6 +106,7 @@ def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
 
 def _print_positions(solved: Solved, language: str) -> None:
     from graphkin.words import Phrase, say, word
+    from graphkin.words.refused import refused
 
     scene = solved.motion.scene
     columns = [column for name in solved.find for column in solved.columns(name)]
@@ -115,7 +116,7 @@ def _print_positions(solved: Solved, language: str) -> None:
         values = ", ".join(f"{k} = {v:.6g}" for k, v in position["driver"].items())
         tell(say(Phrase("solved driver", (values,)), language))
         if position["status"] != "ok":
-            tell(f"{position['status']}: {position['why']}")
+            tell(refused(f"{position['status']}: {position['why']}", language))
             continue
         if solved.find:
             bounds = [_bound_of(c, position["error_bound"], scene.units.length) for c in columns]

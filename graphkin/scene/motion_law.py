@@ -141,7 +141,7 @@ def law_of(where: str, table: DriverLaw, unit: float, problems: list[Problem]) -
     }
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
-        found = f"has {' and '.join(given)}" if given else "says nothing"
+        found = f"says its motion by {' and '.join(given)}" if given else "says nothing"
         wanted = '{ from = 20, to = 110, duration = 0.5, by = "cycloidal" }, or from and pieces, or a table'
         problems.append(Problem(where, found, f"write {wanted}"))
         return None

@@ -27,7 +27,7 @@ from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws
 from graphkin.scene.tables import SceneTables
 
-__all__ = ["checked", "keys_at", "path_name", "plain", "shown"]
+__all__ = ["checked", "clause_of", "keys_at", "path_name", "plain", "shown"]
 
 MOST_VALUES = 20_000
 DEEPEST = 8
@@ -263,6 +263,11 @@ def keys_at(loc: KeyPath) -> dict[str, str]:
     return {}
 
 
+def clause_of(description: str) -> str:
+    """The description of a key as a clause of a problem."""
+    return description[:1].lower() + description[1:].rstrip(".")
+
+
 def sentence(loc: KeyPath, path: KeyPath, item: OwnTables) -> Problem:
     where, kind, value, ctx = path_name(path), item["type"], item["input"], item.get("ctx", {})
     if kind == "missing":
@@ -271,7 +276,7 @@ def sentence(loc: KeyPath, path: KeyPath, item: OwnTables) -> Problem:
             text = "a scene has moving links, [links.1] and so on"
         elif loc[0] == "driver" and loc[-1] == "link":
             text = 'write link = "1" for a driven angle or slide = "2" for a driven sliding pair'
-        return Problem(where, "is missing", text[:1].lower() + text[1:].rstrip(".") if text else "")
+        return Problem(where, "is missing", clause_of(text))
     if kind == UNKNOWN:
         return Problem(where, "unknown table" if isinstance(value, dict) else "unknown key", _about_key(loc))
     if "[key]" in loc:

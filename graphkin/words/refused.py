@@ -24,6 +24,8 @@ _NAMES = r"([^:; ]+(?:(?:, | and )[^:; ]+)*)"
 """A short clause that begins so ("links {}") names something: no other words stand in its gap."""
 _LITTLE, _NAME = 4, r"(\S+(?: (?:mm|cm|m|in|ft))?)"
 """With no more letters than these ("{} and {}") it stands between names and numbers."""
+_FEW, _IN_CLAUSE = 12, "(?:(?!; ).)"
+"""With no more letters than these ("{} = {} deg") it is of one clause and reaches into no other."""
 
 
 @cache
@@ -85,9 +87,10 @@ def _patterns(language: str) -> tuple[tuple[re.Pattern[str], str, tuple[bool, ..
     made = []
     for english, said in with_gaps:
         pieces = english.split("{}")
-        little = len("".join(pieces).strip()) <= _LITTLE
+        own = len("".join(pieces).strip())
+        little, sign = own <= _LITTLE, _IN_CLAUSE if own <= _FEW and "; " not in english else "."
         naming = len(english) <= _SHORT and english.startswith(_NAMING)
-        gap, last = (_NAME, _NAME) if little else (_NAMES, _NAMES) if naming else ("(.+?)", "(.+)")
+        gap, last = (_NAME, _NAME) if little else (_NAMES, _NAMES) if naming else (f"({sign}+?)", f"({sign}+)")
         pattern = gap.join(map(re.escape, pieces[:-1])) + last + re.escape(pieces[-1])
         made.append((re.compile(pattern, re.DOTALL), said, tuple(p.endswith(('"', "'", "<")) for p in pieces[:-1])))
     return tuple(made)

@@ -138,6 +138,14 @@ def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, q
     assert found["problems"][0]["text"].startswith(chinese)
 
 
+def test_what_may_be_written_is_explained_in_the_language_of_the_question() -> None:
+    lines = SIXBAR[: SIXBAR.index("[links.1]")].count("\n") + 2
+    english, chinese = (told("complete", line=lines, column=0, language=language) for language in ("en", "zh"))
+    details = {one["label"]: one["detail"] for one in english["options"]}
+    assert "Distance of the two own points." == details["length"]
+    assert "自身两点的距离" == {one["label"]: one["detail"] for one in chinese["options"]}["length"]
+
+
 def test_the_page_is_told_in_which_sense_the_driver_moves() -> None:
     assert 1 == told("show")["drivers"][0]["sense"]
     clockwise = SIXBAR.replace("[driver]\n", '[driver]\nsense = "clockwise"\n')
