@@ -7,33 +7,27 @@ import base64
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from functools import cache
 from html import escape, unescape
+from typing import TYPE_CHECKING
+
+from markupsafe import Markup
 
 from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font import Style
 from graphkin.drawing.primitives import Group, Line, Primitive, Stroke
 from graphkin.drawing.svg import svg_bytes
 from graphkin.drawing.text import Atom, is_italic, parsed
-from graphkin.papers.blocks import (
-    Beside,
-    Block,
-    Fields,
-    Heading,
-    Paragraph,
-    Picture,
-    Plate,
-    Room,
-    Said,
-    Steps,
-    TableBlock,
-    Together,
-    clean,
-)
+from graphkin.papers.blocks import Block, Said, clean
 from graphkin.words import Phrase, area, say, word
 
-__all__ = ["blocks_html", "figure_svg", "said_html", "spoken_words", "used_characters", "words_html"]
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+__all__ = ["blocks_html", "figure_svg", "rendered", "said_html", "spoken_words", "used_characters", "words_html"]
 
 HIT = 3.0  # mm
+ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"')}
 PIXEL = 25.4 / 96  # mm
 _PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
 _LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
@@ -141,63 +135,33 @@ def _wide(thing: Primitive) -> Primitive:
 
 def blocks_html(blocks: Iterable[Block], language: str = "en") -> str:
     """Blocks one after the other; what is the same in every language is read aloud in one."""
-    return "\n".join(_block(block, language) for block in blocks)
+    return rendered("blocks.html", blocks=blocks, language=language, ALIGNED=ALIGNED)
 
 
-def _block(block: Block, language: str) -> str:
-    if isinstance(block, Heading):
-        fresh = ' class="fresh"' if block.fresh else ""
-        return f"<h{block.level}{fresh}>{said_html(block.words)}</h{block.level}>"
-    if isinstance(block, Paragraph):
-        small = ' class="small"' if block.small else ""
-        return f"<div{small}>{said_html(block.words, 'p')}</div>"
-    if isinstance(block, Fields):
-        return '<div class="fields">' + "".join(f"<div>{said_html(name)}</div>" for name in block.names) + "</div>"
-    if isinstance(block, Steps):
-        items = "".join(
-            f'<li value="{item.number}">{said_html(item.words, "p")}'
-            + "".join(f'<p class="work">{words_html(line, language)}</p>' for line in item.work)
-            + "</li>"
-            for item in block.items
-        )
-        return f'<ol class="steps">{items}</ol>'
-    if isinstance(block, Picture):
-        svg = figure_svg(block.drawing)
-        caption = f"<figcaption>{said_html(block.caption)}</figcaption>" if block.caption else ""
-        kind = ' class="equation"' if block.joined else ""
-        return f"<figure{kind}>{svg}{caption}</figure>"
-    if isinstance(block, Plate):
-        # a picture of its own: its names and styles cannot meet those of the page
-        data = base64.b64encode(block.svg.encode()).decode()
-        size = f'width="{block.width / PIXEL:.0f}" height="{block.height / PIXEL:.0f}"'
-        caption = f"<figcaption>{said_html(block.caption)}</figcaption>" if block.caption else ""
-        words = escape(clean(block.words))
-        return f'<figure><img alt="{words}" {size} src="data:image/svg+xml;base64,{data}">{caption}</figure>'
-    if isinstance(block, Beside):
-        inner = blocks_html(block.blocks, language)
-        return f'<div class="beside"><div>{inner}</div>{_block(block.picture, language)}</div>'
-    if isinstance(block, Room):
-        return f'<div class="room small">{said_html(block.words, "p")}</div>'
-    if isinstance(block, Together):
-        return f'<div class="together">{blocks_html(block.blocks, language)}</div>'
-    return _table(block, language)
+def rendered(name: str, **values: object) -> str:
+    """A file by its template in the folder ``templates``; what is put into it is escaped, but for `markupsafe.Markup`.
+
+    Raises jinja2.UndefinedError where a value is missing.
+    """
+    return _templates().get_template(name).render(values)
 
 
-def _table(table: TableBlock, language: str) -> str:
-    ways = {"l": "", "r": ' class="right"', "c": ' class="middle"'}
-    heads = "".join(
-        f'<th scope="col"{ways[a]}>{said_html(h)}</th>' for h, a in zip(table.heads, table.align, strict=True)
-    )
-    rows = []
-    for i, row in enumerate(table.rows):
-        first = f'<th scope="row">{words_html(row[0], language)}</th>'
-        others = zip(row[1:], table.align[1:], strict=True)
-        cells = "".join(f"<td{ways[a]}>{words_html(c, language)}</td>" for c, a in others)
-        asked = ' class="asked"' if i in table.bold else ""
-        rows.append(f"<tr{asked}>{first}{cells}</tr>")
-    kind = ' class="roomy"' if table.roomy else ""
-    inside = f"<table{kind}><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
-    return f'<div class="wide" tabindex="0">{inside}</div>'
+@cache
+def _templates() -> Environment:
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    loader = PackageLoader("graphkin.papers")
+    made = Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    made.filters |= {
+        "base64": lambda data: base64.b64encode(data if isinstance(data, bytes) else data.encode()).decode(),
+        "clean": clean,
+        "kind": lambda block: type(block).__name__,
+        "pixels": lambda mm: f"{mm / PIXEL:.0f}",
+        "said": lambda said, tag="span": Markup(said_html(said, tag)),
+        "svg": lambda drawing: Markup(figure_svg(drawing)),
+        "words": lambda markup, language: Markup(words_html(markup, language)),
+    }
+    return made
 
 
 _POINT = re.compile(r"[A-Z][a-z]*\d*")

@@ -11,12 +11,13 @@ import re
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
-from html import escape
 from importlib.resources import files
 
+from markupsafe import Markup
+
 from graphkin.drawing.embedded import face_rules, families
-from graphkin.papers.blocks import Block, Document, Heading, Said, clean, said
-from graphkin.papers.html import blocks_html, said_html, used_characters
+from graphkin.papers.blocks import Block, Document, Heading, Said, said
+from graphkin.papers.html import blocks_html, rendered, said_html, used_characters
 from graphkin.papers.lesson import Lesson, tolerances
 from graphkin.papers.problem import given, scene_title
 from graphkin.papers.screen_positions import Progress, View, positions_data
@@ -54,9 +55,6 @@ def handout_page(
     whole = solution(lesson, stages)
     first = languages(lesson.language)[0]
 
-    def words(key: str, *args: object) -> str:
-        return said_html(said(key, lesson.language, *args))
-
     paper = lesson.sheet.scene.sheet.paper
     data = {
         **positions_data(views, progress),
@@ -65,71 +63,28 @@ def handout_page(
         "room": tolerances(lesson),
         "words": {key: _plain(said(of, lesson.language, *gaps)) for key, of, gaps in SPOKEN},
     }
-    buttons = "".join(
-        f'<button type="button" data-go="{go}"><span aria-hidden="true">{sign}</span> {words(key)}</button>'
-        for go, sign, key in (
-            ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
-            ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
-        )
-    )  # fmt: skip
-    names = _attribute(said("the figures", lesson.language))
     keys = said("keys", lesson.language)
     hints = zip(keys, said("positions words", lesson.language, len(views)), said("print hint", lesson.language, paper),
                 strict=True)  # fmt: skip
     hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
-    body = f"""<header>
-<h1>{said_html(scene_title(lesson))}</h1>
-<div class="given" id="given">{blocks_html(given(lesson), first)}</div>
-</header>
-<main>
-<section id="viewer" class="viewer" aria-labelledby="steps-title" hidden>
-<h2 id="steps-title">{words("step by step")}</h2>
-<div class="controls">
-<div class="buttons" role="group" aria-label="{_attribute(said("step slider", lesson.language))}">{buttons}
-<button type="button" id="play" aria-pressed="false" hidden>{words("play")}</button>
-<label class="choice"><input type="checkbox" id="try"> {words("try first")}</label></div>
-<label for="step">{words("step slider")}</label>
-<input type="range" id="step" min="1" max="1" step="1" value="1"><output id="step-out" for="step"></output>
-<label for="place">{words("position slider")}</label>
-<input type="range" id="place" min="0" max="0" step="1" value="0"><output id="place-out" for="place"></output>
-<div id="live" class="live" role="status" aria-live="polite"></div>
-<form id="trial" class="trial" hidden>
-<label>{words("size")} <input id="trial-size" inputmode="decimal" autocomplete="off"></label>
-<output id="trial-unit"></output>
-<label>{words("trial way")} <input id="trial-way" autocomplete="off"></label>
-<button type="submit">{words("try it")}</button> <button type="button" id="trial-hint">{words("hint")}</button>
-<button type="button" id="trial-show">{words("show step")}</button>
-<output id="trial-said" aria-live="polite"></output>
-</form>
-</div>
-<p class="hint">{said_html(hint)}</p>
-<div class="stage">
-<div id="list" class="list" role="region" aria-label="{_attribute(said("steps", lesson.language))}"></div>
-<div class="pinned"><div id="tabs" class="tabs" role="group" aria-label="{names}"></div>
-<div id="figures" class="figures" role="region" aria-label="{names}"></div></div>
-</div>
-<div id="motion" class="motion" role="region" aria-labelledby="motion-title" hidden>
-<h3 id="motion-title">{words("motion")}</h3>
-<p class="hint">{words("motion words")}</p>
-<div class="choices"><label class="choice"><input type="checkbox" id="traces" checked> {words("traces")}</label>
-<label class="choice"><input type="checkbox" id="poles" checked> {words("instant centres shown")}</label>
-<label class="choice"><input type="checkbox" id="centre-paths"> {words("centre paths shown")}</label></div>
-<label for="turn">{words("position slider")}</label>
-<input type="range" id="turn" min="0" max="0" step="1" value="0"><output id="turn-out" for="turn"></output>
-<div id="moving" class="moving no-centre-paths"></div>
-</div>
-</section>
-<article class="paper" id="paper">
-{blocks_html((Heading(scene_title(lesson), 2), *stages), first)}
-</article>
-<section class="results" id="results">
-{blocks_html(results_blocks(lesson), first)}
-</section>
-</main>
-"""
+    body = rendered(
+        "handout.html",
+        title=scene_title(lesson),
+        given=Markup(blocks_html(given(lesson), first)),
+        paper=Markup(blocks_html((Heading(scene_title(lesson), 2), *stages), first)),
+        results=Markup(blocks_html(results_blocks(lesson), first)),
+        hint=hint,
+        buttons=BUTTONS,
+        say=lambda key: Markup(said_html(said(key, lesson.language))),
+        plain=lambda key: _plain(said(key, lesson.language)),
+    )
     return _page(whole, body, _file("viewer.js"), _json(data))
 
 
+BUTTONS = (
+    ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
+    ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
+)  # fmt: skip
 SPOKEN = (
     ("stepOf", "step of", ("{0}", "{1}")), ("right", "trial right", ()), ("off", "trial off", ()),
     ("turned", "trial turned", ()), ("enter", "trial enter", ()), ("hint1", "hint equation", ("{0}",)),
@@ -153,22 +108,16 @@ def _page(document: Document, body: str, script: str = "", data: str = "") -> st
     )
     # the positions are much alike: packed they take an eighth of the room
     packed = base64.b64encode(zlib.compress(data.encode(), 9)).decode() if data else ""
-    tail = f'\n<script type="text/plain" id="positions">{packed}</script>' if data else ""
-    tail += f"\n<script>{script}</script>" if script else ""
-    return f"""<!DOCTYPE html>
-<html lang="{word("code in pages", document.languages[0])}">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<title>{escape(clean(document.title))}</title>
-<style>{style}</style>
-</head>
-<body>
-{body}{tail}
-</body>
-</html>
-"""
+    return rendered(
+        "page.html",
+        language=word("code in pages", document.languages[0]),
+        title=document.title,
+        policy=Markup(policy),
+        style=Markup(style),
+        body=Markup(body),
+        script=Markup(script),
+        packed=packed,
+    )
 
 
 @lru_cache(maxsize=4)
@@ -192,7 +141,3 @@ def _json(data: object) -> str:
 
 def _plain(words: Said) -> str:
     return " / ".join(text for _, text in words)
-
-
-def _attribute(words: Said) -> str:
-    return escape(_plain(words))

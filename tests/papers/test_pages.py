@@ -95,3 +95,21 @@ def test_a_velocity_plan_and_the_inversion_of_a_cam_are_figures_of_the_page():
         assert f'class="step-{ends[-1]}"' in plan["svg"]
     cam = _data(_page(handout("cam-offset-roller", positions=2, formats=("html",))))["positions"]
     assert [["cam-diagram-0", "cam-figure-0"]] * 2 == [[f["name"] for f in p["figures"]][-2:] for p in cam]
+
+
+def test_a_template_without_one_of_its_values_is_refused():
+    from jinja2 import UndefinedError
+
+    from graphkin.papers.html import rendered
+
+    with pytest.raises(UndefinedError, match="'policy' is undefined"):
+        rendered("page.html", language="en", title="<b>")
+
+
+def test_an_empty_step_and_a_plate_are_written_with_their_words_escaped():
+    from graphkin.papers.blocks import Plate, StepItem, Steps, spoken
+    from graphkin.papers.html import blocks_html
+
+    page = blocks_html([Steps((StepItem(3, spoken("a<b", "en")),)), Plate("<svg/>", 254.0, 127.0, 'a "b" <c>')])
+    assert '<li value="3"><p lang="en">a&lt;b</p></li>' in page
+    assert '<img alt="a &#34;b&#34; &lt;c&gt;" width="960" height="480" src="data:image/svg+xml;base64,PHN2' in page
