@@ -11,7 +11,7 @@ from graphkin.construction.strokes import Aid, Vector
 from graphkin.papers.blocks import Paragraph
 from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster
+from graphkin.structure import Cluster, Slide
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import pointing
 
@@ -57,7 +57,7 @@ def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
         guide = next((s for s in slides if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}),
                      next((s for s in slides if {of.link, to.link} == {s.a, s.b}), None))  # fmt: skip
         if guide is not None and symbol.kind in ("v", "ar"):
-            yield Phrase("why coincident", (of, to, guide.a, guide.b))
+            yield _coincident(of, to, guide)
         elif symbol.kind == "an":
             yield Phrase("why curved", (of, to))
     elif symbol.kind in ("v", "an"):
@@ -103,6 +103,13 @@ def _is_seen(lesson: Lesson, held: str) -> bool:
     return any(isinstance(s.act, SeenFrom) and s.act.held == held for s in lesson.sheet.steps)
 
 
+def _coincident(of: PointRef, to: PointRef, slide: Slide) -> Phrase:
+    """Two points that coincide under a sliding pair, or under a pin in a slot, of which no link slides."""
+    if slide.slot and slide.pin is not None:
+        return Phrase("why in slot", (of, to, PointRef(slide.pin), slide.b))
+    return Phrase("why coincident", (of, to, slide.a, slide.b))
+
+
 def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
     """A point that a guide of the frame, or a fixed pivot, holds to its path."""
     of = symbol.of
@@ -114,7 +121,7 @@ def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
         held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
         own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
         if slide.b == frame.name and holder is not None and held and own:
-            yield Phrase("why guided", (of, slide.a))
+            yield Phrase("why runs", (of,)) if slide.slot else Phrase("why guided", (of, slide.a))
             return
     for link in sheet.scene.links:
         pivot = next((p for p in link.points if p in frame.points), None)
@@ -125,7 +132,7 @@ def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
     under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
     if under is not None and of.point in frame.points:
         other = PointRef(of.point, under.b if of.link == under.a else under.a)
-        yield Phrase("why coincident", (of, other, under.a, under.b))
+        yield _coincident(of, other, under)
 
 
 def _shared(lesson: Lesson, of: PointRef, to: PointRef) -> str:

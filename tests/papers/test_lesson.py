@@ -115,6 +115,14 @@ def _reasons(name, language):
     return {e.number: " ".join(w for p in reasons(lesson, e) for _, w in p.words) for e in lesson.sheet.equations}
 
 
+@pytest.mark.parametrize("name", ["geneva-step", "cam-eccentric-flat-slider", "wheel-on-rail"])
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
+    told = " ".join(_reasons(name, language).values())
+    assert [] == re.findall(r"(?:link|构件) [A-Z]\w*/\w+", told)
+    assert {"en": "runs along", "zh": "导路运动"}[language] in told
+
+
 def _steps(name, language, convention="chinese"):
     sheet = draft(mechanism_of(name))
     speaker = Speaker(sheet, letters_of(sheet, convention))
