@@ -64,8 +64,8 @@ def handout_page(
         "words": {key: _plain(said(of, lesson.language, *gaps)) for key, of, gaps in SPOKEN},
     }
     keys = said("keys", lesson.language)
-    hints = zip(keys, said("positions words", lesson.language, len(views)), said("print hint", lesson.language, paper),
-                strict=True)  # fmt: skip
+    shown = said("positions words" if len(views) > 1 else "position words", lesson.language, len(views))
+    hints = zip(keys, shown, said("print hint", lesson.language, paper), strict=True)
     hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
     body = rendered(
         "handout.html",

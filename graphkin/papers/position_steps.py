@@ -100,6 +100,8 @@ class PositionSteps:
         if at is None:
             return None
         if not places:
+            if link not in self.sheet.scene.by_name:  # what only stands for a pin in a slot
+                return Phrase("pin by coordinates", (name, *_coordinates(at)))
             return Phrase("place by coordinates", (link, name, *_coordinates(at)))
         bars = [(p, q) for p in places for q in places if abs(places[p] - places[q]) > SAME]
         if bars:

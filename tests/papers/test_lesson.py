@@ -119,6 +119,9 @@ def _reasons(name, language):
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
     told = " ".join(_reasons(name, language).values())
+    sheet = draft(mechanism_of(name))
+    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    told += " ".join(plain_words(speaker.step(s, language)) for s in sheet.steps if s.diagram == "mechanism")
     assert [] == re.findall(r"(?:link|构件) [A-Z]\w*/\w+", told)
     assert {"en": "runs along", "zh": "导路运动"}[language] in told
 
@@ -242,3 +245,8 @@ def test_every_equation_says_why_and_the_rule_of_coriolis_stands_once():
 def test_the_sense_of_a_coriolis_term_follows_from_the_two_arrows():
     said = _reasons("shaper-scheme-2", "zh")[5]
     assert "$v_{A4A3}$ 指向 76.9°，构件 4 顺时针转动，故指向 −13.1°" in said
+
+
+def test_a_page_of_one_position_says_one():
+    page = handout("swinging-block", formats=("html",), positions=1).files["handout.html"].decode()
+    assert "drawn for one position of the driver" in page
