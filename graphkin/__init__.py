@@ -23,14 +23,13 @@ value is measured on the drawing and held against the analytic solver, which the
 >>> result.ok
 True
 >>> reading = result["v_C"]
->>> f"{reading.on_paper:.2f} mm on paper"
-'155.61 mm on paper'
+>>> f"{abs(reading.measured):.1f} {reading.unit}, from {reading.on_paper:.2f} mm on paper"
+'1556.1 mm/s, from 155.61 mm on paper'
 
 The solver alone, at other positions too:
 
->>> motion = graphkin.solve(four_bar, at=90).motion
->>> f"{motion.omega('3')[0]:.4f} rad/s"
-'5.6430 rad/s'
+>>> graphkin.solve(four_bar, at=90)["omega_3"]
+array([5.64295172]) rad/s
 
 The figures, as SVG, PDF or PNG by the name:
 

@@ -195,7 +195,7 @@ def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[P
             continue
         problems += _unknown(scene, str(symbol), f"{name}, column {head}")
         if unit and unit_factor(unit, symbol, scene.units) is None:
-            wanted = f"give it in {symbol.unit(scene.units)}"
+            wanted = f"give it in {symbol.unit(scene.units).text}"
             problems.append(Problem(f"{name}, column {head}", f"{unit} is no unit of {symbol.measure}", wanted))
         if symbol in values.values():
             problems.append(Problem(f"{name}, column {head}", "stands twice", "keep one of them"))

@@ -13,7 +13,7 @@ from dataclasses import replace
 from importlib.util import find_spec
 from numbers import Integral, Real
 from pathlib import Path
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
@@ -23,6 +23,9 @@ from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase
+
+if TYPE_CHECKING:
+    from graphkin.study.sweep_quantities import SweepQuantity
 
 __all__ = [
     "CHART_FORMATS",
@@ -38,9 +41,9 @@ __all__ = [
     "for_paper",
     "known_words",
     "own_folder",
-    "own_unit",
     "passed_words",
     "placed",
+    "quantity_shown",
     "require_callable",
     "value_at",
     "whole_number",
@@ -216,8 +219,8 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         if law is not None and value is not None:
             moment = law.reached(value)
             if moment is None:
-                low, high = (own_unit(scene, driver, end) for end in law.span)
-                found = f"{own_unit(scene, driver, value)} is not on its way"
+                low, high = (scene.unit_of(driver).said(end) for end in law.span)
+                found = f"{scene.unit_of(driver).said(value)} is not on its way"
                 raise CallError(Problem(f"at {driver.key}", found, f"its law goes from {low} to {high}"))
             driver = driver.moving(replace(law, time=moment))
         drivers.append(driver)
@@ -255,16 +258,9 @@ def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase
     said = []
     for links in dict.fromkeys(one.links for one in passed):
         at = [zip(scene.drivers, one.values, strict=True) for one in passed if one.links == links]
-        places = (", ".join(f"{d.key} = {own_unit(scene, d, v)}" for d, v in values) for values in at)
+        places = (", ".join(f"{d.key} = {scene.unit_of(d).said(v)}" for d, v in values) for values in at)
         said.append(Phrase("passed change point", (", ".join(links), "; ".join(dict.fromkeys(places)))))
     return said
-
-
-def own_unit(scene: Mechanism, driver: AnyDriver, value: float) -> str:
-    """A driver value with its unit, as people write it."""
-    if isinstance(driver, AngleDriver):
-        return f"{math.degrees(value):.6g}°"
-    return f"{value / scene.units.metres:.6g} {scene.units.length}"
 
 
 def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
@@ -292,6 +288,14 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     if problems:
         raise CallError(*problems)
     return tuple(found)
+
+
+def quantity_shown(scene: Mechanism, name: str) -> SweepQuantity:
+    """What a name shows in a table: a place ("C"), an angle, a travel or its rates, a force, or what ``find`` knows.
+    Raises CallError for a name that means nothing here."""
+    from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
+
+    return quantity_named(scene, name) or quantity_of_symbol(*asked_symbols(scene, [name]))
 
 
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:

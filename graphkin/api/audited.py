@@ -15,6 +15,7 @@ from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed,
 from graphkin.api.checked import solved_here
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
+from graphkin.api.reading_rows import JudgedValue
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.audit import Judged, judge, with_gaps
 from graphkin.checking.scans import JudgedScan, judge_scans
@@ -111,7 +112,7 @@ class Audited(Result, OfScene):
     @property
     def heads(self) -> list[str]:
         """Heads of ``rows``."""
-        keys = ("quantity", "printed", "exact", "deviation", "verdict", "looks like")
+        keys = ("quantity", "printed", "exact", "unit", "deviation", "verdict", "looks like")
         return [*self._named.values(), *(word(k, self.language) for k in keys)]
 
     @cached_property
@@ -129,18 +130,20 @@ class Audited(Result, OfScene):
                 if isinstance(gap, dict):
                     open_ = Phrase("loop open", (gap["loop"], f"{gap['gap']:.4g} {self.mechanism.units.length}"))
                     said = "; ".join(filter(None, (said, say(open_, self.language))))
-                rows.append([*lead, str(row["symbol"]), str(row["written"]), _shown(row["exact"]), off, verdict, said])
+                values = str(row["written"]), _shown(row["exact"]), str(row["unit"])
+                rows.append([*lead, str(row["symbol"]), *values, off, verdict, said])
         return rows
 
-    def __getitem__(self, name: str) -> tuple[Judged, ...]:
-        """What was judged of a symbol, one for each person who gave it.  Raises CallError for one that nobody gave."""
+    def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:
+        """What was judged of a symbol, one for each person who gave it, in the file's units.  Raises CallError for one
+        that nobody gave."""
         name = as_text("name", name)
         judged = [j for _, own in self.people for j in own]
         found = tuple(j for j in judged if str(j.printed.symbol) == name)
         if not found:
             known = [str(j.printed.symbol) for j in judged]
             raise CallError(Problem(f'"{name}"', "no value of this name", did_you_mean(str(name), known)))
-        return found
+        return tuple(JudgedValue.of(self.mechanism, one, self.language) for one in found)
 
     @cached_property
     def table(self) -> Table:

@@ -23,6 +23,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.centre_speeds import TOLERANCE, Velocity, velocities_by_centres
 from graphkin.api.checked import solved_here
+from graphkin.api.reading_rows import SpeedByCentres
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import Room
 from graphkin.construction.centres import (
@@ -77,6 +78,8 @@ def centres_text(centred: Centred) -> CentresText:
         place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in centred.where(centre))
         if centre.point is None and centre.direction is not None:
             place = f"∞ ({place})"
+        elif centre.point is not None:
+            place = f"{place} {centred.mechanism.units.length}"
         how = say(_phrase(centre, name, ", ".join(centred.centres.kept)), language, name)
         rows.append((str(centre.number or ""), name(pair), place, how))
     sentences = [say(c.why, language, str) for c in centred.centres.indeterminate if c.why]
@@ -117,6 +120,29 @@ def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[objec
 MOST_PLAYED = 6  # links all of whose centres are played
 NO_MOTION = 1e-9
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
+
+
+@dataclass(frozen=True, repr=False)
+class PlacedCentre:
+    """An instant centre in the file's unit of length.
+
+    pair, kind : as in ``Centred.data``
+    place : x + iy; of a centre at infinity (``far``) the direction to it, without a unit; None where it is undetermined
+    unit : of ``place``
+    """
+
+    pair: str
+    kind: str
+    place: complex | None
+    far: bool
+    unit: str
+
+    def __repr__(self) -> str:
+        if self.place is None:
+            return f"<centre {self.pair}: {self.kind}>"
+        where = f"({self.place.real:.6g}, {self.place.imag:.6g})"
+        told = f"at infinity, in the direction {where}" if self.far else f"at {where} {self.unit}"
+        return f"<centre {self.pair}: {self.kind}, {told}>"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -233,8 +259,9 @@ class Centred(Result, OfScene):
             convention=self.convention,
         )
 
-    def __getitem__(self, name: str) -> Centre | Velocity:
-        """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3").  Raises CallError."""
+    def __getitem__(self, name: str) -> PlacedCentre | SpeedByCentres:
+        """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3"), in the file's units.  Raises
+        CallError."""
         name = as_text("name", name)
         links = tuple(name.split("-"))
         found = next((c for p, c in self.centres.table.items() if links in (p, p[::-1])), None)
@@ -242,7 +269,11 @@ class Centred(Result, OfScene):
         if found is None and name not in taken:
             known = [_name(pair) for pair in self.centres.table] + list(taken)
             raise CallError(Problem(f'"{name}"', "no centre or velocity of this name", did_you_mean(name, known)))
-        return found or taken[name]
+        if found is None:
+            return SpeedByCentres.of(self.mechanism, taken[name])
+        where = self.where(found)
+        place = complex(*where) if where else None
+        return PlacedCentre(_name(found.pair), found.kind, place, found.point is None, self.mechanism.units.length)
 
     @cached_property
     def table(self) -> Table:
@@ -256,7 +287,9 @@ class Centred(Result, OfScene):
             where = (x, y, None, None) if centre.point is not None else (None, None, x, y)
             rows.append((_name(pair), centre.kind, centre.number or None, *where, told, self.errors[pair]))
         heads = ("pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error")
-        return Table.of(heads, rows, ("", "", "g", *(".12g",) * 4, "", ".3g"))
+        length = self.mechanism.units.length
+        units = {"x": length, "y": length, "error": "rad"}
+        return Table.of(heads, rows, ("", "", "g", *(".12g",) * 4, "", ".3g"), [units.get(head, "") for head in heads])
 
     @cached_property
     def figure(self) -> Drawing:

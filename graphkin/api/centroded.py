@@ -70,14 +70,15 @@ class Centroded(Result, OfScene):
 
     @cached_property
     def table(self) -> Table:
-        """Both curves over the turn in scene units, the moving one in the link's own axes; the driver's value in SI."""
+        """Both curves over the turn and the driver's value in the file's units, the moving one in the link's axes."""
         from graphkin.table import Column, Table
 
-        unit, columns = self.mechanism.units.metres, [Column("driver", self.motion.values[:, 0], form=".12g")]
+        length, own = self.mechanism.units.of("length"), self.mechanism.unit_of(self.mechanism.drivers[0])
+        columns = [Column("driver", own.of(self.motion.values[:, 0]), own.text, form=".12g")]
         for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
             places = np.where(np.isfinite(curve), curve, complex(np.nan, np.nan))
             parts = zip("xy", (places.real, places.imag), strict=True)
-            columns += [Column(f"{name}_{axis}", part / unit, form=".12g") for axis, part in parts]
+            columns += [Column(f"{name}_{axis}", length.of(part), length.text, form=".12g") for axis, part in parts]
         return Table(tuple(columns))
 
     @cached_property

@@ -17,13 +17,12 @@ from graphkin.api.arguments import (
     SceneLike,
     as_scene,
     asked_symbols,
-    own_unit,
     placed,
     value_at,
     whole_number,
     write_files,
 )
-from graphkin.api.reading_rows import in_scene_units, reading_row, without_residues
+from graphkin.api.reading_rows import ReadValue, reading_row, without_residues
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
@@ -97,13 +96,13 @@ class Checked(Result, OfScene):
             f"{sum(row.ok is False for row in self.report.rows)} out of tolerance>"
         )
 
-    def __getitem__(self, name: str) -> Compared:
-        """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+    def __getitem__(self, name: str) -> ReadValue:
+        """A reading by its symbol beside the exact value, in the file's units.  Raises CallError for one not drawn."""
         name = as_text("name", name)
         rows = {str(row.symbol): row for row in self.report.rows}
         if name not in rows:
             raise CallError(Problem(f'"{name}"', "no reading of this name", did_you_mean(str(name), rows)))
-        return rows[name]
+        return ReadValue.of(self.mechanism, rows[name])
 
     @cached_property
     def table(self) -> Table:
@@ -112,7 +111,8 @@ class Checked(Result, OfScene):
 
         units, rows = self.mechanism.units, []
         for row in self.report.rows:
-            cells = {**reading_row(self.mechanism, without_residues(row), degrees=True), "unit": row.symbol.unit(units)}
+            shown = reading_row(self.mechanism, without_residues(row), degrees=True)
+            cells = {**shown, "unit": row.symbol.unit(units).text}
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 
@@ -132,11 +132,15 @@ class Checked(Result, OfScene):
                  **self._at_contact(row)} for row in self.report.rows
             ],
             **({"not_drawn": [str(symbol) for symbol in self.report.missing]} if self.report.missing else {}),
-            **({"computed_over_turn": {str(s): in_scene_units(self.mechanism, s, v) for s, v in self.over_turn.items()}}
+            **({"computed_over_turn": {str(s): self._plain(s, v) for s, v in self.over_turn.items()}}
                if self.over_turn else {}),
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
         }
+
+    def _plain(self, symbol: Symbol, value: float) -> float:
+        """A value (SI) as in JSON."""
+        return float(symbol.unit(self.mechanism.units, radians=True).of(value))
 
     @property
     def _construction(self) -> dict[str, Json]:
@@ -177,7 +181,7 @@ class Checked(Result, OfScene):
         for lever in levers:
             if lever.balance == replace(row.symbol, plus=False, at=""):
                 found = 0.0 + (lever.value if lever.balance.kind == "M" else abs(lever.vector))
-                return {"by_lever": in_scene_units(self.mechanism, row.symbol, found)}
+                return {"by_lever": self._plain(row.symbol, found)}
         return {}
 
     @cached_property
@@ -203,7 +207,7 @@ class Checked(Result, OfScene):
         if value is None:
             return {}
         plain = abs(value) if row.symbol.is_vector else float(value.real)
-        return {"by_centres": in_scene_units(self.mechanism, row.symbol, plain)}
+        return {"by_centres": self._plain(row.symbol, plain)}
 
 
 def _plain(value: float) -> float:
@@ -366,7 +370,7 @@ def solved_here(
     motion = solver.solve(structure, at=values)
     if motion.status[0] != "ok":
         driver = ", ".join(
-            f"{d.key} at {own_unit(scene, d, (values or {}).get(d.key, d.values[0]))}" for d in scene.drivers
+            f"{d.key} at {scene.unit_of(d).said((values or {}).get(d.key, d.values[0]))}" for d in scene.drivers
         )
         raise Unsolvable(str(motion.status[0]), Problem(f"driver {driver}", f"{motion.status[0]}: {motion.why[0]}"))
     return motion

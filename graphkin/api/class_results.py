@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from numbers import Real
 
 from graphkin.api.answers import Answers, Unread
-from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.audit import Judged
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
@@ -144,14 +143,17 @@ def rows_of(scene: Mechanism, who: Answers, judged: Sequence[Judged], language: 
     lead: Row = {k: v for k, v in (("person", who.person), ("id", who.id), ("variant", who.variant)) if v}
     lead |= {"at": who.at} if who.at is not None else {}
     rows = [(one.printed.symbol, _value(scene, one, language)) for one in judged]
-    rows += [(cell.symbol, _unread(cell, language)) for cell in who.unread]
+    rows += [(cell.symbol, _unread(scene, cell, language)) for cell in who.unread]
     place = {symbol: i for i, symbol in enumerate(who.order)}
     for _, row in sorted(rows, key=lambda row: place.get(row[0], 0)):
         yield lead | row
 
 
-def _unread(cell: Unread, language: str) -> Row:
-    row: Row = {"symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None, "deviation_pct": None}
+def _unread(scene: Mechanism, cell: Unread, language: str) -> Row:
+    row: Row = {
+        "symbol": str(cell.symbol), "written": cell.text, "printed": None, "exact": None,
+        "unit": cell.symbol.unit(scene.units).text, "deviation_pct": None,
+    }  # fmt: skip
     if cell.why:
         return row | {"verdict": "not readable", "why": say(cell.why, language)}
     return row | {"verdict": "missing", "why": "no answer"}
@@ -159,17 +161,18 @@ def _unread(cell: Unread, language: str) -> Row:
 
 def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
     symbol = judged.printed.symbol
+    file_unit = symbol.unit(scene.units)
 
     def unit(value: Value) -> float | list[float]:
         if isinstance(value, complex):
             # what is left of a component that cancels is no value
             parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
-            return [_plain(in_scene_units(scene, symbol, v, degrees=True)) for v in parts]
-        return _plain(in_scene_units(scene, symbol, value, degrees=True))
+            return [_plain(file_unit.of(v)) for v in parts]
+        return _plain(file_unit.of(value))
 
     row: Row = {
         "symbol": str(symbol), "written": judged.printed.text, "printed": unit(judged.printed.value),
-        "exact": unit(judged.exact),
+        "exact": unit(judged.exact), "unit": file_unit.text,
     }  # fmt: skip
     row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
     if judged.deviation is None:

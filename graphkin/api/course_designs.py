@@ -15,7 +15,6 @@ from graphkin.api.arguments import (
     driver_values,
     for_paper,
     known_words,
-    own_unit,
     require_callable,
     whole_number,
 )
@@ -35,7 +34,7 @@ from graphkin.papers.page import document_page
 from graphkin.papers.paper import paper_of, paper_plan
 from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
 from graphkin.papers.prepare import FORMATS, lesson_of
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.table import Table
@@ -171,8 +170,8 @@ def course_design(
         place = one.places[who.place] if who.place in one.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
         made = CourseDesign(
-            lesson, who, own_unit(one.scene, one.scene.drivers[0], stands), data,
-            tuple(one.places.values()), asked, _unit(one.scene), **shared[one.name],
+            lesson, who, one.scene.unit_of(one.scene.drivers[0]).said(stands), data,
+            tuple(one.places.values()), asked, one.scene.unit_of(one.scene.drivers[0]).written, **shared[one.name],
             loops=_drawn(one.scene, "loops", spoken, letters, place.driver),
         )  # fmt: skip
         document = report(made)
@@ -186,7 +185,7 @@ def course_design(
             progress(k + 1, len(dealt))
     assert lesson is not None
     asked = asked_in_tables(lesson.sheet.scene, find)
-    whole = class_document(lesson, lines, asked, _unit(given))
+    whole = class_document(lesson, lines, asked, given.unit_of(given.drivers[0]).written)
     if "html" in formats:
         content["class.html"] = document_page(whole).encode()
     if "pdf" in formats and can_typeset():
@@ -205,10 +204,6 @@ def _stem(k: int, count: int, who: Student) -> str:
     """The name of a report's file, which no two share."""
     words = "-".join(word for word in (who.name or who.id, who.scheme, who.place) if word)
     return f"{k + 1:0{max(2, len(str(count)))}}-{safe_name(words) if words else 'report'}"
-
-
-def _unit(scene: Mechanism) -> str:
-    return "°" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
 
 
 def _drawn(
@@ -258,5 +253,5 @@ def _template(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol
 
 
 def _head(scene: Mechanism, symbol: Symbol) -> str:
-    unit = symbol.unit(scene.units)
+    unit = symbol.unit(scene.units).text
     return f"{symbol} ({unit})" if unit else str(symbol)

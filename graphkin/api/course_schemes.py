@@ -74,7 +74,7 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
             lesson = Lesson(sheet, report, {}, "en", "chinese", asked)
             places[place] = read_at(place, value, lesson, asked)
         except Unsolvable:
-            places[place] = PlaceValues(place, scene.in_file_units(scene.drivers[0], value))
+            places[place] = PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value))
     return Scheme(name, scene, drivers, places)
 
 
@@ -86,7 +86,7 @@ def read_at(place: str, value: float, lesson: Lesson, asked: Sequence[Symbol]) -
         row.symbol: lesson.in_unit(row.symbol, abs(row.true) if row.symbol.is_vector else float(row.true.real))
         for row in rows
     }
-    return PlaceValues(place, lesson.sheet.scene.in_file_units(lesson.sheet.scene.drivers[0], value), read, exact)
+    return PlaceValues(place, lesson.sheet.scene.unit_of(lesson.sheet.scene.drivers[0]).of(value), read, exact)
 
 
 def scheme_name(course: Mapping[str, Scheme], who: Student) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -71,7 +71,7 @@ class Designed(Result):
         known = {row.symbol: row for row in self.rows}
         if name not in known:
             raise CallError(Problem("length", f'"{name}"', did_you_mean(str(name), known)))
-        return known[name]
+        return replace(known[name], unit=self.given.units.length)
 
     @cached_property
     def scene(self) -> Scene:
@@ -98,7 +98,8 @@ class Designed(Result):
         task, metres = self.given.task, self.given.units.metres
 
         def row(key: str, asked: float, found: float, size: float, *args: object) -> Confirmed:
-            return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size)
+            unit = {"design stroke value": self.given.units.length, "design K value": ""}.get(key, "deg")
+            return Confirmed(Phrase(key, args), asked, found, abs(found - asked) <= CONFIRMS * size, unit)
 
         made: list[Confirmed] = []
         if isinstance(task, SliderCrankTask | GuideBarTask | CrankRockerTask | LimitsTask):

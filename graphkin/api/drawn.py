@@ -33,7 +33,7 @@ from graphkin.table import Table
 from graphkin.words import languages
 
 if TYPE_CHECKING:
-    from graphkin.checking.report import Compared
+    from graphkin.api.reading_rows import ReadValue
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
 from graphkin.structure.analysis import driven_by
@@ -97,8 +97,8 @@ class Drawn(Result, OfScene):
         """The readings, in scene units."""
         return self.checked.table
 
-    def __getitem__(self, name: str) -> Compared:
-        """A reading by its symbol, with the exact value.  Raises CallError for one that was not drawn."""
+    def __getitem__(self, name: str) -> ReadValue:
+        """A reading by its symbol beside the exact value, in the file's units.  Raises CallError for one not drawn."""
         name = as_text("name", name)
         return self.checked[name]
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words, own_unit, write_files
+from graphkin.api.arguments import SceneLike, as_scene, known_words, write_files
 from graphkin.api.report_text import plain_said
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
@@ -88,10 +88,9 @@ def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:
     """Masses and loads, and what keeps them in balance."""
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
-        heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", mass.inertia / units.inertias
-        square = "ft2" if units.mass == "lb" else "m2"
+        heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")
         x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
-        told = (mass.link, heavy, f"{inertia:.6g} {units.mass} {square}", x, y)
+        told = (mass.link, heavy, f"{inertia.of(mass.inertia):.6g} {inertia.text}", x, y)
         yield "explained loads", Phrase("explained mass", told)
     if loading.gravity:
         angle = math.degrees(cmath.phase(loading.gravity))
@@ -152,7 +151,7 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
 
 
 def _units(scene: Mechanism) -> Iterator[Sentence]:
-    yield "explained units", Phrase("explained unit", (scene.units.length,))
+    yield "explained units", Phrase("explained unit", (scene.units.length, scene.units.of("velocity").text))
     if scene.background is not None:
         step = scene.background.step
         turned = _number(math.degrees(cmath.phase(step)))
@@ -252,7 +251,7 @@ def _drivers(scene: Mechanism) -> Iterator[Sentence]:
 
 
 def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
-    at = own_unit(scene, driver, driver.values[0])
+    at = scene.unit_of(driver).said(driver.values[0])
     rate = driver.values[1]
     if driver.law is not None:
         at = f"{at} ({_number(driver.law.time)} / {_number(driver.law.duration)} s)"
@@ -261,8 +260,8 @@ def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
         said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))
         return Phrase("explained turns", (driver.link, driver.relative_to, at, said))
     sense = "at rest" if not rate else "forward" if rate > 0 else "back"
-    units = scene.units.rates
-    said = Phrase(f"explained {sense}", (_number(abs(rate) / units.metres), f"{units.length}/s"))
+    speed = scene.units.of("velocity")
+    said = Phrase(f"explained {sense}", (_number(speed.of(abs(rate))), speed.text))
     return Phrase("explained slides", (driver.key, at, said))
 
 

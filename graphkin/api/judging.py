@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.api.answers import Answers
-from graphkin.api.arguments import At, driver_values, own_unit, placed
+from graphkin.api.arguments import At, driver_values, placed
 from graphkin.api.checked import solved_here
 from graphkin.checking.audit import Judged, explained
 from graphkin.checking.slips import Evidence, ValuesElsewhere
@@ -48,7 +48,7 @@ def judged_table(
     motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
     if not motion.ok.all():
         k = int(np.argmin(motion.ok))
-        where = own_unit(scene, scene.drivers[0], float(motion.values[k, 0]))
+        where = scene.unit_of(scene.drivers[0]).said(float(motion.values[k, 0]))
         status = str(motion.status[k])
         raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
     turning = [s for s in symbols if s.scope in ("turn", "cycle")]
@@ -167,7 +167,8 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
         for motion in motions():
             for i, value in enumerate(solver.value_of(motion, symbol)):
                 if motion.ok[i]:
-                    name = f"{scene.drivers[0].key} = {own_unit(scene, scene.drivers[0], float(motion.values[i, 0]))}"
+                    driver, at = scene.drivers[0], float(motion.values[i, 0])
+                    name = f"{driver.key} = {scene.unit_of(driver).said(at)}"
                     found.append((name, complex(value) if symbol.is_vector else float(value.real)))
         return found
 
@@ -177,4 +178,4 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
 def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
     """How a row of a table is called: its position's name, or the driver's value."""
     driver = scene.drivers[0]
-    return at if isinstance(at, str) else f"{driver.key} = {own_unit(scene, driver, float(value))}"
+    return at if isinstance(at, str) else f"{driver.key} = {scene.unit_of(driver).said(float(value))}"

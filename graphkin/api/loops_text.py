@@ -86,8 +86,9 @@ class LoopText:
     @property
     def plain(self) -> str:
         """The loops as lines of text."""
-        lines: list[str] = []
-        letters = self.scene.sheet.convention
+        units, letters = self.scene.units, self.scene.sheet.convention
+        told = Phrase("explained unit", (units.length, units.of("velocity").text))
+        lines = [say(told, self.language), ""] if self.blocks else []
         for block in self.blocks:
             for one in block.loops:
                 head = Phrase("loop heading", (one.loop.name, ", ".join(one.loop.links), equation(one, letters)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,13 +12,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.api.arguments import SceneLike, as_scene
+from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
 from graphkin.api.samples import Quantities, Samples
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Unit
 
 if TYPE_CHECKING:
     from graphkin import solver
@@ -78,18 +78,14 @@ class Prepared(Tabled, OfScene):
     def units(self) -> dict[str, str]:
         """The unit of each quantity asked for, forces last: the scene's length unit, seconds, degrees for angles, but
         radians in their rates (rad/s, rad/s2)."""
-        length, force = self.mechanism.units.length, self.mechanism.units.force
-        speed = f"{self.mechanism.units.rates.length}/s"
-        kinds = {"v": speed, "a": f"{speed}2", "theta": "deg", "omega": "rad/s", "alpha": "rad/s2"}
-        found = {name: kinds.get(name.partition("_")[0] if "_" in name else "", length) for name in self.ready.wanted}
-        return found | {name: force if f"{name}.x" in self.names else f"{force} m" for name in self.ready.loads}
+        shown = {name: quantity_shown(self.mechanism, name) for name in (*self.ready.wanted, *self.ready.loads)}
+        return {name: quantity.unit(self.mechanism).text for name, quantity in shown.items()}
 
     @cached_property
     def quantities(self) -> Quantities:
         """What it was prepared for, as its samples know it."""
         first = self.mechanism.drivers[0]
-        unit = "deg" if self.ready.turns else self.mechanism.units.length
-        return Quantities(self.units, self.names, (f"driver_{first.key}", unit), self.driver_values)
+        return Quantities(self.units, self.names, (f"driver_{first.key}", self.own_unit.text), self.driver_values)
 
     @cached_property
     def _here(self) -> Samples:
@@ -98,7 +94,7 @@ class Prepared(Tabled, OfScene):
     @property
     def here(self) -> float:
         """The first driver's value at the scene's own position, in its own unit."""
-        return float(self.ready.range.start[0]) / self.own_unit
+        return float(self.own_unit.of(self.ready.range.start[0]))
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
         """A quantity or a column at the scene's own position, shape (1,).  Raises CallError as ``Samples``."""
@@ -111,11 +107,12 @@ class Prepared(Tabled, OfScene):
 
     def driver_values(self, n: int) -> Reals:
         """The values of the first driver at which ``sweep(n)`` computes, shape (n,)."""
-        return self.ready.range.grid(n).values / self.own_unit
+        return np.asarray(self.own_unit.of(self.ready.range.grid(n).values))
 
     @cached_property
-    def own_unit(self) -> float:
-        return math.radians(1.0) if self.ready.turns else self.mechanism.units.metres
+    def own_unit(self) -> Unit:
+        """The unit of the first driver."""
+        return self.mechanism.unit_of(self.mechanism.drivers[0])
 
     def at(self, value: float) -> tuple[float, ...] | None:
         """The columns at one value of the first driver, as plain floats; in some microseconds.
@@ -130,7 +127,7 @@ class Prepared(Tabled, OfScene):
         """
         if type(value) is not float or not -MOST_VALUE <= value <= MOST_VALUE:
             value = driver_value(value)
-        found = self.ready.at(math.radians(value) if self.ready.turns else value * self.own_unit)
+        found = self.ready.at(value * self.own_unit.si)
         return found if found is None or not self.ready.bounded else found[: len(self.names)]
 
     def columns(self, values: ArrayLike) -> Samples:
@@ -142,8 +139,7 @@ class Prepared(Tabled, OfScene):
         wrong = own[~(np.abs(own) <= MOST_VALUE)]
         if len(wrong):
             raise CallError(Problem("values", f"found {wrong[0]:g}", "give finite numbers below 1e9"))
-        given = np.radians(own) if self.ready.turns else own * self.own_unit
-        return self.samples(*self.ready.columns(given, fast=self.compiled(len(own))), own)
+        return self.samples(*self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own))), own)
 
     def sweep(self, n: int, out: Reals | None = None) -> Samples:
         """The quantities at n positions of the whole range: a turn from the scene's own position on, in the sense of
@@ -292,12 +288,12 @@ class PreparedDesigns(Tabled, OfScene):
     @cached_property
     def _here(self) -> Samples:
         columns, ok, values = self._designs.at(None)
-        return self._samples(columns, ok, values / self.prepared.own_unit)
+        return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 
     def at(self, value: float) -> Samples:
         """All designs at one value of the first driver, in its own unit: arrays of shape (designs,)."""
         value = driver_value(value)
-        given = math.radians(value) if self.prepared.ready.turns else value * self.prepared.mechanism.units.metres
+        given = value * self.prepared.own_unit.si
         columns, ok, _ = self._designs.at(given)
         return self._samples(columns, ok, np.asarray(float(value)))
 
@@ -309,7 +305,7 @@ class PreparedDesigns(Tabled, OfScene):
         """
         self.prepared.allowed(n)
         columns, ok, values = self._designs.sweep(n, self.prepared.compiled(n * len(self)))
-        return self._samples(columns, ok, values / self.prepared.own_unit)
+        return self._samples(columns, ok, np.asarray(self.prepared.own_unit.of(values)))
 
     def _samples(self, columns: Reals, ok: NDArray[np.bool_], driver: Reals) -> Samples:
         if self.single:
@@ -399,5 +395,4 @@ def prepare(
         raise CallError(Problem("bounds, fast", f"found {bounds!r:.40}, {fast!r:.40}", "give True or False"))
     if not asked:
         raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
-    units = 1.0 / given.units.metres, math.degrees(1.0), 1.0 / given.units.rates.metres
-    return Prepared(scene, asked, fast, solver.prepare(given, asked, units, bounds))
+    return Prepared(scene, asked, fast, solver.prepare(given, asked, given.units.per_si, bounds))

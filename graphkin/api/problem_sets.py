@@ -92,7 +92,9 @@ class ProblemSet(Result, OfScene):
             for name, answers in self.made.answers.items()
         ]
         rows += [(f.name, *[None] * (2 * len(symbols)), f"failed: {f.why}") for f in self.made.failures]
-        return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""))
+        known = {a.symbol: a.unit for answers in self.made.answers.values() for a in answers}
+        units = ("", *(known.get(s, "") for s in symbols for _ in range(2)), "")
+        return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), units)
 
     def __getitem__(self, name: str) -> tuple[Answer, ...]:
         """The answers of a variant by its name.  Raises CallError for one that was not made."""

@@ -9,9 +9,8 @@ import re
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import own_unit, passed_words
+from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
-from graphkin.api.reading_rows import in_scene_units
 from graphkin.checking.report import deviation, exact, measured, paper
 from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
@@ -42,7 +41,7 @@ def report_text(checked: Checked, language: str) -> str:
         lines.append(f"{word('source', language)}{colon}{scene.source_in(language)}")
     count = sheet.structure.mobility
     lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
-    drivers = [f"{d.key}: {own_unit(scene, d, sheet.drivers[d.key])}" for d in scene.drivers]
+    drivers = [f"{d.key}: {scene.unit_of(d).said(sheet.drivers[d.key])}" for d in scene.drivers]
     lines.append(f"{word('driver', language)}{colon}{', '.join(drivers)}")
     for links, phrase in sheet.assembly.items():
         lines.append(f"{word('group', language)} {links}{colon}{plain_said(phrase, language)}")
@@ -64,9 +63,9 @@ def report_text(checked: Checked, language: str) -> str:
     lines.append(word("readings", language))
     head = (word("quantity", language), word("on paper", language), word("measured", language), word("exact", language))
     lines.append(f"{head[0]:<16}{head[1]:>12}{head[2]:>16}{head[3]:>16}")
-    for symbol, length, found, true, ok in reading_words(checked):
+    for symbol, length, found, true, own_unit, ok in reading_words(checked):
         mark = {True: "", False: "  !", None: "  ?"}[ok]
-        lines.append(f"{symbol:<16}{length:>12}{found:>16}{true:>16}{mark}")
+        lines.append(f"{symbol:<16}{length:>12}{found:>16}{true:>16} {own_unit}{mark}".rstrip())
     lines += ["", *lever_lines(checked, language), *contact_lines(checked, language)]
     if checked.at_contacts is not None:
         steps = (s for s in checked.at_contacts.sheet.steps if s.diagram in ("velocity", "acceleration"))
@@ -134,8 +133,8 @@ def verdict(checked: Checked, language: str) -> str:
         said.append(Phrase("not drawn", (", ".join(missing),)))
     for symbol, value in checked.over_turn.items():
         unit = symbol.unit(checked.mechanism.units)
-        shown = amount(in_scene_units(checked.mechanism, symbol, value), MOST)
-        said.append(Phrase("over the turn", (str(symbol), f"{shown} {unit}")))
+        shown = f"{amount(unit.of(value), MOST)} {unit.text}"
+        said.append(Phrase("over the turn", (str(symbol), shown)))
     off = [str(r.symbol) for r in report.rows if r.ok is False]
     if report.undetermined:
         said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))
@@ -162,8 +161,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
     alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)
     found = [
-        f"{symbol} {length} {said}" if length != "–" else f"{symbol} {said}"
-        for symbol, length, said, _, _ in reading_words(other)
+        f"{symbol} {length} mm, {said} {unit}" if length != "–" else f"{symbol} {said} {unit}"
+        for symbol, length, said, _, unit, _ in reading_words(other)
         if any(f"_{n}@" in symbol for n in names)
     ]
     key = "at pitch curve" if curve else "at contact"
@@ -235,7 +234,7 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
     for least in turn.transmission:
         where = word("same everywhere", language)
         if least.driver is not None:
-            where = f"{driver.key} = {own_unit(scene, driver, least.driver)}"
+            where = f"{driver.key} = {scene.unit_of(driver).said(least.driver)}"
         pressure = say(Phrase("greatest pressure", (f"{math.degrees(least.pressure):.6g}°",)), language)
         names = f"{least.group.kind} {', '.join(least.group.links)}"
         angle = f"{math.degrees(least.angle):.6g}°"
@@ -260,10 +259,10 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     for name, (quantity, marks) in found.items():
         parts = [
             f"{word({'max': 'greatest', 'min': 'least'}[kind], language)} {value:.6g} @ "
-            f"{own_unit(scene, scene.drivers[0], at)}" if math.isfinite(value) else word("unbounded", language)
+            f"{scene.unit_of(scene.drivers[0]).said(at)}" if math.isfinite(value) else word("unbounded", language)
             for kind, at, value in marks
         ]  # fmt: skip
-        lines.append(f"{name} ({quantity.unit(scene)}): {'; '.join(parts)}")
+        lines.append(f"{name} ({quantity.unit(scene).text}): {'; '.join(parts)}")
     return lines
 
 
@@ -275,33 +274,33 @@ def _flywheel(turn: TurnStudy, language: str) -> list[str]:
     head = word("flywheel", language) + word("colon", language)
     if isinstance(found, Unsolvable):
         return [head + found.why]
-    moment, square = f"{units.force} m", "ft2" if units.mass == "lb" else "m2"
+    moment, inertia = units.of("moment"), units.of("inertia")
     said = [
-        say(Phrase("driving moment is", (f"{found.driving / units.newtons:.8g} {moment}",)), language),
-        say(Phrase("excess work is", (f"{found.excess / units.newtons:.8g} {moment}",)), language),
-        f"J_F = {found.inertia / units.inertias:.8g} {units.mass} {square} (δ = {found.delta:g})",
+        say(Phrase("driving moment is", (f"{moment.of(found.driving):.8g} {moment.text}",)), language),
+        say(Phrase("excess work is", (f"{moment.of(found.excess):.8g} {moment.text}",)), language),
+        f"J_F = {inertia.of(found.inertia):.8g} {inertia.text} (δ = {found.delta:g})",
     ]
     return [head + "; ".join(said)]
 
 
 def _between(scene: Mechanism, low: float, high: float, open_low: bool = False, open_high: bool = False) -> str:
     ends = [
-        "..." if open_ else own_unit(scene, scene.drivers[0], value)
+        "..." if open_ else scene.unit_of(scene.drivers[0]).said(value)
         for value, open_ in ((low, open_low), (high, open_high))
     ]
     return " – ".join(ends)
 
 
 def _at(scene: Mechanism, extreme: Extreme) -> str:
-    return own_unit(scene, scene.drivers[0], extreme.driver)
+    return scene.unit_of(scene.drivers[0]).said(extreme.driver)
 
 
 def _output(turn: TurnStudy, output: Output, language: str) -> list[str]:
     scene, quantity = turn.scene, output.quantity
-    unit, colon = quantity.unit(scene, degrees=True).replace("deg", "°"), word("colon", language)
+    unit, colon = quantity.unit(scene), word("colon", language)
 
     def amount(value: float) -> str:
-        return f"{quantity.in_units(scene, value, degrees=True):.10g} {unit}".replace(" °", "°")
+        return unit.beside(f"{unit.of(value):.10g}")
 
     head = f"{word('output', language)} {quantity.of}{colon}"
     if output.stroke is None:
@@ -320,30 +319,30 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
     lines: list[str] = []
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
-        quantity = traced.quantity
+        quantity, unit = traced.quantity, traced.quantity.unit(scene)
         high = max((e for e in traced.extremes if e.kind == "max"), key=lambda e: e.value, default=None)
         low = min((e for e in traced.extremes if e.kind == "min"), key=lambda e: e.value, default=None)
         parts = []
         for key, extreme in (("greatest", high), ("least", low)):
             if extreme is not None:
-                value = quantity.in_units(scene, extreme.value)
+                value = unit.of(extreme.value)
                 named = word(f"local {key}" if turn.is_local(traced, extreme) else key, language)
                 parts.append(f"{named} {value:.6g} @ {_at(scene, extreme)}")
         if turn.is_unbounded(traced):
             parts.append(word("unbounded", language))
         if traced.zeros:
-            places = ", ".join(own_unit(scene, scene.drivers[0], z) for z in traced.zeros)
+            places = ", ".join(scene.unit_of(scene.drivers[0]).said(z) for z in traced.zeros)
             parts.append(f"{word('zero at', language)} {places}")
-        lines.append(f"{quantity.name} ({quantity.unit(scene)}): {'; '.join(parts)}")
+        lines.append(f"{quantity.name} ({unit.text}): {'; '.join(parts)}")
     return lines
 
 
-def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, bool | None]]:
-    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, whether
-    the two agree."""
+def reading_words(checked: Checked) -> Iterator[tuple[str, str, str, str, str, bool | None]]:
+    """Each reading in words: symbol, mm on paper, measured with as many figures as the drawing carries, exact, the unit
+    of the two, whether they agree."""
     scales, units = checked.report.scales, checked.mechanism.units
     for row in checked.report.rows:
         said = measured(row.reading, scales, units, row)
         if said == "0" and row.uncertainty is not None and row.bound > row.floor:
             said = f"0 {deviation(row, units)}"
-        yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.ok
+        yield str(row.symbol), paper(row.reading, row), said, exact(row, units), row.symbol.unit(units).text, row.ok

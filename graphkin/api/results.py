@@ -27,8 +27,8 @@ __all__ = ["FilesOfScene", "OfScene", "Result", "Tabled"]
 class Tabled(ABC):
     """What has a table, and says all that it has in the table's ways.
 
-    ``tabled["v_C"]`` is one thing of it by its name, ``table`` all of it as columns with units, ``data`` the same for
-    programs, ``write`` makes its files; a notebook shows it.
+    ``tabled["v_C"]`` is one thing of it by its name, in the file's units and degrees, with its unit; ``table`` all of
+    it as columns with units, ``data`` the same for programs, ``write`` makes its files; a notebook shows it.
     """
 
     __slots__ = ()

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from graphkin.api.results import Tabled
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.table import Column, Table
+from graphkin.table import Column, Table, Values
 
 __all__ = ["Quantities", "Samples"]
 
@@ -68,11 +68,12 @@ class Samples(Tabled):
         """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
         name = as_text("name", name)
         names = self.quantities.names
+        units = self.quantities.units
         if name in names:
-            return np.asarray(self.values[names.index(name)])
+            return Values.of(self.values[names.index(name)], units[name.removesuffix(".x").removesuffix(".y")])
         self.quantities.place(name)
         first = names.index(f"{name}.x")
-        return np.asarray(self.values[first] + 1j * self.values[first + 1])
+        return Values.of(self.values[first] + 1j * self.values[first + 1], units[name])
 
     def bound(self, name: str) -> Reals:
         """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite

@@ -17,9 +17,9 @@ from graphkin.api.arguments import (
     At,
     SceneLike,
     as_scene,
-    asked_symbols,
     known_words,
     placed,
+    quantity_shown,
     whole_number,
     write_files,
 )
@@ -30,6 +30,7 @@ from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
+from graphkin.table import Values
 
 if TYPE_CHECKING:
     from graphkin.api.loops_text import LoopText
@@ -46,9 +47,9 @@ BALANCE_IDLE = "the balance does no work in this position, so that nothing it co
 class Solved(Result, OfScene):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
-    ``solved["v_C"]`` is a quantity by its name as an array, shape (positions,): complex for vectors, in the scene's
-    length unit, degrees for angles, NaN where there is none; forces (``F_5/6``, ``M_2``) in its force unit.  ``table``
-    has all of them, ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), where drivers move by a law.
+    ``solved["v_C"]`` is a quantity by its name as an array with its unit, shape (positions,): complex for vectors, in
+    the file's units and degrees, NaN where there is none, 0 where it is nothing but rounding.  ``table`` has all of
+    them, ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), where drivers move by a law.
     """
 
     motion: Motion
@@ -62,18 +63,12 @@ class Solved(Result, OfScene):
     def __getitem__(self, name: str) -> Array:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
         name = as_text("name", name)
-        from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
-
-        scene = self.mechanism
-        if self.forces is not None and (found := self.forces.value(str(name))) is not None:
-            return np.asarray(found / scene.units.newtons)
-        watched = quantity_named(scene, str(name))
-        if watched is None and str(name).startswith(("driver_", "time", "position", "status", "why")):
+        if name.startswith(("driver_", "time", "position", "status", "why")):
             return self.table[name]
-        if watched is None:
-            watched = quantity_of_symbol(*asked_symbols(scene, [name]))
-        parts = watched.parts(None, self._moved)
-        return np.array(parts[0]) if len(parts) == 1 else parts[0] + 1j * parts[1]
+        shown = quantity_shown(self.mechanism, name)
+        parts = shown.parts(None, self._moved)
+        values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+        return Values.of(values, shown.unit(self.mechanism).text)
 
     @cached_property
     def table(self) -> Table:
@@ -95,11 +90,8 @@ class Solved(Result, OfScene):
 
     def columns(self, name: str) -> list[Column]:
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""
-        from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
-
-        scene = self.mechanism
-        watched = quantity_named(scene, name) or quantity_of_symbol(*asked_symbols(scene, [name]))
-        return watched.columns(scene, watched.parts(None, self._moved))
+        shown = quantity_shown(self.mechanism, name)
+        return shown.columns(self.mechanism, shown.parts(None, self._moved))
 
     @property
     def mechanism(self) -> Mechanism:

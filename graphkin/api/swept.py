@@ -20,7 +20,7 @@ from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
-from graphkin.table import Table, have
+from graphkin.table import Table, Values, have
 from graphkin.table.csv_files import table_of_csv
 from graphkin.words import Phrase, say
 from graphkin.words.refused import refused
@@ -94,7 +94,8 @@ class Swept(Result, OfScene):
         else:
             parts = (self.table[name],)
         values = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return values.reshape(-1, self.over.positions) if self.over.designs.keys else values
+        shown = values.reshape(-1, self.over.positions) if self.over.designs.keys else values
+        return shown if k is None else Values.of(shown, watched[k].unit(self.mechanism).text)
 
     @cached_property
     def table(self) -> Table:

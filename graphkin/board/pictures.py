@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from graphkin import solver
-from graphkin.api.arguments import driver_values, known_words, own_unit, placed
+from graphkin.api.arguments import driver_values, known_words, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
 from graphkin.api.report_text import plain_said, reading_words
@@ -197,7 +197,7 @@ def shown(
     answer: dict[str, Json] = {
         "figures": _figures(drawn),
         "points": _points(motion),
-        "at": {d.key: scene.in_file_units(d, float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
+        "at": {d.key: scene.unit_of(d).of(float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
         "scales": [drawn.plan.scales.length, drawn.plan.scales.velocity, drawn.plan.scales.acceleration],
         "perMm": drawn.plan.scales.length / scene.units.metres,
         "limit": said,
@@ -257,7 +257,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     return {
         "figures": figures if said or not rest else figures | _figures(drawn_at(*others)[0]),
         "points": {p: {"x": z.real, "y": z.imag, "pull": pulls.get(p, "")} for p, z in points.items()},
-        "at": {d.key: scene.in_file_units(d, float(sheet.drivers[d.key])) for d in scene.drivers},
+        "at": {d.key: scene.unit_of(d).of(float(sheet.drivers[d.key])) for d in scene.drivers},
         "scales": [sheet.scales.length, sheet.scales.velocity, sheet.scales.acceleration],
         "perMm": unit,
         "limit": said,
@@ -346,12 +346,15 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         for step in sheet.steps
     ]  # fmt: skip
     return {
-        "readings": [list(row) for row in reading_words(drawn.checked)],
+        "readings": [
+            [symbol, on_paper, f"{measured} {unit}", f"{exact} {unit}", ok]
+            for symbol, on_paper, measured, exact, unit, ok in reading_words(drawn.checked)
+        ],
         "agrees": drawn.ok,
         "steps": steps + _force_steps(drawn, speaker.letters, spoken),
         "range": limits,
         "drivers": [
-            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": own_unit(scene, d, drawn.motion.values[0][i]),
+            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": scene.unit_of(d).said(drawn.motion.values[0][i]),
              "sense": -1 if d.values[1] < 0 else 1}
             for i, d in enumerate(scene.drivers)
         ],

@@ -28,7 +28,7 @@ AGREES = 1e-9
 
 @dataclass(frozen=True)
 class FoundLength:
-    """A length measured (mm on paper, and in the task's unit) beside the exact one; ``tolerance`` is what they may
+    """A length measured (mm on paper, and in the file's unit) beside the exact one; ``tolerance`` is what they may
     differ."""
 
     symbol: str
@@ -36,6 +36,7 @@ class FoundLength:
     measured: float
     exact: float
     tolerance: float
+    unit: str = ""
 
     @property
     def error(self) -> float:

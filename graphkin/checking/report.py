@@ -223,8 +223,8 @@ def compare(
 
 def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
     """A value in the units of a file, a vector by its size and its direction."""
-    size = (abs(value) if symbol.is_vector else float(value.real)) / symbol.per_unit(scene.units)
-    unit = symbol.written_unit(scene.units)
+    own = symbol.unit(scene.units)
+    size, unit = own.of(abs(value) if symbol.is_vector else float(value.real)), own.written
     way = f" at {math.degrees(cmath.phase(value)):.4g}°" if symbol.is_vector and value else ""
     return f"{size:.6g}{f' {unit}' if unit else ''}{way}"
 
@@ -368,21 +368,22 @@ def measured(reading: Reading, scales: Scales, units: Units, compared: Compared 
     value = reading.value if compared is None else compared.measured
     if value == 0.0:
         return "0"
-    per = reading.symbol.per_unit(units)
+    unit = reading.symbol.unit(units)
     if not reading.on_paper:
-        return amount(float(value.real) / per, MOST + 1)
+        return amount(unit.of(float(value.real)), MOST + 1)
     length = on_paper(reading.on_paper)
     if reading.symbol.is_vector:
-        return product(length, amount(scales.of(reading.diagram) / per, 12))
+        return product(length, amount(unit.of(scales.of(reading.diagram)), 12))
     if abs(abs(value) - abs(reading.on_paper) * scales.length) < 1e-9 * abs(value):
-        return ("-" if value.real < 0.0 < reading.on_paper else "") + product(length, amount(scales.length / per, 12))
-    return computed(float(value.real) / per, min(MOST, figures(length)))
+        minus = "-" if value.real < 0.0 < reading.on_paper else ""
+        return minus + product(length, amount(unit.of(scales.length), 12))
+    return computed(unit.of(float(value.real)), min(MOST, figures(length)))
 
 
 def exact(compared: Compared, units: Units, carried: int = MOST + 1) -> str:
     """The exact value in scene units."""
     value = abs(compared.true) if compared.symbol.is_vector else float(compared.true.real)
-    return amount(value / compared.symbol.per_unit(units), carried)
+    return amount(compared.symbol.unit(units).of(value), carried)
 
 
 def deviation(compared: Compared, units: Units) -> str:
@@ -391,5 +392,5 @@ def deviation(compared: Compared, units: Units) -> str:
     if compared.relative is None:
         if compared.uncertainty is not None and compared.bound <= compared.floor:
             return "0"
-        return f"± {amount(max(compared.bound, compared.error) / compared.symbol.per_unit(units), 2)}"
+        return f"± {amount(compared.symbol.unit(units).of(max(compared.bound, compared.error)), 2)}"
     return f"{100 * compared.relative:.2g} %"

@@ -90,10 +90,10 @@ def _print_readings(checked: Checked, language: str) -> None:
     from graphkin.words import say, word
 
     rows = [
-        [symbol, length, measured, exact, {True: "ok", False: "off", None: "?"}[ok]]
-        for symbol, length, measured, exact, ok in reading_words(checked)
+        [symbol, length, measured, exact, unit, {True: "ok", False: "off", None: "?"}[ok]]
+        for symbol, length, measured, exact, unit, ok in reading_words(checked)
     ]
-    heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact")]
+    heads = [word(key, language) for key in ("quantity", "on paper", "measured", "exact", "unit")]
     print_table([*heads, ""], rows, right=(1, 2, 3))
     for line in (*lever_lines(checked, language), *contact_lines(checked, language)):
         tell(line)
@@ -188,9 +188,9 @@ def audit(
     if as_json:
         print_json(audited.data)
     elif not quiet:
-        first = len(audited.heads) - 6
+        first = len(audited.heads) - 7
         if audited.rows or not audited.scans:
-            print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 3))
+            print_table(audited.heads, audited.rows, right=(first + 1, first + 2, first + 4))
         if audited.scans:
             tell("\n".join(audited.scan_lines))
         for summary in (audited.students, audited.matrix) if audited.is_class else ():

@@ -48,16 +48,17 @@ def design(
         language = languages(lang or designed.given.sheet.language)[0]
         print_paths(paths)
         rows = [
-            [row.symbol, f"{row.on_paper:.3f}", f"{row.measured:.7g}", f"{row.exact:.7g}", "ok" if row.ok else "off"]
+            [row.symbol, f"{row.on_paper:.3f}", f"{row.measured:.7g}", f"{row.exact:.7g}", designed.given.units.length,
+             "ok" if row.ok else "off"]
             for row in designed.rows
-        ]
-        heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact")]
+        ]  # fmt: skip
+        heads = [word(key, language) for key in ("length found", "on paper", "measured", "exact", "unit")]
         print_table([*heads, ""], rows, right=(1, 2, 3))
         told = [
-            [say(one.what, language), f"{one.asked:.7g}", f"{one.found:.7g}", "ok" if one.ok else "off"]
+            [say(one.what, language), f"{one.asked:.7g}", f"{one.found:.7g}", one.unit, "ok" if one.ok else "off"]
             for one in designed.confirmed
         ]
-        print_table([word("confirmed", language), word("given wish", language), "", ""], told, right=(1, 2))
+        print_table([word("confirmed", language), word("given wish", language), "", "", ""], told, right=(1, 2))
         for sentence in designed.sentences(language):
             typer.echo(sentence)
     if not designed.ok:

@@ -127,7 +127,7 @@ def _values(words: list[Primitive], sheet: Sheet, letters: Letters, left: float,
     """What the scene asks for, as it is measured there."""
     units = sheet.scene.units
     said = [
-        f"${letters.vector(r.symbol)}$ = {written(measured(r, sheet.scales, units))} {r.symbol.written_unit(units)}"
+        f"${letters.vector(r.symbol)}$ = {written(measured(r, sheet.scales, units))} {r.symbol.unit(units).written}"
         for r in read_off(sheet, [s for s in sheet.scene.find if s.scope == "motion" and not s.at])
     ] if sheet.scene.find else []  # fmt: skip
     for runs in wrapped(";  ".join(said), 2.8, wide):

@@ -62,12 +62,13 @@ _SYMBOLS = re.compile(r"(?:(?<![A-Za-z])(?:[A-Z](?:_\{\d\})?)+(?![a-z]))|[θψ]"
 
 @dataclass(frozen=True)
 class Confirmed:
-    """What was asked beside what the found mechanism does, in words and numbers."""
+    """What was asked beside what the found mechanism does, in words and numbers of a unit ("mm", "deg", "")."""
 
     what: Phrase
     asked: float
     found: float
     ok: bool
+    unit: str = ""
 
 
 def design_scale(design: Design, natural: DesignSheet) -> float:

@@ -165,7 +165,7 @@ def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str, size: f
 
 
 def _unit(sheet: Sheet, reading: Reading) -> str:
-    return reading.symbol.written_unit(sheet.scene.units)
+    return reading.symbol.unit(sheet.scene.units).written
 
 
 def given_lines(sheet: Sheet, letters: Letters, language: str, width: float, size: float) -> list[tuple[Run, ...]]:

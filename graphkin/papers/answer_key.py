@@ -124,7 +124,7 @@ def answers_template(asked: Sequence[Symbol], units: Units, language: str, varia
     """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
     direction; with ``variants`` a row for each of them."""
     names = tuple(variants)
-    columns = [f"{s} ({s.unit(units)})" if s.unit(units) else str(s) for s in asked]
+    columns = [f"{s} ({s.unit(units).text})" if s.unit(units).text else str(s) for s in asked]
     heads = [word(key, language) for key in ("name in a class", "id in a class", *(["variant"] if names else []))]
     for symbol, column in zip(asked, columns, strict=True):
         heads += [column, f"{symbol} {word('direction of', language)}"] if symbol.is_vector else [column]

@@ -133,11 +133,11 @@ class Lesson:
 
     def unit(self, symbol: Symbol) -> str:
         """The unit in which a quantity is given."""
-        return symbol.written_unit(self.sheet.scene.units)
+        return symbol.unit(self.sheet.scene.units).written
 
     def in_unit(self, symbol: Symbol, value: float) -> float:
         """A value (SI) in that unit."""
-        return value / symbol.per_unit(self.sheet.scene.units)
+        return float(symbol.unit(self.sheet.scene.units).of(value))
 
 
 def plain_words(markup: str) -> str:

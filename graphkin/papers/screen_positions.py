@@ -295,7 +295,7 @@ def _caption(told: Said) -> str:
 def _at(sheet: Sheet) -> float:
     """The value of the first driver: degrees, or travel in scene units."""
     driver = sheet.scene.drivers[0]
-    return round(sheet.scene.in_file_units(driver, sheet.drivers[driver.key]), 3)
+    return round(float(sheet.scene.unit_of(driver).of(sheet.drivers[driver.key])), 3)
 
 
 def _title(lesson: Lesson, figure: FigureName) -> str:

@@ -34,11 +34,12 @@ MOST_ASKED = 6  # of what a pencil does not miss
 
 @dataclass(frozen=True)
 class Answer:
-    """A right answer in scene units (vectors by size), and how far one drawn in pencil may lie off."""
+    """A right answer in the file's unit (vectors by size), and how far one drawn in pencil may lie off."""
 
     symbol: str
     value: float
     tolerance: float
+    unit: str = ""
 
 
 @dataclass(frozen=True)
@@ -190,14 +191,14 @@ def examined(
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0
-        unit = symbol.per_unit(scene.units)
+        unit = symbol.unit(scene.units)
         try:
             _held([(symbol, value)] if symbol not in idle else [], {symbol: bound}, bounds.tolerance)
         except Unfit as unfit:
             if strict or not math.isfinite(bound):
                 raise
             remarks.append(str(unfit))
-        bounded.append(Answer(str(symbol), float(f"{value / unit:.12g}"), float(f"{bound / unit:.6g}")))
+        bounded.append(Answer(str(symbol), float(f"{unit.of(value):.12g}"), float(f"{unit.of(bound):.6g}"), unit.text))
     return Variant(name, made, tuple(bounded), tuple(remarks))
 
 

@@ -87,7 +87,7 @@ def read_cell(
         left = re.sub(r"^k\u0302?$", "", left)  # the unit vector out of the paper
     if not numbers or len(numbers) > (2 if symbol.is_vector else 1):
         raise Unreadable(Phrase("cell more numbers" if numbers else "cell no number", (text.strip()[:40],)))
-    factor = symbol.per_unit(units)
+    factor = symbol.unit(units).si
     for said in (left, unit):
         if said:
             found = unit_factor(said, symbol, units)

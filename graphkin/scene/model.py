@@ -21,7 +21,7 @@ from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.printed import Printed
 from graphkin.scene.sheet_tables import SheetWishes
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import SceneTables, Units
+from graphkin.scene.tables import Measure, SceneTables, Unit, Units
 
 __all__ = [
     "AngleDriver",
@@ -154,6 +154,11 @@ class AngleDriver:
         return self.link
 
     @property
+    def measure(self) -> Measure:
+        """What its value measures."""
+        return "angle"
+
+    @property
     def values(self) -> tuple[float, float, float]:
         """Value, rate, second rate (rad, rad/s, rad/s2)."""
         return self.angle, self.omega, self.alpha
@@ -182,6 +187,11 @@ class SlideDriver:
     acceleration: float
     dead_point: FromDeadPoint | None = None
     law: MotionLaw | None = None
+
+    @property
+    def measure(self) -> Measure:
+        """What its value measures."""
+        return "length"
 
     @property
     def values(self) -> tuple[float, float, float]:
@@ -353,9 +363,9 @@ class Mechanism:
         here = (own for own in self.stated if own.at is None)
         return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
 
-    def in_file_units(self, driver: AnyDriver, value: float) -> float:
-        """A value of a driver (rad, m) as a file gives it: in degrees, or in the scene's unit of length."""
-        return math.degrees(value) if isinstance(driver, AngleDriver) else value / self.units.metres
+    def unit_of(self, driver: AnyDriver, radians: bool = False) -> Unit:
+        """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
+        return self.units.of(driver.measure, radians)
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""

@@ -111,7 +111,7 @@ def stated(symbol: Symbol, texts: Sequence[str], units: Units, unit: float | Non
     >>> v.value, v.step, v.digits
     (0.48, 0.0001, 4)
     """
-    unit = symbol.per_unit(units) if unit is None else unit
+    unit = symbol.unit(units).si if unit is None else unit
     numbers = [_number(text) for text in texts]
     values = [float(n) * unit for n in numbers]
     last = max(int(n.as_tuple().exponent) for n in [n for n in numbers if n] or numbers)

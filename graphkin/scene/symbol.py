@@ -5,21 +5,16 @@ A kind of quantity is one entry of `KINDS`: what its name is followed by, and wh
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple
 
 from graphkin.errors import Problem
-from graphkin.scene.tables import Units
+from graphkin.scene.tables import Measure, Unit, Units
 
 __all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "Value", "centre_links", "missing_names"]
 
-Measure = Literal[
-    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
-    "moment", "work", "inertia",
-]
 Value = complex | float
 """What a quantity is: a vector of the plane, or a number."""
 Scope = Literal["motion", "position", "turn", "force", "cycle"]
@@ -197,33 +192,9 @@ class Symbol:
         yield from (name for name in (self.link, self.other) if name)
         yield from (ref.link for ref in (self.of, self.to) if ref and ref.link)
 
-    def unit(self, units: Units) -> str:
-        """The unit in files and tables, where the scene's are these: degrees for angles."""
-        speed = f"{units.rates.length}/s"
-        return {
-            "velocity": speed, "acceleration": f"{speed}2", "angular velocity": "rad/s",
-            "angular acceleration": "rad/s2", "length": units.length, "angle": "deg", "number": "",
-            "force": units.force, "moment": f"{units.force} m", "work": f"{units.force} m",
-            "inertia": f"{units.mass} {'ft2' if units.mass == 'lb' else 'm2'}",
-        }[self.measure]  # fmt: skip
-
-    def written_unit(self, units: Units) -> str:
-        """The same as it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
-        return self.unit(units).replace("2", "²").replace("deg", "°").replace(" m", "·m")
-
-    def per_unit(self, units: Units) -> float:
-        """What one such unit is in SI."""
-        return math.radians(1.0) if self.measure == "angle" else self.per_unit_of_programs(units)
-
-    def per_unit_of_programs(self, units: Units) -> float:
-        """The same in JSON, where angles are in radians."""
-        if self.measure in ("force", "moment", "work"):
-            return units.newtons
-        if self.measure == "inertia":
-            return units.inertias
-        if self.measure in ("velocity", "acceleration"):
-            return units.rates.metres
-        return units.metres if self.measure == "length" else 1.0
+    def unit(self, units: Units, radians: bool = False) -> Unit:
+        """Its unit in files and tables, where the scene's are these; with ``radians`` that in JSON."""
+        return units.of(self.measure, radians)
 
     @property
     def id(self) -> str:

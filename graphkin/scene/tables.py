@@ -7,9 +7,11 @@ scene is made of them (`graphkin.scene.form` has the rules, from which the JSON 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from functools import cache
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
 
 from graphkin.scene.asked_tables import Positions, PrintedTable, Vary
 from graphkin.scene.contact_tables import Cam, Contact, Disc, DriverLaw, Gear
@@ -55,11 +57,47 @@ __all__ = [
     "Frame",
     "Guide",
     "Link",
+    "Measure",
     "Pin",
     "Polar",
     "SceneTables",
+    "Unit",
     "Units",
 ]
+
+Measure = Literal[
+    "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
+    "moment", "work", "inertia",
+]
+"""What a number measures: its unit follows from it and from the units of the scene."""
+
+
+class Unit(NamedTuple):
+    """A unit of one measure.
+
+    text : as in the heads of tables, "mm/s2", "deg", "N m"; "" of a pure number
+    si : what one of it is in SI
+    """
+
+    text: str
+    si: float
+
+    def of(self, value: Any) -> Any:
+        """A number, or an array of any numbers, in this unit; given in SI."""
+        return value * math.degrees(1.0) if self.text == "deg" else value / self.si
+
+    @property
+    def written(self) -> str:
+        """As it stands on figures and papers: ``mm/s²``, ``°``, ``N·m``."""
+        return self.text.replace("2", "²").replace("deg", "°").replace(" m", "·m")
+
+    def beside(self, number: str) -> str:
+        """A number, as it is written, with the unit beside it: ``482.7 mm/s``, ``30°``."""
+        return f"{number}{'' if self.text == 'deg' else ' '}{self.written}".rstrip()
+
+    def said(self, value: float) -> str:
+        """A value (SI) in this unit, to six figures, with the unit beside it."""
+        return self.beside(f"{self.of(value):.6g}")
 
 
 @dataclass(frozen=True)
@@ -106,6 +144,33 @@ class Units(FileTable):
     def inertias(self) -> float:
         """One unit of inertia in kg m2."""
         return self.kilograms * (0.3048**2 if self.mass == "lb" else 1.0)
+
+    @property
+    def per_si(self) -> tuple[float, float, float]:
+        """What one metre, one radian and one metre in rates are in the units of tables."""
+        return 1.0 / self.metres, math.degrees(1.0), 1.0 / self.rates.metres
+
+    def of(self, measure: Measure, radians: bool = False) -> Unit:
+        """The unit of a measure: what people read has its angles in degrees, what programs read in radians."""
+        return _unit(self, measure, radians)
+
+
+@cache
+def _unit(units: Units, measure: Measure, radians: bool) -> Unit:
+    fast = units.rates
+    return {
+        "length": Unit(units.length, units.metres),
+        "velocity": Unit(f"{fast.length}/s", fast.metres),
+        "acceleration": Unit(f"{fast.length}/s2", fast.metres),
+        "angle": Unit("rad", 1.0) if radians else Unit("deg", math.radians(1.0)),
+        "angular velocity": Unit("rad/s", 1.0),
+        "angular acceleration": Unit("rad/s2", 1.0),
+        "number": Unit("", 1.0),
+        "force": Unit(units.force, units.newtons),
+        "moment": Unit(f"{units.force} m", units.newtons),
+        "work": Unit(f"{units.force} m", units.newtons),
+        "inertia": Unit(f"{units.mass} {'ft2' if units.mass == 'lb' else 'm2'}", units.inertias),
+    }[measure]
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from graphkin.plane import cross
 from graphkin.scene.force_names import opposite
 from graphkin.solver.external_forces import EDGE, Action, actions, spring_ends, without_line
 from graphkin.solver.linear_blocks import LinearBlocks
-from graphkin.solver.motion import Motion
+from graphkin.solver.motion import SLIGHT, Motion
 from graphkin.solver.pair_forces import PairForce, balances, pair_forces
 from graphkin.solver.pose import Array
 
@@ -51,6 +51,17 @@ class Forces:
     def bound(self) -> tuple[Array, Array]:
         """How far rounding may have moved any force (N) and moment (N m), shape (n,) each."""
         return _cut_free(self.motion).bounds(self)
+
+    @cached_property
+    def floors(self) -> tuple[Array, Array]:
+        """What is not above it is nothing but rounding, of a force (N) and a moment (N m), shape (n,) each: the bounds,
+        as far as they are slight beside the largest of all."""
+        force = np.max([np.abs(f) for f in self.forces.values()], axis=0, initial=0.0)
+        moment = np.max([np.abs(m) for m in self.moments.values()], axis=0, initial=0.0)
+        largest = force, np.maximum(moment, force * self.motion.scene.size)
+        pairs = zip(self.bound, largest, strict=True)
+        one, two = (np.where(bound <= SLIGHT * whole, bound, 0.0) for bound, whole in pairs)
+        return one, two
 
     @cached_property
     def power(self) -> tuple[Array, Array]:

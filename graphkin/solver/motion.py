@@ -5,21 +5,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.plane import dot
-from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Measure
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Cluster, Slide, Structure, links_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase
 
-__all__ = ["Motion", "Sliding", "evaluate"]
+__all__ = ["SLIGHT", "Motion", "Sliding", "evaluate"]
+
+SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
 
 
 def evaluate(motion: Motion, symbol: Symbol) -> Array:
@@ -361,6 +365,28 @@ class Motion:
         guide = self.poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
         seen = guide.inverse().of(self.poses[pair.a])
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
+
+    @cached_property
+    def floors(self) -> Mapping[Measure, Array]:
+        """What is not above it is nothing but rounding, by measure, shape (n,) (SI): the bound of the error, as far as
+        that is slight beside the motion of the drivers.  Where it is more, beside a dead point, nothing is called 0."""
+        size = self.scene.size
+        # of the drivers (rad/s, rad/s2), of slides over the size
+        rate, second = np.zeros(len(self)), np.zeros(len(self))
+        for driver in self.scene.drivers:
+            if isinstance(driver, AngleDriver):
+                one, two = self.poses[driver.link], self.poses[driver.relative_to]
+                rate, second = rate + np.abs(one.omega - two.omega), second + np.abs(one.alpha - two.alpha)
+            else:
+                slide = self.slide(driver.key)
+                rate, second = rate + np.abs(slide.velocity) / size, second + np.abs(slide.acceleration) / size
+        second = second + rate**2
+        pairs: dict[Measure, tuple[Array, Array | float]] = {
+            "length": (self.bound.position, size), "velocity": (self.bound.velocity, rate * size),
+            "acceleration": (self.bound.acceleration, second * size), "angle": (self.bound.angle, 1.0),
+            "angular velocity": (self.bound.omega, rate), "angular acceleration": (self.bound.alpha, second),
+        }  # fmt: skip
+        return {measure: np.where(bound <= SLIGHT * whole, bound, 0.0) for measure, (bound, whole) in pairs.items()}
 
     def value(self, symbol: Symbol) -> Array:
         """A quantity by its symbol: complex for vectors, real for others (m, rad, rad/s, rad/s2), shape (n,).

@@ -112,8 +112,8 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
 
     def shown(key: str, value: float) -> str:
         driver = next(d for d in scene.drivers if d.key == key)
-        unit = "deg" if isinstance(driver, AngleDriver) else scene.units.length
-        return f"{scene.in_file_units(driver, value):.6f} {unit}"
+        unit = scene.unit_of(driver)
+        return f"{unit.of(value):.6f} {unit.text}"
 
     key = scene.drivers[0].key
     ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})

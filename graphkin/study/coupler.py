@@ -81,7 +81,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     skeleton = _skeleton(turn, places, page)
     dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
     axis_unit = "°" if isinstance(reach.driver, AngleDriver) else ""
-    numbers = [scene.in_file_units(scene.drivers[0], float(reach.value(t))) for t in ticks]
+    numbers = [float(scene.unit_of(scene.drivers[0]).of(reach.value(t))) for t in ticks]
     numbers = [round(n, 9) + 0.0 for n in numbers]
     if reach.full:
         numbers = [n % (360 * reach.turns) for n in numbers]

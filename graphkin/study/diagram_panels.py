@@ -22,8 +22,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Look
 
-__all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantity_title", "signs_of", "span_of",
-           "unit_words"]  # fmt: skip
+__all__ = ["LIMIT", "MARGIN", "DiagramPanel", "draw_panel", "panel_of", "quantity_title", "signs_of", "span_of"]
 
 Array = NDArray[np.float64]
 
@@ -65,11 +64,6 @@ class DiagramPanel:
     @property
     def counts_degrees(self) -> bool:
         return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
-
-
-def unit_words(unit: str) -> str:
-    """A unit as it is printed."""
-    return {"deg": "°"}.get(unit, unit.replace("s2", "s²"))
 
 
 class _Ends(Protocol):
@@ -119,7 +113,7 @@ def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
     if quantity.symbol is not None:
         letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
     greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
-    return f"${greek}_{{{name.replace('@', '')}}}$ ({unit_words(quantity.unit(scene, degrees=True))})"
+    return f"${greek}_{{{name.replace('@', '')}}}$ ({quantity.unit(scene).written})"
 
 
 def panel_of(
@@ -141,7 +135,7 @@ def panel_of(
         # the axis ends where it begins, a turn later
         x[0], x[-1] = axis.left, axis.right
         gain = _gain(axis, quantity) if quantity.kind == "theta" else 0.0
-        values[-1] = values[0] + quantity.in_units(scene, gain, degrees=True)
+        values[-1] = values[0] + quantity.unit(scene).of(gain)
     title = quantity_title(scene, quantity)
     points, others = (_points(axis, quantity, some) for some in (dots, laid_over))
     curve = np.stack([x, values], axis=1)
@@ -223,7 +217,7 @@ def _shown(axis: DriverAxis, quantity: Quantity, offset: Array, values: Array) -
         values = np.where(offset < axis.first - 1e-12, values + _gain(axis, quantity), values)
         left = quantity.values(reach, axis.beside_ends)[2]
         values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
-    return np.array([quantity.in_units(reach.scene, v, degrees=True) for v in values])
+    return np.asarray(quantity.unit(reach.scene).of(values))
 
 
 def _gain(axis: DriverAxis, quantity: Quantity) -> float:

@@ -15,12 +15,13 @@ from graphkin.drawing import Box, ChartPage, Drawing
 from graphkin.drawing.chart import add_legend, add_panel, add_words, look
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
 from graphkin.solver.flywheel import FlywheelStudy
 from graphkin.study.coupler import coupler_points, curve_page
-from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of, unit_words
+from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of
 from graphkin.study.driver_axis import (
     HEIGHT,
     LEFT,
@@ -190,9 +191,9 @@ def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, floa
     off = np.abs(off[np.isfinite(off)])
     if not len(off):
         return ""
-    unit = quantity.unit(turn.scene, degrees=True)
+    unit = quantity.unit(turn.scene)
     sizes = np.sqrt(np.mean(off**2)), off.max()
-    told = (_with_unit(quantity.in_units(turn.scene, float(v), degrees=True), unit, 3) for v in sizes)
+    told = (_said(float(v), unit, 3) for v in sizes)
     return say(Phrase("laid over apart", (len(off), *told)), language)
 
 
@@ -201,25 +202,23 @@ def _facts(turn: TurnStudy, output: Output, language: str) -> list[str]:
     scene, quantity, stroke = turn.scene, output.quantity, output.stroke
     if stroke is None:
         return [word(output.without, language)]
-    unit = quantity.unit(scene, degrees=True)
+    unit = quantity.unit(scene)
     key = "swing is" if quantity.kind == "theta" else "stroke is"
-    facts = [say(Phrase(key, (_with_unit(quantity.in_units(scene, stroke, degrees=True), unit),)), language)]
+    facts = [say(Phrase(key, (_said(stroke, unit),)), language)]
     back = turn.quick_return(output)
     if back is not None:
         facts.append(say(Phrase("K is", (number(back[0]),)), language).replace("K", "$K$", 1))
     low, high = output.low, output.high
     assert low is not None
     assert high is not None
-    driver = "deg" if isinstance(scene.drivers[0], AngleDriver) else scene.units.length
-    both = sorted(scene.in_file_units(scene.drivers[0], e.driver) for e in (low, high))
-    places = [_with_unit(value, driver) for value in both]
+    places = [_said(value, scene.unit_of(scene.drivers[0])) for value in sorted((low.driver, high.driver))]
     facts.append(say(Phrase("limits at", (", ".join(places),)), language))
     return facts
 
 
-def _with_unit(value: float, unit: str, digits: int = 6) -> str:
-    """A number with its unit."""
-    return f"{number(value, digits)}{'' if unit == 'deg' else ' '}{unit_words(unit)}"
+def _said(value: float, unit: Unit, digits: int = 6) -> str:
+    """A value (SI) in its unit."""
+    return unit.beside(number(unit.of(value), digits))
 
 
 def measured(

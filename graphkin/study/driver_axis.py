@@ -114,9 +114,7 @@ class DriverAxis:
         """Where offsets lie on the axis."""
         reach, scene = self.reach, self.reach.scene
         if not reach.full:
-            values = reach.value(offset)
-            angle = isinstance(reach.driver, AngleDriver)
-            return np.asarray(np.degrees(values) if angle else values / scene.units.metres)
+            return np.asarray(scene.unit_of(reach.driver).of(reach.value(offset)))
         high = reach.ends[1]
         along = (np.asarray(offset) - self.first) % high
         along = np.where(along > high * (1 - 1e-12), 0.0, along)
@@ -132,7 +130,7 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     if reach.full:
         low, high = 0.0, 360.0 * reach.turns
     else:
-        low, high = sorted(scene.in_file_units(scene.drivers[0], float(reach.value(np.array(e)))) for e in reach.ends)
+        low, high = sorted(float(scene.unit_of(driver).of(reach.value(np.array(e)))) for e in reach.ends)
     step = degree_step(high - low) if angle else next_of_series((high - low) / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)

@@ -177,7 +177,7 @@ def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
     speed = max(omega * size, *(_usual(p.v) for p in poses))
     alpha = max(omega**2, *(_usual(p.alpha) for p in poses))
     push = max(alpha * size, *(_usual(p.a) for p in poses))
-    table = {"angular rate": omega, "angular acceleration": alpha, "speed": speed, "acceleration": push}
+    table = {"angular velocity": omega, "angular acceleration": alpha, "velocity": speed, "acceleration": push}
     return np.array([table[q.measure] ** (2 if q.is_size else 1) for q in rates]) * 1e-3
 
 

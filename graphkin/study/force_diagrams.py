@@ -102,7 +102,7 @@ def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     axis = driver_axis(reach, language)
     found = force_over_turn(axis, quantity.of)
     values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
-    unit = quantity.unit(scene).replace(" m", "·m")
+    unit = quantity.unit(scene).written
     name = _written(scene, quantity.of)
     title = say(Phrase("diagram of", (name,)), language)
     every = _extremes(axis, quantity, found, values)
@@ -227,7 +227,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     vector = np.asarray(found.values, dtype=complex)
     sizes = np.abs(vector)
     jumps = _jumps(found, vector.real) + [k for k in _jumps(found, vector.imag) if k not in _jumps(found, vector.real)]
-    unit, name = quantity.unit(scene), _written(scene, quantity.of)
+    unit, name = quantity.unit(scene).text, _written(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
     k = int(np.nanargmax(sizes))
     away = _unbounded(reach, found.offsets, sizes, float(found.offsets[k]), float(sizes[k]))

@@ -8,7 +8,6 @@ direction, and the scale is mu_y mu_t H (Artobolevsky, Theory of Mechanisms and 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
@@ -22,8 +21,8 @@ from graphkin.construction.sheet import next_of_series
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Measure
 from graphkin.solver import DriverRange, Motion
-from graphkin.study.quantities import Measure
 from graphkin.table import Column, Table
 
 __all__ = ["Chords", "Ordinate", "Way", "graphical", "known_ordinate"]
@@ -106,22 +105,15 @@ class Chords:
 
     def table(self, scene: Mechanism, driver: str, values: Array, unit: str) -> Table:
         """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees."""
-        per = _per(self.result.measure, scene)
-        measured, exact = self.measured / per, self.exact / per
+        own = scene.units.of(self.result.measure)
+        measured, exact = own.of(self.measured), own.of(self.exact)
         return Table((
             Column(f"driver_{driver}", values, unit),
             Column("on_paper_mm", np.round(self.found, 4), "mm"),
-            Column(self.result.name, measured, ""),
-            Column("exact", exact, ""),
-            Column("difference", measured - exact, ""),
+            Column(self.result.name, measured, own.text),
+            Column("exact", exact, own.text),
+            Column("difference", measured - exact, own.text),
         ))  # fmt: skip
-
-
-def _per(measure: Measure, scene: Mechanism) -> float:
-    if measure == "angle":
-        return math.radians(1.0)
-    units = scene.units if measure == "length" else scene.units.rates
-    return 1.0 if measure.startswith("angular") else units.metres
 
 
 def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
@@ -157,7 +149,7 @@ def _of_link(link: str) -> tuple[Ordinate, ...]:
         return lambda sheet: _read(sheet, symbol)
 
     kinds: tuple[tuple[str, Measure], ...] = (
-        ("theta", "angle"), ("omega", "angular rate"), ("alpha", "angular acceleration")
+        ("theta", "angle"), ("omega", "angular velocity"), ("alpha", "angular acceleration")
     )  # fmt: skip
     solved: tuple[Callable[[DriverRange, Motion], Array], ...] = (
         lambda reach, motion: reach.angle(motion, link),
@@ -184,7 +176,7 @@ def _of_slide(scene: Mechanism, key: str) -> tuple[Ordinate, ...]:
     v, a = Symbol("v", PointRef(pair.pin)), Symbol("a", PointRef(pair.pin))
     return (
         first,
-        Ordinate(f"v_{key}", "speed", (v,), lambda sheet: _along(sheet, v, along),
+        Ordinate(f"v_{key}", "velocity", (v,), lambda sheet: _along(sheet, v, along),
                  lambda _, motion: motion.slide(key).velocity),
         Ordinate(f"a_{key}", "acceleration", (a,), lambda sheet: _along(sheet, a, along),
                  lambda _, motion: motion.slide(key).acceleration),
@@ -201,7 +193,7 @@ def _of_point(point: str, axis: str) -> tuple[Ordinate, ...]:
     return (
         Ordinate(f"{axis}_{point}", "length", (place,), lambda sheet: _read(sheet, place),
                  lambda _, motion: part(motion.position(point))),
-        Ordinate(f"v_{point}.{axis}", "speed", (v,), lambda sheet: _along(sheet, v, along),
+        Ordinate(f"v_{point}.{axis}", "velocity", (v,), lambda sheet: _along(sheet, v, along),
                  lambda _, motion: part(motion.value(v))),
         Ordinate(f"a_{point}.{axis}", "acceleration", (a,), lambda sheet: _along(sheet, a, along),
                  lambda _, motion: part(motion.value(a))),
@@ -259,8 +251,8 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     values = _drawn(reach, given, at)
     if given.measure == "angle":
         values = np.unwrap(values)
-    per_y = next_of_series(float(np.max(np.abs(values), initial=1e-300)) / TALL / _per(given.measure, scene))
-    per_y *= _per(given.measure, scene)
+    unit = scene.units.of(given.measure)
+    per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)
     y = values / per_y
     widths = np.diff(x)
     there = reach.motion(middles if way == "derivative" else nodes)

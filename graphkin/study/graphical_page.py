@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from itertools import pairwise
 
 import numpy as np
@@ -13,8 +12,6 @@ from graphkin.drawing.piece import Piece, layer_groups
 from graphkin.drawing.primitives import Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.symbols import POINTER, arrowhead
 from graphkin.drawing.text import fitted, plain, rich, symbol, wrapped
-from graphkin.scene.model import AngleDriver
-from graphkin.scene.tables import Units
 from graphkin.solver import DriverRange
 from graphkin.study.driver_axis import number, title_of
 from graphkin.study.graphical import Array, Chords, Ordinate
@@ -40,34 +37,21 @@ def markup_of(one: Ordinate) -> str:
     return f"{_GREEK.get(kind, kind)}_{{{rest.replace('/', '').replace('.', '').replace('@', '')}}}"
 
 
-def _unit(one: Ordinate, units: Units) -> str:
-    speed = f"{units.rates.length}/s"
-    return {
-        "angle": "°", "length": units.length, "angular rate": "rad/s", "speed": speed,
-        "angular acceleration": "rad/s²", "acceleration": f"{speed}²",
-    }[one.measure]  # fmt: skip
-
-
 def _per_mm(unit: str) -> str:
     return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
-
-
-def _per(one: Ordinate, units: Units) -> float:
-    metres = units.metres if one.measure == "length" else units.rates.metres
-    return math.radians(1.0) if one.measure == "angle" else 1.0 if one.measure.startswith("angular") else metres
 
 
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
-    units = scene.units
+    of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
     given, result = markup_of(chords.given), markup_of(chords.result)
     title = say(Phrase(f"graphical {chords.way}", (f"${result}$", f"${given}$")), language)
-    per_y, per_found = chords.per_y / _per(chords.given, units), chords.per_found / _per(chords.result, units)
+    per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)
     scales = (
-        f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(_unit(chords.given, units))}",
+        f"$μ_{{{given[0]}}}$ = {number(per_y)} {_per_mm(of_given.written)}",
         f"$μ_{{t}}$ = {number(chords.per_x)} s/mm", f"$H$ = {number(chords.pole)} mm",
-        f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(_unit(chords.result, units))}",
+        f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(of_result.written)}",
     )  # fmt: skip
     facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", (f"{100 * chords.off:.2g}",)), language)]
     words: list[Primitive] = [
@@ -100,7 +84,7 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
     return Drawing(
         WIDTH, end + 20.0, layer_groups(page), f"{title.replace('$', '')}: {title_of(scene, language)}",
         " ".join(fact.replace("$", "") for fact in facts), language,
-        {"scene": scene.name, "units": units.length, "given": chords.given.name, "result": chords.result.name,
+        {"scene": scene.name, "units": scene.units.length, "given": chords.given.name, "result": chords.result.name,
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
     )  # fmt: skip
 
@@ -114,9 +98,8 @@ def chords_table(chords: Chords, reach: DriverRange) -> bytes:
         half = (chords.at[1] - chords.at[0]) / 2
         nodes = np.interp(share, [0.0, 1.0], [chords.at[0] - half, chords.at[-1] + half])
     values = reach.value(nodes)
-    angle = isinstance(driver, AngleDriver)
-    shown: Array = np.asarray(np.round(np.degrees(values), 9) if angle else values / scene.units.metres)
-    return chords.table(scene, driver.key, shown, "deg" if angle else scene.units.length).csv().encode("utf-8-sig")
+    unit = scene.unit_of(driver)
+    return chords.table(scene, driver.key, np.round(unit.of(values), 9), unit.text).csv().encode("utf-8-sig")
 
 
 def _axes(chords: Chords, origin: complex, values: Array, letter: str, reach: DriverRange) -> list[Primitive]:

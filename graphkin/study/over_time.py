@@ -127,16 +127,14 @@ class TimeStudy:
         )  # fmt: skip
 
     def _panel(self, quantity: Quantity) -> DiagramPanel:
-        def shown(value: float) -> float:
-            return quantity.in_units(self.scene, value, degrees=True)
-
-        values = np.array([shown(v) for v in self.values(quantity)])
+        unit = quantity.unit(self.scene)
+        values = np.asarray(unit.of(self.values(quantity)))
         good = values[np.isfinite(values)]
         low, high = (float(good.min()), float(good.max())) if len(good) else (0.0, 1.0)
         if not high - low > 1e-12 * max(abs(low), abs(high)):  # a constant
             low, high = low - (abs(low) / 2 or 0.5), high + (abs(high) / 2 or 0.5)
         span = low - MARGIN * (high - low), high + MARGIN * (high - low)
-        marked = tuple((e, e.offset, shown(e.value)) for e in self.extremes[quantity])
+        marked = tuple((e, e.offset, unit.of(e.value)) for e in self.extremes[quantity])
         title = quantity_title(self.scene, quantity)
         return DiagramPanel(quantity, title, np.stack([self.times, values], axis=1), np.zeros((0, 2)), marked, span)
 
@@ -146,11 +144,11 @@ class TimeStudy:
         drives = [d.key for d in self.scene.drivers if d.law is not None]
         lines = [say(Phrase("over the time", (", ".join(drives), number(low), number(high))), language)]
         for quantity, extremes in self.extremes.items():
-            unit = quantity.unit(self.scene, degrees=True)
+            unit = quantity.unit(self.scene)
             told = []
             for e in extremes:
                 key = "least at time" if e.kind == "min" else "greatest at time"
-                value = f"{quantity.in_units(self.scene, e.value, degrees=True):.6g} {unit}"
+                value = unit.said(e.value)
                 told.append(say(Phrase(key, (value, number(e.offset))), language))
             if extremes:
                 lines.append(f"  {quantity.name}{word('colon', language)}{word('list comma', language).join(told)}")
@@ -162,9 +160,9 @@ class TimeStudy:
         low, high = time_span(self.scene)
         found: dict[str, Json] = {}
         for quantity, extremes in self.extremes.items():
-            ends = {"min": "least", "max": "greatest"}
+            ends, unit = {"min": "least", "max": "greatest"}, quantity.unit(self.scene, radians=True)
             found[quantity.name] = {
-                ends[e.kind]: {"value": quantity.in_units(self.scene, e.value), "time": e.offset} for e in extremes
+                ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
         return {"title": self.scene.title, "time": [low, high], "outputs": found}
 

@@ -11,36 +11,22 @@ import numpy as np
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, senses_along
 from graphkin.solver.pose import Array
 
-__all__ = ["Quantity", "force_quantity", "link_quantities", "slide_quantities", "symbol_quantity"]
+__all__ = ["Quantity", "force_quantity", "link_quantities", "settled", "slide_quantities", "symbol_quantity"]
 
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "force", "moment", "symbol"]
-Measure = Literal[
-    "angle", "length", "angular rate", "speed", "angular acceleration", "acceleration", "force", "moment",
-    "work", "inertia",
-]
-
 _MEASURES: dict[str, Measure] = {
     "theta": "angle",
-    "omega": "angular rate",
+    "omega": "angular velocity",
     "alpha": "angular acceleration",
     "s": "length",
-    "v": "speed",
+    "v": "velocity",
     "a": "acceleration",
     "force": "force",
     "moment": "moment",
-}
-_OF_SYMBOLS: dict[str, Measure] = {
-    "velocity": "speed",
-    "acceleration": "acceleration",
-    "angular velocity": "angular rate",
-    "angular acceleration": "angular acceleration",
-    "length": "length",
-    "angle": "angle",
-    "work": "work",
-    "inertia": "inertia",
 }
 
 
@@ -64,9 +50,7 @@ class Quantity:
     @property
     def measure(self) -> Measure:
         """What kind of number it is."""
-        if self.symbol is None:
-            return _MEASURES[self.kind]
-        return _OF_SYMBOLS[self.symbol.measure]
+        return _MEASURES[self.kind] if self.symbol is None else self.symbol.measure
 
     @property
     def is_position(self) -> bool:
@@ -76,7 +60,7 @@ class Quantity:
     @property
     def is_speed(self) -> bool:
         """Whether it is a velocity or an angular velocity."""
-        return self.measure in ("speed", "angular rate")
+        return self.measure in ("velocity", "angular velocity")
 
     @property
     def is_load(self) -> bool:
@@ -88,33 +72,9 @@ class Quantity:
         """Whether it is the size of a vector."""
         return self.kind == "force" or (self.symbol is not None and self.symbol.is_vector and not self.along)
 
-    def unit(self, scene: Mechanism, degrees: bool = False) -> str:
-        """The unit of ``in_units``."""
-        length, rate, angle = scene.units.length, scene.units.rates.length, "deg" if degrees else "rad"
-        return {
-            "angle": angle,
-            "length": length,
-            "angular rate": "rad/s",
-            "speed": f"{rate}/s",
-            "angular acceleration": "rad/s2",
-            "acceleration": f"{rate}/s2",
-            "force": scene.units.force,
-            "moment": f"{scene.units.force} m",
-            "work": f"{scene.units.force} m",
-            "inertia": f"{scene.units.mass} {'ft2' if scene.units.mass == 'lb' else 'm2'}",
-        }[self.measure]
-
-    def in_units(self, scene: Mechanism, value: float, degrees: bool = False) -> float:
-        """A value in the scene's length unit, seconds, radians (or degrees)."""
-        if self.measure == "angle":
-            return math.degrees(value) if degrees else value
-        if self.is_load:
-            return value / scene.units.newtons
-        return value if self.measure.startswith("angular") else value / self.metres(scene)
-
-    def metres(self, scene: Mechanism) -> float:
-        """The length unit in it (m)."""
-        return scene.units.metres if self.measure == "length" else scene.units.rates.metres
+    def unit(self, scene: Mechanism, radians: bool = False) -> Unit:
+        """Its unit in tables; with ``radians`` that in JSON."""
+        return scene.units.of(self.measure, radians)
 
     def values(self, reach: DriverRange | None, motion: Motion) -> Array:
         """Its values in a motion (SI), shape (n,); in one of a range angles go on from those before."""
@@ -160,8 +120,8 @@ class Quantity:
         bound = {
             "angle": motion.bound.angle,
             "length": motion.bound.position,
-            "angular rate": motion.bound.omega,
-            "speed": motion.bound.velocity,
+            "angular velocity": motion.bound.omega,
+            "velocity": motion.bound.velocity,
             "angular acceleration": motion.bound.alpha,
             "acceleration": motion.bound.acceleration,
         }[self.measure]
@@ -169,11 +129,28 @@ class Quantity:
         both = 1.0 if self.measure.startswith("ang") else 2.0
         return np.asarray(np.where(np.isfinite(bound), both * bound, 0.0))
 
+    def settled(self, motion: Motion, value: Array) -> Array:
+        """Values of it in a motion (SI), 0 where they are nothing but rounding; a vector's by its components."""
+        if self.is_load:
+            floor = forces_of(motion).floors[self.kind == "moment"]
+        else:
+            # of two points that are seen from each other
+            both = 1.0 if self.measure.startswith("ang") else 2.0
+            floor = both * motion.floors.get(self.measure, np.zeros(1))
+        return settled(value, floor)
+
     def of_smooth(self, value: float) -> float:
         """A position from what is smooth of it."""
         if self.symbol is not None and self.symbol.kind in ("gamma", "pressure"):
             return math.acos(min(1.0, max(-1.0, value))) / 2
         return math.sqrt(max(0.0, value)) if self.symbol is not None and self.symbol.kind == "d" else value
+
+
+def settled(value: Array, floor: Array) -> Array:
+    """Values, 0 where they are not above what rounding amounts to; complex ones by their parts."""
+    if np.iscomplexobj(value):
+        return settled(value.real, floor) + 1j * settled(value.imag, floor)
+    return np.asarray(np.where(np.abs(value) <= floor, 0.0, value))
 
 
 def link_quantities(link: str) -> tuple[Quantity, Quantity, Quantity]:

@@ -12,9 +12,10 @@ import numpy as np
 
 from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moments, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Unit
 from graphkin.solver import (
     DriverRange,
     Motion,
@@ -32,7 +33,14 @@ from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
 from graphkin.solver.redundant import all_slides
 from graphkin.structure import Structure, in_stages
-from graphkin.study.quantities import Quantity, force_quantity, link_quantities, slide_quantities, symbol_quantity
+from graphkin.study.quantities import (
+    Quantity,
+    force_quantity,
+    link_quantities,
+    settled,
+    slide_quantities,
+    symbol_quantity,
+)
 from graphkin.table import Column, Table, have
 
 __all__ = [
@@ -88,33 +96,32 @@ class SweepQuantity:
 
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
         """Its values in a motion (alone, or of a range), in the table's units: one array, or a vector's components."""
-        metres = motion.scene.units.metres
         if isinstance(self.what, PointRef):
-            vector = motion.position(self.what.point, self.what.link)
+            found = settled(motion.position(self.what.point, self.what.link), motion.floors["length"])
         elif self.what.is_load:
-            found = forces_of(motion).value(self.what.of)
-            assert found is not None
-            found = found / motion.scene.units.newtons
-            return (found.real, found.imag) if self.is_vector else (found,)
+            load = forces_of(motion).value(self.what.of)
+            assert load is not None
+            found = load
         elif self.what.symbol is not None:
-            vector = value_of(motion, self.what.symbol)
-            if not self.what.symbol.is_vector:
-                return (vector / self.what.symbol.per_unit(motion.scene.units),)
-            metres = self.what.metres(motion.scene)
+            found = value_of(motion, self.what.symbol)
         else:
-            value = np.asarray(self.what.values(reach, motion))
-            if self.what.measure == "angle":
-                return (np.degrees(value),)
-            return (value if self.what.measure.startswith("angular") else value / self.what.metres(motion.scene),)
-        return vector.real / metres, vector.imag / metres
+            found = np.asarray(self.what.values(reach, motion))
+        if isinstance(self.what, Quantity):
+            found = self.what.settled(motion, found)
+        value = self.unit(motion.scene).of(found)
+        return (value.real, value.imag) if self.is_vector else (value,)
+
+    def unit(self, scene: Mechanism) -> Unit:
+        """Its unit in the table."""
+        return scene.units.of("length") if isinstance(self.what, PointRef) else self.what.unit(scene)
 
     def columns(self, scene: Mechanism, parts: Sequence[Array]) -> list[Column]:
         """Its columns, from its values."""
         if isinstance(self.what, PointRef):
-            heads, unit = [f"{axis}_{self.what}" for axis in "xy"], str(scene.units.length)
+            heads = [f"{axis}_{self.what}" for axis in "xy"]
         else:
             heads = [f"{self.name}.x", f"{self.name}.y"] if self.is_vector else [self.name]
-            unit = self.what.unit(scene, degrees=True)
+        unit = self.unit(scene).text
         size = [Column(self.name, np.abs(parts[0] + 1j * parts[1]), unit, self.name)] if self.size else []
         return [*size, *(Column(h, part, unit, self.name) for h, part in zip(heads, parts, strict=True))]
 
@@ -163,13 +170,13 @@ def all_that_moves(structure: Structure) -> tuple[SweepQuantity, ...]:
 
 def driver_columns(scene: Mechanism, values: Array) -> list[Column]:
     """Columns of the drivers' values (SI), shape (n, drivers)."""
-    # a driver value is given, not found: without the last digit that the conversion to radians cost it
-    return [
-        Column(f"driver_{d.key}", np.round(np.degrees(v), 11), "deg")
-        if isinstance(d, AngleDriver)
-        else Column(f"driver_{d.key}", v / scene.units.metres, scene.units.length)
-        for d, v in zip(scene.drivers, values.T, strict=True)
-    ]
+    columns = []
+    for driver, value in zip(scene.drivers, values.T, strict=True):
+        unit = scene.unit_of(driver)
+        # a driver value is given, not found: without the last digit that the conversion to radians cost it
+        shown = np.round(unit.of(value), 11) if driver.measure == "angle" else unit.of(value)
+        columns.append(Column(f"driver_{driver.key}", shown, unit.text))
+    return columns
 
 
 def word_column(name: str, words: Words, n: int) -> Column:
@@ -237,9 +244,8 @@ class FollowedDesign:
             return None
         if in_stages(self.structure.elements):
             return None
-        units = 1.0 / self.scene.units.metres, float(np.degrees(1.0)), 1.0 / self.scene.units.rates.metres
         try:
-            return prepare(self.structure, [w.name for w in self.asked], units, along=self.reach)
+            return prepare(self.structure, [w.name for w in self.asked], self.scene.units.per_si, along=self.reach)
         except CallError:  # a redundant link is none of its
             return None
 

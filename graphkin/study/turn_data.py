@@ -8,7 +8,7 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.study.extremes import Extreme, Traced
 from graphkin.study.force_diagrams import force_extremes
 from graphkin.study.turn import Output, TurnStudy
@@ -107,7 +107,7 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     except Unsolvable as stop:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
-        name: {"unit": quantity.unit(turn.scene), "extremes": [
+        name: {"unit": quantity.unit(turn.scene).text, "extremes": [
             {"kind": kind, "driver": _driver(turn.scene, at), **_bounded(value)} for kind, at, value in marks
         ]} for name, (quantity, marks) in found.items()
     }}  # fmt: skip
@@ -118,27 +118,26 @@ def _bounded(value: float) -> dict[str, float | str | None]:
 
 
 def _driver(scene: Mechanism, value: float) -> float:
-    first = scene.drivers[0]
-    return value if isinstance(first, AngleDriver) else value / scene.units.metres
+    return float(scene.unit_of(scene.drivers[0], radians=True).of(value))
 
 
 def _extreme(turn: TurnStudy, traced: Traced, extreme: Extreme) -> dict[str, Json]:
     found: dict[str, Json] = {"kind": extreme.kind, "driver": _driver(turn.scene, extreme.driver)}
     if math.isfinite(extreme.value):
         local = {"local": True} if turn.is_local(traced, extreme) else {}
-        return {**found, "value": traced.quantity.in_units(turn.scene, extreme.value), **local}
+        return {**found, "value": traced.quantity.unit(turn.scene, radians=True).of(extreme.value), **local}
     return {**found, "value": None, "why": UNBOUNDED}
 
 
 def _curve(turn: TurnStudy, traced: Traced) -> dict[str, Json]:
     scene = turn.scene
     data: dict[str, Json] = {
-        "unit": traced.quantity.unit(scene),
+        "unit": traced.quantity.unit(scene, radians=True).text,
         "extremes": [_extreme(turn, traced, e) for e in traced.extremes],
         "zeros": [_driver(scene, z) for z in traced.zeros],
     }
     if traced.constant is not None:
-        data["constant"] = traced.quantity.in_units(scene, traced.constant)
+        data["constant"] = traced.quantity.unit(scene, radians=True).of(traced.constant)
     return data
 
 
@@ -151,7 +150,7 @@ def _output(turn: TurnStudy, output: Output) -> dict[str, Json]:
     }
     stroke, back = output.stroke, turn.quick_return(output)
     what = "swing" if quantity.kind == "theta" else "stroke"
-    data[what] = None if stroke is None else quantity.in_units(scene, stroke)
+    data[what] = None if stroke is None else quantity.unit(scene, radians=True).of(stroke)
     data["K"], data["theta"] = back if back else (None, None)
     if output.unbounded:
         data["why"] = UNBOUNDED
@@ -167,20 +166,19 @@ def design_row(turn: TurnStudy) -> dict[str, float | str | None]:
     scene = turn.scene
     length = scene.units.length
     cells: dict[str, float | str | None] = {}
-    degrees = isinstance(turn.reach.driver, AngleDriver)
     low, high = turn.ranges[0].low, turn.ranges[0].high
-    unit = "deg" if degrees else length
-    cells[f"range_low ({unit})"] = scene.in_file_units(scene.drivers[0], low)
-    cells[f"range_high ({unit})"] = scene.in_file_units(scene.drivers[0], high)
+    unit = scene.unit_of(scene.drivers[0])
+    cells[f"range_low ({unit.text})"] = unit.of(low)
+    cells[f"range_high ({unit.text})"] = unit.of(high)
     for output in turn.outputs:
         quantity, stroke = output.quantity, output.stroke
         name = quantity.of
         key = f"swing_{name} (deg)" if quantity.kind == "theta" else f"stroke_{name} ({length})"
-        cells[key] = None if stroke is None else quantity.in_units(scene, stroke, degrees=True)
+        cells[key] = None if stroke is None else quantity.unit(scene).of(stroke)
         back = turn.quick_return(output)
         cells[f"K_{name}"] = back[0] if back else None
     for least in turn.transmission:
         name = "-".join(least.group.links)
-        cells[f"least_transmission_{name} (deg)"] = least.angle * 57.29577951308232
+        cells[f"least_transmission_{name} (deg)"] = math.degrees(least.angle)
     cells["mechanisms"] = "; ".join(loop.name for loop in turn.loops)
     return cells

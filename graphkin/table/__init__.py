@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
-__all__ = ["Array", "Column", "Table", "have", "text_column"]
+__all__ = ["Array", "Column", "Table", "Values", "have", "text_column"]
 
 BLOCK = 16384
 """Rows that are turned into text at once, so that a table of any length needs little more memory."""
@@ -60,6 +60,35 @@ FILES = (".csv", ".parquet", ".json", ".html")
 def have(library: str) -> bool:
     """Whether a library is installed."""
     return find_spec(library) is not None
+
+
+class Values(np.ndarray[Any, np.dtype[Any]]):
+    """Values of a quantity, as an array that shows its unit; what is computed of it is a plain array.
+
+    >>> speeds = Values.of(np.array([1.5, 3.0]), "m/s")
+    >>> speeds
+    array([1.5, 3. ]) m/s
+    >>> speeds[1:], 2 * speeds
+    (array([3.]) m/s, array([3., 6.]))
+    """
+
+    unit: str
+
+    @classmethod
+    def of(cls, values: Array, unit: str) -> Values:
+        """Values in a unit, in the same memory."""
+        shown = np.asarray(values).view(cls)
+        shown.unit = unit
+        return shown
+
+    def __array_finalize__(self, source: object) -> None:
+        self.unit = getattr(source, "unit", "")
+
+    def __array_wrap__(self, array: Array, context: object = None, return_scalar: bool = False) -> Any:
+        return np.asarray(array)[()]
+
+    def __repr__(self) -> str:
+        return f"{np.asarray(self)!r} {self.unit}".rstrip()
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,17 +168,25 @@ class Table:
     index: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, heads: Sequence[str], rows: Iterable[Sequence[object]], forms: Sequence[str] = ()) -> Table:
+    def of(
+        cls,
+        heads: Sequence[str],
+        rows: Iterable[Sequence[object]],
+        forms: Sequence[str] = (),
+        units: Sequence[str] = (),
+    ) -> Table:
         """A small table from rows as they are found: numbers (None: no value), bools or words.
 
         Parameters
         ----------
         forms : for each column the format of its numbers, "" for the shortest
+        units : for each column its unit, "" where it has none
         """
         cells = list(rows)
         found = []
-        for i, (head, form) in enumerate(zip(heads, forms or [""] * len(heads), strict=True)):
-            found.append(Column(head, as_array([row[i] for row in cells]), form=form))
+        none = [""] * len(heads)
+        for i, (head, form, unit) in enumerate(zip(heads, forms or none, units or none, strict=True)):
+            found.append(Column(head, as_array([row[i] for row in cells]), unit, form=form))
         return cls(tuple(found))
 
     def __len__(self) -> int:
@@ -158,7 +195,8 @@ class Table:
     def __getitem__(self, name: str) -> Array:
         """The values of a column by its name, or by its head.  Raises CallError for an unknown one."""
         name = as_text("name", name)
-        return self.column(name).values
+        column = self.column(name)
+        return Values.of(column.values, column.unit) if column.unit else column.values
 
     def __iter__(self) -> Iterator[str]:
         """The names of the columns, as a frame of pandas gives them."""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import copy
 import json
+import math
 import pickle
+import re
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -12,6 +15,8 @@ import pytest
 
 import graphkin
 from graphkin.api.results import Result, Tabled
+from graphkin.scene.symbol import Symbol
+from tests.scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
 COMMANDS = ["check", "solve", "draw", "centres", "audit", "handout", "sweep"]
@@ -132,3 +137,81 @@ def test_what_is_prepared_says_the_position_of_the_scene():
 
 def test_two_results_of_different_positions_differ():
     assert graphkin.solve(SIXBAR) != graphkin.solve(SIXBAR, at=51)
+
+
+CENTIMETRES = four_bar(
+    15, 50, 30, 40, units={"length": "cm", "speed": "m/s"}, find=["v_C", "a_C", "omega_3", "alpha_3", "theta_3"],
+    sketch={"C": [50, 29]}, printed={"v_C": 1, "a_C": 1, "omega_3": 1, "alpha_3": 1, "theta_3": 1},
+)  # fmt: skip
+"""Lengths in cm, speeds in m/s, so that no unit is right by chance."""
+UNITS = {"v_C": "m/s", "a_C": "m/s2", "omega_3": "rad/s", "alpha_3": "rad/s2", "theta_3": "deg"}
+
+
+@cache
+def routes(name):
+    """A quantity and its unit by every way to it."""
+    ways = {
+        "check": graphkin.check(CENTIMETRES)[name], "draw": graphkin.draw(CENTIMETRES, figures=["velocity"])[name],
+        "audit": graphkin.audit(CENTIMETRES)[name][0], "handout": graphkin.handout(CENTIMETRES)[name],
+    }  # fmt: skip
+    if name in ("v_C", "omega_3"):
+        ways["centres"] = graphkin.centres(CENTIMETRES)[name]
+    found = {way: (value.exact, value.unit) for way, value in ways.items()}
+    arrays = {
+        "solve": graphkin.solve(CENTIMETRES)[name], "sweep": graphkin.sweep(CENTIMETRES, positions=1)[name],
+        "prepare": graphkin.prepare(CENTIMETRES, [name])[name],
+    }  # fmt: skip
+    return found | {way: (values[0], values.unit) for way, values in arrays.items()}
+
+
+@pytest.mark.parametrize("name", UNITS)
+def test_a_quantity_is_the_same_number_in_the_same_unit_by_every_way(name):
+    units = {unit.replace("²", "2").replace("°", "deg") for _, unit in routes(name).values()}
+    exact = graphkin.solve(CENTIMETRES).motion.value(Symbol.parse(name))[0]
+    expected = {"m/s": 1.0, "m/s2": 1.0, "deg": math.degrees(1.0)}.get(UNITS[name], 1.0) * exact
+    sizes = {"audit", "handout"} if name in ("v_C", "a_C") else set()  # where a vector is told by its size
+    wrong = {
+        way: value for way, (value, _) in routes(name).items()
+        if (abs(expected) if way in sizes else expected) != pytest.approx(value, rel=1e-9)
+    }  # fmt: skip
+    assert ({UNITS[name]}, {}) == (units, wrong)
+
+
+def test_what_is_asked_by_name_shows_its_unit():
+    shown = [repr(result[name]) for result, name in (
+        (graphkin.check(CENTIMETRES), "v_C"), (graphkin.solve(CENTIMETRES), "v_C"),
+        (graphkin.centres(CENTIMETRES), "v_C"), (graphkin.audit(CENTIMETRES), "v_C"),
+        (graphkin.handout(CENTIMETRES), "v_C"),
+        (graphkin.sweep(CENTIMETRES, positions=2), "v_C"), (graphkin.prepare(CENTIMETRES, ["v_C"]), "v_C"),
+        (made("problem_set"), "01"), (graphkin.design("slider-crank-stroke-50"), "AB"), (made("centres"), "1-3"),
+        (made("centrodes"), "fixed_x"),
+    )]  # fmt: skip
+    assert ["m/s"] * 7 == [next((unit for unit in ("m/s",) if unit in one), one) for one in shown[:7]]
+    assert ["mm"] * 4 == [next((unit for unit in ("mm",) if unit in one), one) for one in shown[7:]]
+
+
+@pytest.mark.parametrize(("kind", "heads"), [
+    ("centres", ["x (mm)", "y (mm)"]), ("centrodes", ["driver (deg)", "fixed_x (mm)", "fixed_y (mm)"]),
+    ("problem_set", ["v_C (mm/s)", "v_C +- (mm/s)"]),
+])  # fmt: skip
+def test_tables_have_their_units_in_their_heads(kind, heads):
+    assert heads == [head for head in made(kind).table.heads if head in heads]
+
+
+def test_centrodes_count_the_driver_in_degrees():
+    driver = made("centrodes").table["driver"]
+    assert 60 == pytest.approx(driver[0])
+
+
+def test_what_is_nothing_but_rounding_is_0_in_tables_and_by_name():
+    solved = graphkin.solve(SIXBAR)
+    values = [solved.table["a_D.y"][0], solved["a_D"][0].imag, made("check")["a_D"].exact.imag]
+    assert ["0.0"] * 3 == [str(value) for value in values]
+    assert [] == re.findall(r">-0<|e-1[3-9]<", solved._repr_html_())
+
+
+def test_what_is_not_determined_is_no_0():
+    beside = graphkin.solve(four_bar(40, 110, 80, 120), at=60).motion
+    lost = replace(beside, bound=replace(beside.bound, alpha=np.full(1, 1e6)))
+    assert [0.0] == lost.floors["angular acceleration"].tolist()
+    assert 0.0 < beside.floors["angular acceleration"][0] < 1e-9

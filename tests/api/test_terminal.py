@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -13,7 +14,10 @@ from pathlib import Path
 
 import pytest
 
+import graphkin
+
 from ..command import PROGRAM, run
+from ..scenes import four_bar
 
 SIXBAR = "sixbar-guide-40deg"
 CALL = [*PROGRAM, "check", SIXBAR]
@@ -115,3 +119,63 @@ def test_scenes_are_listed_in_eighty_columns_with_their_titles_in_one_language(c
     (row,) = [line for line in lines if " slotter-75-150 " in line]
     assert title in row
     assert ("插床" in row) == ("插床" in title)
+
+
+NUMBER = re.compile(r"[-−]?\d+(\.\d+)?(e-?\d+)?(, -?\d+(\.\d+)?(e-?\d+)?)?")
+UNIT = re.compile(r"(mm|cm|m|deg|rad|N m|kN m|kN|N|kg m2)(/s2?)?|")
+
+
+def without_unit(printed: str) -> list[str]:
+    """The numbers in printed tables that have no unit, in the head of their column or in their row."""
+    wrong, heads, lines = [], None, printed.splitlines()
+    for k, line in enumerate(lines):
+        if k + 1 < len(lines) and set(lines[k + 1].strip()) == {"─"}:
+            heads = re.split(r"\s{2,}", line.strip())
+        elif not line.strip():
+            heads = None
+        elif heads and "─" not in line:
+            cells = re.split(r"\s{2,}", line.strip())
+            beside = any(UNIT.fullmatch(cell) and cell for cell in cells)
+            wrong += [
+                line for i, cell in enumerate(cells[1:], 1)
+                if NUMBER.fullmatch(cell) and not beside and (i >= len(heads) or "(" not in heads[i])
+            ]  # fmt: skip
+    return wrong
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["solve", "boom-lifted"], ["solve", "shaper-forces", "--sweep", "2"], ["check", "boom-lifted"],
+        ["solve", "sixbar-guide-40deg", "--find", "v_D", "--find", "theta_3"], ["audit", "shaper-scheme-2"],
+        ["design", "crank-rocker-swing-32"], ["draw", "slider-crank-offset", "--figure", "velocity"],
+    ],
+)  # fmt: skip
+def test_every_number_of_a_printed_table_has_its_unit(command: list[str], tmp_path: Path) -> None:
+    printed = run(*command, cwd=tmp_path).stdout
+    numbers = "\n".join(line for line in without_unit(printed) if not re.match(r"\s*(K|e|eta)\b", line))
+    assert "─" in printed
+    assert "" == numbers
+
+
+@pytest.mark.parametrize(
+    ("command", "said"),
+    [
+        (["solve", "sixbar-guide-40deg", "--at", "75"], "driver 1 = 75°"),
+        (["solve", "boom-lifted"], "driver 2/3 = 520 mm"),
+        (["solve", "fourbar-150-500-300-400", "--loops"], "lengths in mm, angles in degrees, speeds in mm/s and rad/s"),
+        (["centres", "sixbar-guide-40deg"], "0, 389.924 mm"),
+        (["check", "shaper-forces", "--find", "excess_W"], "1375.4 N m"),
+    ],
+)
+def test_what_is_printed_beside_tables_has_its_unit(command: list[str], said: str, tmp_path: Path) -> None:
+    assert said in run(*command, cwd=tmp_path).stdout
+
+
+def test_speeds_are_headed_by_their_own_unit(tmp_path: Path) -> None:
+    """Lengths in mm and speeds in m/s: the head of velocities is that of the values."""
+    scene = four_bar(150, 500, 300, 400, units={"length": "mm", "speed": "m/s"}, sketch={"C": [500, 290]})
+    graphkin.Scene.of(scene, "fast").save(tmp_path / "fast.toml")
+    printed = run("solve", "fast.toml", cwd=tmp_path).stdout
+    assert re.search(r"velocity \(m/s\) +acceleration \(m/s2\)", printed)
+    assert "-1.29904, 0.75" in printed

@@ -122,7 +122,7 @@ def test_an_angular_velocity_of_the_wrong_sense_is_caught(monkeypatch):
 def test_a_reading_is_length_on_paper_times_the_scale():
     result = graphkin.check(SIXBAR)
     row = result["v_B@3"]
-    assert row.reading.on_paper * result.report.scales.velocity == pytest.approx(abs(row.reading.value), rel=1e-15)
+    assert row.on_paper * result.scales["velocity"] == pytest.approx(abs(row.measured), rel=1e-15)
 
 
 @pytest.mark.parametrize(

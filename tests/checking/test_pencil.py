@@ -69,7 +69,7 @@ def test_bounds_that_are_kept_change_no_prediction_and_what_is_passed_is_seen():
 def test_a_pencil_drawing_is_judged_by_its_predicted_uncertainty():
     row = graphkin.check(SIXBAR, instrument="pencil", seed=1)["a_D"]
     assert row.uncertainty is not None
-    assert JUDGED * row.uncertainty.deviation == pytest.approx(row.tolerance)
+    assert JUDGED * row.uncertainty == pytest.approx(row.tolerance)
 
 
 def test_a_coarser_ruler_makes_readings_less_certain():

@@ -66,8 +66,8 @@ def test_a_rack_beside_a_cam_by_its_law_stands_as_far_on_its_guide_as_its_wheel_
     radius = math.sin(math.radians(75)) * 60  # the rack's line passes the axis at this distance, below it
     for name, part in (("x_R", math.cos), ("y_R", math.sin)):
         expected = radius * math.radians(at - 50) * part(math.radians(15)) - (60 if name == "y_R" else 0)
-        assert expected / 1000 == pytest.approx(found[name].reading.value, abs=1e-9)
-        assert expected / 1000 == pytest.approx(found[name].exact, abs=1e-9)
+        assert expected == pytest.approx(found[name].measured, abs=1e-6)
+        assert expected == pytest.approx(found[name].exact, abs=1e-6)
 
 
 @pytest.mark.parametrize("made", [pinion, cam])

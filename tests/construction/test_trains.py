@@ -63,7 +63,7 @@ def test_rates_read_off_the_plan_are_those_of_willis_and_of_the_solver(name):
     result = check(scene)
     assert result.ok
     for symbol, rate in expected.items():
-        assert rate == pytest.approx(result[symbol].reading.value, rel=1e-9)
+        assert rate == pytest.approx(result[symbol].measured, rel=1e-9)
         assert result[symbol].on_paper > 0
 
 

@@ -46,7 +46,7 @@ def test_a_vector_measured_times_the_scale_is_its_value(velocity):
     drawn, document, svg = velocity
     scale = json.loads(svg.find(f"{SVG}metadata").text)["scales"]["velocity"]
     line = next(e for e in document.groups.get("v_B3") if e.dxftype() == "LINE")
-    measured = 1e-3 * scale * complex(*(line.dxf.end - line.dxf.start).vec2)
+    measured = scale * complex(*(line.dxf.end - line.dxf.start).vec2)
     assert drawn["v_B@3"].exact == pytest.approx(measured, rel=1e-5)
 
 

@@ -45,8 +45,7 @@ def test_a_vector_is_as_long_as_the_scale_says_in_its_direction() -> None:
     found = {name: v for page in pages.values() for name, v in vectors(svg_bytes(page)).items()}
     per = drawn.checked.data["scales"]["force"]
     for name, key in (("F_4-5", "F_4/5"), ("F_1-6", "F_1/6"), ("F_2-3", "F_2/3"), ("F_1-4", "F_1/4"), ("P_P", "P_P")):
-        exact = drawn[key].exact
-        assert complex(exact) / per == pytest.approx(found[name], abs=2e-3), name
+        assert drawn[key].exact / per == pytest.approx(found[name], abs=2e-3), name
 
 
 def test_the_scale_stands_in_the_facts_of_the_figure() -> None:

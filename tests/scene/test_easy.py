@@ -136,7 +136,7 @@ def test_the_speed_of_a_point_may_stand_for_the_rate_of_the_driver(point: str, s
     given["driver"] = {"link": "1", "angle": 120, "speed": 800, "of": point, **({"sense": sense} if sense else {})}
     result = graphkin.check(given)
     assert result.ok
-    assert 0.8 == pytest.approx(abs(result[f"v_{point}"].measured), rel=1e-12)
+    assert 800 == pytest.approx(abs(result[f"v_{point}"].measured), rel=1e-12)
     turning = graphkin.solve(given).data["positions"][0]["links"]["1"]["omega"]
     assert (-1 if sense else 1) == math.copysign(1, turning)
 

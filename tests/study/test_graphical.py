@@ -53,7 +53,7 @@ def test_the_page_is_true_to_scale_and_parallel() -> None:
 def test_files_hold_the_results_with_what_the_solver_says(tmp_path: Path) -> None:
     graphkin.sweep("shaper-scheme-2", tmp_path, positions=2, find=["v_C"], integrate=["omega_4"])
     table = (tmp_path / "integral-omega_4.csv").read_text("utf-8-sig").splitlines()
-    assert ("driver_2 (deg),on_paper_mm (mm),theta_4,exact,difference", 26) == (table[0], len(table))
+    assert ("driver_2 (deg),on_paper_mm (mm),theta_4 (deg),exact (deg),difference (deg)", 26) == (table[0], len(table))
 
 
 def test_what_cannot_be_differentiated_is_said() -> None:

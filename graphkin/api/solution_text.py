@@ -1,0 +1,132 @@
+"""The analytic solution in tables for people: the units of the file, degrees, 0 for what is nothing but rounding."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from graphkin.errors import Unsolvable
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver import Forces, listed_points, own_slides
+from graphkin.study.quantities import Quantity, link_quantities, settled, slide_quantities, symbol_quantity
+from graphkin.study.sweep_quantities import SweepQuantity
+from graphkin.table import Array
+from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.api.solved import Solved
+
+__all__ = ["SolutionTable", "solution_tables"]
+
+
+@dataclass(frozen=True)
+class SolutionTable:
+    """A table of every position of a solution.
+
+    rows : name, and for each column its texts over the positions
+    right : columns of numbers, which stand to the right
+    """
+
+    heads: Sequence[str]
+    right: tuple[int, ...] = ()
+    rows: list[tuple[str, Sequence[Sequence[str]]]] = field(default_factory=list)
+
+    def at(self, k: int) -> list[list[str]]:
+        """Its rows at one position, but for those that have no value there."""
+        rows = ([name, *(column[k] for column in columns)] for name, columns in self.rows)
+        return [row for row in rows if row[1]]
+
+
+def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, str, list[SolutionTable]]]:
+    """For each position the values of the drivers, why there is no solution ("" where there is one), and the tables,
+    which are the same for all positions."""
+    motion, scene = solved.motion, solved.mechanism
+    tables = _asked(solved, language) if solved.find else _whole(solved, language)
+    for k, status in enumerate(motion.status):
+        drivers = zip(scene.drivers, motion.values[k], strict=True)
+        values = [f"{d.key} = {scene.unit_of(d).said(float(v))}" for d, v in drivers]
+        values += [f"t = {solved.times[k]:.6g} s"] if solved.times else []
+        yield ", ".join(values), "" if status == "ok" else f"{status}: {motion.why[k]}", tables
+
+
+def _texts(*parts: Array) -> list[str]:
+    """Numbers, or the components of vectors, over the positions; "" where there is none."""
+    return ["" if any(map(math.isnan, row)) else ", ".join(f"{x:.6g}" for x in row) for row in zip(*parts, strict=True)]
+
+
+def _asked(solved: Solved, language: str) -> list[SolutionTable]:
+    table = SolutionTable([word("quantity", language), "", ""], (1,))
+    for column in (column for name in solved.find for column in solved.columns(name)):
+        table.rows.append((column.name, (_texts(column.values), [column.unit] * len(column.values))))
+    return [table]
+
+
+def _whole(solved: Solved, language: str) -> list[SolutionTable]:
+    scene, motion = solved.mechanism, solved.motion if solved.forces is None else solved.forces.motion
+    length, speed, push = (scene.units.of(measure) for measure in ("length", "velocity", "acceleration"))
+
+    def table(of: str, *right: int) -> SolutionTable:
+        shown = (length, speed, push, scene.units.of("force"))
+        units = tuple(unit.text if language == "en" else unit.written for unit in shown)
+        return SolutionTable(say(Phrase(f"heads of {of}", units), language).split("|"), right)
+
+    def columns(*quantities: Quantity | PointRef) -> list[list[str]]:
+        return [_texts(*SweepQuantity(quantity).parts(None, motion)) for quantity in quantities]
+
+    links, points, slides = table("links", 1, 2, 3), table("points"), table("slides", 1, 2, 3)
+    links.rows.extend((link.name, columns(*link_quantities(link.name))) for link in scene.links)
+    pairs = own_slides(scene, motion.slides)
+    for point, link in listed_points(scene, pairs):
+        ref = PointRef(point, "" if point in scene.by_name[link].points else link)
+        rates = (symbol_quantity(Symbol(kind, ref)) for kind in ("v", "a"))
+        points.rows.append((f"{point}@{link}", columns(ref, *rates)))
+    for pair in pairs:
+        term = push.of(settled(motion.slide(pair.key).coriolis, 2.0 * motion.floors["acceleration"]))
+        slides.rows.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
+    if solved.forces is None:
+        return [links, points, slides]
+    forces, moments = table("forces", 2, 3), table("moments", 1)
+    forces.rows.extend(_forces(solved.forces))
+    moments.rows.extend(_moments(solved.forces))
+    return [links, points, slides, forces, moments]
+
+
+def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
+    """Forces by components, size and direction."""
+    for name in _names(found, found.forces):
+        x, y = (_there(found, name, part) for part in SweepQuantity(Quantity("force", name)).parts(None, found.motion))
+        way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
+        yield name, (_texts(x, y), _texts(np.hypot(x, y)), way)
+
+
+def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
+    """Moments with their unit; excess work and inertia of the flywheel that the scene asks for, where it has one."""
+    motion = found.motion
+    shown = [Quantity("moment", name) for name in _names(found, found.moments)]
+    if motion.scene.loading.flywheel is not None:
+        shown += [symbol_quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
+    for quantity in shown:
+        try:
+            (values,) = SweepQuantity(quantity).parts(None, motion)
+        except Unsolvable:  # no whole turn
+            continue
+        texts = _texts(_there(found, quantity.name, values))
+        yield quantity.name, (texts, [quantity.unit(motion.scene).text] * len(texts))
+
+
+def _names(found: Forces, keys: Iterable[str]) -> Iterator[str]:
+    """Forces, each followed by its value with the loads that begin or end exactly here, where there is one."""
+    for key in keys:
+        yield key
+        if key in found.beside:
+            yield f"{key}+"
+
+
+def _there(found: Forces, name: str, values: Array) -> Array:
+    """Values of a force, NaN where one with the loads that begin or end here says nothing more."""
+    beside = found.beside.get(name[:-1]) if name.endswith("+") else None
+    return values if beside is None else np.where(np.isnan(beside), np.nan, values)
