@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -50,6 +51,7 @@ class State:
     bounds : how far rounding may have moved any point of any link, and their turning; None where rates were left out
     rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
         digits throughout, such as a drawing; greater where more digits were used
+    each : for each link how far rounding may have moved its points and its turning, where that was asked for
     lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
     """
@@ -60,6 +62,7 @@ class State:
     rough: tuple[Array, Array] = (_ZERO, _ZERO)
     singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
     lifted: Mapping[Name, Array] = field(default_factory=dict)
+    each: Mapping[str, ErrorBound[Array]] = field(default_factory=dict)
 
 
 def positions(
@@ -71,6 +74,7 @@ def positions(
     sure: bool = True,
     fine: bool = True,
     known: dict[int, float] | None = None,
+    each: bool = False,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
@@ -85,6 +89,7 @@ def positions(
     fine : False leaves 16 digits where they are rough, and the bounds as they are there: for curves, and on the way
     known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
         lines; filled, so that what comes after needs no formulas from the start again
+    each : with bounds of each link, of a mechanism of dyads
 
     Returns
     -------
@@ -92,7 +97,7 @@ def positions(
     """
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, forms, rates, sure and rates, fine, known)
-        return run.state(len(structure.elements) if upto is None else upto)
+        return run.state(len(structure.elements) if upto is None else upto, each)
 
 
 def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> ClusterSolved:
@@ -172,7 +177,7 @@ class _Run:
             elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
                 self._roll(i, element.driver)
 
-    def state(self, upto: int) -> State:
+    def state(self, upto: int, each: bool = False) -> State:
         self.follow(upto)
         elements = self.structure.elements[:upto]
         program = self.dimensioned.program
@@ -183,15 +188,17 @@ class _Run:
         followed = self.sure and not self.clusters
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
+        each = each and followed
+        asked += [bound for n in names for bound in program.bounds.of_link(n)] if each else []
         asked += [*program.bounds(names)] if followed else []
-        columns = self._values((upto, self.rates, followed), asked)
+        columns = self._values((upto, self.rates, followed, each), asked)
         size = self.structure.scene.size
         rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
         fine = np.zeros(self.n, dtype=bool)
         if names and not in_stages(elements):
             fine = known_exactly(self.structure.drivers, self.drive.value)
             if (followed and self.fine) or fine.any():
-                extended = self._extended(program.code((upto, self.rates, followed), _reals(asked)))
+                extended = self._extended(program.code((upto, self.rates, followed, each), _reals(asked)))
                 if followed and self.fine:
                     extended.refine(asked, columns, len(names))
                 else:
@@ -206,6 +213,7 @@ class _Run:
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr, arg-type]
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
+        of_links = {n: ErrorBound(*(_sure(b) for b in islice(values, 6))) for n in names} if each else {}
         found = list(values)
         sure = self.sure and (not self.clusters or upto >= len(self.structure.elements))
         if sure and self.clusters:
@@ -219,7 +227,8 @@ class _Run:
         rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
         kinds = ("lift", "rolled")
         lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] in kinds}
-        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted)
+        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted,
+                     of_links)  # fmt: skip
 
     def _lift(self, i: int, cam: LawCam) -> None:
         """Look up where a cam holds its follower, by the cam's own turning."""

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
@@ -221,6 +221,7 @@ class Motion:
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
     bound : how far rounding may have moved any point, and the angles of links and their rates; NaN where not ok
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
+    bounds : the same of each link alone, along curves of a mechanism of dyads; else empty
     passed : the change points on the way here from the scene's own position
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     onward : in a later block of a sweep, for each link the angle from which it goes on (rad), less what is ``turned``
@@ -237,6 +238,7 @@ class Motion:
     rough: tuple[Array, Array]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
+    bounds: Mapping[str, ErrorBound[Array]] = field(default_factory=dict)
     onward: Mapping[str, float] = field(default_factory=dict)
 
     @property
@@ -260,6 +262,7 @@ class Motion:
             why=self.why[rows],
             poses={name: pose.rows(rows) for name, pose in self.poses.items()},
             bound=ErrorBound(*(b[rows] for b in self.bound)),
+            bounds={name: ErrorBound(*(b[rows] for b in own)) for name, own in self.bounds.items()},
             rough=(self.rough[0][rows], self.rough[1][rows]),
             turned={},
             onward={},
@@ -387,6 +390,14 @@ class Motion:
             "angular velocity": (self.bound.omega, rate), "angular acceleration": (self.bound.alpha, second),
         }  # fmt: skip
         return {measure: np.where(bound <= SLIGHT * whole, bound, 0.0) for measure, (bound, whole) in pairs.items()}
+
+    def bound_of(self, links: Iterable[str]) -> ErrorBound[Array]:
+        """How far rounding may have moved any of these links; any link at all where that is not known of each."""
+        held = [self.bounds.get(name) for name in links if name != self.scene.frame.name]
+        found = [bound for bound in held if bound is not None]
+        if not found or len(found) < len(held):
+            return self.bound
+        return ErrorBound(*(np.maximum.reduce(some) for some in zip(*found, strict=True)))
 
     def value(self, symbol: Symbol) -> Array:
         """A quantity by its symbol: complex for vectors, real for others (m, rad, rad/s, rad/s2), shape (n,).

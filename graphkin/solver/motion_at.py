@@ -70,7 +70,7 @@ def motion_of(
         blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
         own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
         return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
-    state = positions(structure, drive, forms, fine=fine)
+    state = positions(structure, drive, forms, fine=fine, each=not fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons = ["" if g else why for g in good]
     if fine:
@@ -81,12 +81,14 @@ def motion_of(
     ok = status == "ok"
     assert state.bounds is not None
     bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
+    of_links = {name: ErrorBound(*(np.where(ok, b, np.nan) for b in own)) for name, own in state.each.items()}
     rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().still(n)
     place_redundant(structure, poses, ok, bound)
     slides = all_slides(structure)
-    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough)
+    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough,
+                  bounds=of_links)  # fmt: skip
 
 
 def joined(blocks: Iterable[Motion], n: int) -> Motion:
@@ -119,6 +121,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
         why=tuple(reasons),
         poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
         bound=ErrorBound(*numbers[:6]),
+        bounds={},
         rough=(numbers[6], numbers[7]),
     )
 

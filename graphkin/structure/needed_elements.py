@@ -11,7 +11,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure, links_of
 
-__all__ = ["by_drivers_alone", "in_stages", "needed", "part_of"]
+__all__ = ["by_drivers_alone", "in_stages", "links_for", "needed", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -23,7 +23,7 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     """
     if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
         return list(structure.elements)
-    wanted = [name for symbol in asked for name in _links_for(structure, symbol)]
+    wanted = [name for symbol in asked for name in links_for(structure, symbol)]
     kept: set[int] = set()
     while wanted:
         place = structure.place_of.get(wanted.pop())
@@ -41,7 +41,7 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     ):  # of redundant links nothing is asked
         return False
     try:
-        return _links_for(structure, symbol).isdisjoint(structure.found_by_groups)
+        return links_for(structure, symbol).isdisjoint(structure.found_by_groups)
     except CallError:  # a special point of the drawing
         return False
 
@@ -94,7 +94,8 @@ def _ends(scene: Mechanism, driver: AnyDriver) -> set[str]:
     return {pin.of, pin.on} if pin else set(driver.key.split("/"))
 
 
-def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
+def links_for(structure: Structure, symbol: Symbol) -> set[str]:
+    """The links that a quantity names, and those that hold its points.  Raises CallError where there are none."""
     if symbol.link:
         # of a pin in a slot the block that stands for it
         return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}

@@ -266,14 +266,18 @@ def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequen
 def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
     reach = way.reach
     low, high = reach.ends
-    near = 1e-4 * (high - low)
     asked = _Asked(reach, [c.quantity for c in curves])
     seams = way.offset(way.seams)
     inner = [np.sort(places) for places in offsets]
     # only what is printed takes all its digits
     values = asked.values(inner, fine=True)
-    before = asked.values([_wrapped(reach, places - near) for places in inner])
-    after = asked.values([_wrapped(reach, places + near) for places in inner])
+    # a little beside each, and not beyond an end of the motion
+    wide = 1e-4 * (high - low)
+    near = [
+        np.full(len(at), wide) if reach.full else np.minimum(wide, np.minimum(at - low, high - at) / 2) for at in inner
+    ]
+    before = asked.values([_wrapped(reach, at - by) for at, by in zip(inner, near, strict=True)])
+    after = asked.values([_wrapped(reach, at + by) for at, by in zip(inner, near, strict=True)])
     at_seams = _at_seams(reach, asked, seams, [np.append(v, 0.0) for v in values])
     found: list[tuple[Extreme, ...]] = []
     for n, curve in enumerate(curves):

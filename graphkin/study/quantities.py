@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
@@ -14,6 +15,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, senses_along
 from graphkin.solver.pose import Array
+from graphkin.structure import links_for
 
 __all__ = ["Quantity", "force_quantity", "link_quantities", "settled", "slide_quantities", "symbol_quantity"]
 
@@ -117,13 +119,14 @@ class Quantity:
         """How far rounding may have moved it; 0 where that is not known."""
         if self.is_load:
             return np.nan_to_num(forces_of(motion).bound[self.kind == "moment"])
+        of = motion.bound_of(self._links(motion))
         bound = {
-            "angle": motion.bound.angle,
-            "length": motion.bound.position,
-            "angular velocity": motion.bound.omega,
-            "velocity": motion.bound.velocity,
-            "angular acceleration": motion.bound.alpha,
-            "acceleration": motion.bound.acceleration,
+            "angle": of.angle,
+            "length": of.position,
+            "angular velocity": of.omega,
+            "velocity": of.velocity,
+            "angular acceleration": of.alpha,
+            "acceleration": of.acceleration,
         }[self.measure]
         # of two points that are seen from each other
         both = 1.0 if self.measure.startswith("ang") else 2.0
@@ -138,6 +141,15 @@ class Quantity:
             both = 1.0 if self.measure.startswith("ang") else 2.0
             floor = both * motion.floors.get(self.measure, np.zeros(1))
         return settled(value, floor)
+
+    def _links(self, motion: Motion) -> Iterable[str]:
+        """The links whose errors it has; none where it takes more than them, as a transmission angle does."""
+        if self.kind in ("theta", "omega", "alpha"):
+            return (self.of,)
+        if self.symbol is None:
+            slide = next(s for s in motion.slides if s.key == self.of)
+            return slide.a, slide.b
+        return links_for(motion.structure, self.symbol) if self.symbol.scope == "motion" else ()
 
     def of_smooth(self, value: float) -> float:
         """A position from what is smooth of it."""

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+import tomlkit
 
 import graphkin
 
@@ -179,3 +180,14 @@ def test_speeds_are_headed_by_their_own_unit(tmp_path: Path) -> None:
     printed = run("solve", "fast.toml", cwd=tmp_path).stdout
     assert re.search(r"velocity \(m/s\) +acceleration \(m/s2\)", printed)
     assert "-1.29904, 0.75" in printed
+def test_a_value_before_a_group_beside_its_dead_point_is_printed(tmp_path: Path) -> None:
+    from tests.study.test_turn import stephenson_three
+
+    scene = tmp_path / "scene.toml"
+    scene.write_text(tomlkit.dumps(stephenson_three()))
+    one = run("solve", str(scene), "--at=83.8756", "--find", "alpha_3", "--find", "a_C").stdout
+    whole = run("solve", str(scene), "--at=83.8756").stdout
+    row = next(line.split() for line in one.splitlines() if "alpha_3" in line)
+    links = {line.split()[0]: line.split() for line in whole.splitlines() if line.strip()}
+    assert (["alpha_3", "20.6242", "rad/s2"], ["3", "20.8626", "-0.987874", "20.6242"]) == (row, links["3"])
+    assert {"-2082.06,", "-3132.74"} <= {*links["C@3"]} & {*links["C@5"]}

@@ -364,3 +364,66 @@ def test_a_slider_in_line_with_its_crank_has_no_quick_return_at_all(angle, crank
     })))  # fmt: skip
     (one,) = (turn.quick_return(o) for o in turn.outputs if o.quantity.of == "3/0")
     assert (1.0, 0.0) == one
+
+
+def stephenson_three(**driver: float) -> dict[str, object]:
+    """A four-bar with a dyad at its coupler that ends the motion, while the four-bar itself could turn on."""
+    return {
+        "frame": {"name": "1", "points": {"A0": [0, 0], "B0": [120, 0], "D0": [200, 40]}},
+        "links": {
+            "2": {"points": ["A0", "A"], "length": 40},
+            "3": {
+                "points": ["A", "B"],
+                "length": 110,
+                "at": {"C": {"from": ["A", "B"], "r": [90, 70], "side": "left"}},
+            },
+            "4": {"points": ["B0", "B"], "length": 80},
+            "5": {"points": ["C", "D"], "length": 100},
+            "6": {"points": ["D0", "D"], "length": 70},
+        },
+        "driver": {"link": "2", "angle": 60, "omega": 10, **driver},
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "zeros"), [("alpha_3", [1.59131]), ("alpha_4", []), ("omega_3", []), ("omega_4", [32.0892])]
+)
+def test_what_stays_finite_where_another_group_ends_the_motion_has_no_zero_there(name: str, zeros: list[float]) -> None:
+    traced = {t.quantity.name: t for t in study_turn(driver_range(mechanism_of(stephenson_three()))).curves}
+    assert zeros == pytest.approx(np.degrees(traced[name].zeros).tolist(), abs=1e-4)
+
+
+@pytest.mark.parametrize("angle", [60.0, 83.8, -13.5])
+@pytest.mark.parametrize("alpha", [0.0, 20.0, -150.0])
+def test_zeros_over_a_limited_range_are_the_changes_of_sign(angle: float, alpha: float) -> None:
+    study = study_turn(driver_range(mechanism_of(stephenson_three(angle=angle, alpha=alpha))))
+    low, high = study.reach.ends
+    offset = low + (high - low) * np.sin(np.linspace(0, np.pi / 2, 2001)[1:-1]) ** 2
+    motion = study.reach.motion(offset, fine=False)
+    for one in study.curves:
+        if one.constant is None and one.quantity.kind in ("omega", "alpha"):
+            values = one.quantity.values(study.reach, motion)
+            at = np.flatnonzero(values[:-1] * values[1:] < 0)
+            seen = np.sort((study.reach.value(offset[at]) + study.reach.value(offset[at + 1])) / 2)
+            assert seen.tolist() == pytest.approx(sorted(one.zeros), abs=2e-3), one.quantity.name
+
+
+def test_an_extreme_a_hundredth_of_a_degree_from_the_end_of_the_motion_is_found() -> None:
+    study = study_turn(driver_range(mechanism_of({
+        "frame": {
+            "name": "1",
+            "points": {"A0": [0, 0], "B0": [90.53, 17.28], "D0": [206.78, 30.78]},
+            "guides": {"h": {"through": "D0", "angle": -15}},
+        },
+        "links": {
+            "2": {"points": ["A0", "A"], "length": 84.22},
+            "3": {"points": ["A", "B"], "length": 128.47, "at": {"C": [17.68, 13.33]}},
+            "4": {"points": ["B0", "B"], "length": 113.24},
+            "5": {"points": ["C", "D"], "length": 170.86},
+            "6": {"points": ["D"], "on": "1.h"},
+        },
+        "driver": {"link": "2", "angle": 130.03, "omega": 10},
+    })))  # fmt: skip
+    slider = next(t for t in study.curves if t.quantity.name == "s_6/1")
+    places = [math.degrees(e.driver) for e in slider.extremes if e.kind != "end"]
+    assert any(abs(place - 19.2707) < 2e-3 for place in places)
