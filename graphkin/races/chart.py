@@ -78,8 +78,44 @@ def race_page(race: Race, language: str = "en") -> ChartPage:
     )  # fmt: skip
 
 
+def lessons(race: Race) -> tuple[Phrase, ...]:
+    """What the entries say of drawing and computing accelerations: every number is one of theirs, or a quotient."""
+
+    def error(entry: Entry) -> str:
+        off = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
+        return f"{off:.1g}"
+
+    def times(entry: Entry, of: Entry) -> str:
+        return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"
+
+    def percent(entry: Entry) -> str:
+        return f"{100 * max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0):.2g}"
+
+    hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
+    drawn, closed = race.of("exact drawing"), race.of("closed arrays")
+    told = []
+    if hands:
+        usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
+        told.append(Phrase("speed lesson draw", (
+            f"{usual.acceleration_cost / 60:.2g}", percent(usual), usual.tag, percent(large), large.tag,
+            f"{1e3 * drawn.acceleration_cost:.2g}", error(drawn),
+        )))  # fmt: skip
+    told.append(Phrase("speed lesson compute", (times(closed, drawn), error(closed))))
+    steps = [e for e in race.entries if e.key == "differences"]
+    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
+    if steps and newton is not None:
+        single = race.of("closed single")
+        best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
+                for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
+        told.append(Phrase("speed lesson lose", (
+            times(steps[0], closed), *(f"{off:.1g}" for off in best), times(single, closed), error(single),
+            times(newton, closed), error(newton),
+        )))  # fmt: skip
+    return tuple(told)
+
+
 def _lessons(race: Race, language: str) -> list[str]:
-    lines = [word(f"speed lesson {key}", language) for key in ("draw", "compute", "lose")]
+    lines = [say(lesson, language) for lesson in lessons(race)]
     lines.append(say(Phrase("speed hand", (race.acts,)), language))
     if race.skipped:
         told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)

@@ -15,6 +15,7 @@ import pytest
 import graphkin
 from graphkin.api.studied import SpeedAccuracy
 from graphkin.races import Race, race, race_page, race_table, timing, to_json
+from graphkin.races.chart import lessons
 from graphkin.races.peers import Skipped, pylinkage
 from graphkin.scene import mechanism_of
 from tests.drawing.chart_words import off_the_page, overlapping
@@ -203,3 +204,19 @@ def test_nothing_but_its_own_function_loads_the_races() -> None:
 def test_the_data_name_every_method_once() -> None:
     found = [(m["method"], m["tag"]) for m in to_json(raced())["methods"]]
     assert len(set(found)) == len(found)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_every_number_of_what_is_concluded_is_one_of_the_chart(seed: int) -> None:
+    found = _elsewhere(_spread(raced()), seed)
+    draw, compute, lose = lessons(found)
+    hand, large, closed = found.of("by hand", "1"), found.of("by hand", "4"), found.of("closed arrays")
+    drawn, single = found.of("exact drawing"), found.of("closed single")
+    worst = [100 * max(e.velocity_error, e.acceleration_error) for e in (hand, large)]
+    assert hand.acceleration_cost / 60 == pytest.approx(float(draw.args[0]), rel=0.06)
+    assert worst == pytest.approx([float(draw.args[1]), float(draw.args[3])], rel=0.06)
+    assert drawn.acceleration_cost * 1e3 == pytest.approx(float(draw.args[5]), rel=0.06)
+    assert closed.acceleration_cost / drawn.acceleration_cost == pytest.approx(float(compute.args[0]), rel=0.01)
+    assert single.acceleration_cost / closed.acceleration_cost == pytest.approx(float(lose.args[3]), rel=0.01)
+    best = min(e.velocity_error for e in found.entries if e.key == "differences")
+    assert best == pytest.approx(float(lose.args[1]), rel=0.6)
