@@ -15,6 +15,7 @@ from graphkin.solver.joints import Frames, body_shape
 from graphkin.solver.pose import FIELDS
 from graphkin.solver.rounding import Rounding
 from graphkin.structure import Driven, Dyad, Element, Pair, Rolled, links_of
+from graphkin.structure.model import Coordinate
 
 __all__ = ["ErrorFormulas"]
 
@@ -32,6 +33,9 @@ class Formulas(Frames, Protocol):
 
     def at_rest(self, place: Vec | complex, direction: Vec | complex) -> PoseFormula:
         """Axes that do not move."""
+
+    def ratio(self, rolled: Rolled, coordinate: Coordinate) -> Real:
+        """By how much what rolls goes as one of the angles and travels that it follows."""
 
 
 class ErrorFormulas:
@@ -161,13 +165,13 @@ class ErrorFormulas:
         """What a link that rolls has from its joint, and from what it rolls on, there and in the scene's position."""
         zero = self.graph.const(0)
         moved, rate, second = zero, zero, zero
-        for (kind, name), factor in rolled.factors:
+        for (kind, name), _ in rolled.factors:
             own = self.of_link(name) if kind == "angle" else self.of_link(self.structure.slide(name).a)
             base = None if kind == "angle" else self.of_link(self.structure.slide(name).b)
             one = own.of_turning
             if base is not None:
                 one = own.position + base.position, own.velocity + base.velocity, own.acceleration + base.acceleration
-            by = abs(factor)
+            by = abs(self.program.ratio(rolled, (kind, name)))
             moved, rate, second = moved + 2.0 * by * one[0], rate + by * one[1], second + by * one[2]
         if rolled.turns:
             return joint.turning_as(moved, rate, second)

@@ -63,7 +63,8 @@ class Program:
         return Pose(none + place, none + direction, none, zero, none, zero)
 
     def number(self, *name: str) -> Vec:
-        """A place or direction of the scene: ("point", link, point), ("turn", slide), ("through", slide), ..."""
+        """A place or direction of the scene: ("point", link, point), ("turn", slide), ("through", slide), ("ratio",
+        what rolls, "angle" or "travel", of what), ..."""
         z = self._numbers[name]
         return Vec(*(self._part(name, axis, x) for axis, x in (("x", z.real), ("y", z.imag))))
 
@@ -109,14 +110,19 @@ class Program:
     def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
         """Where what rolls stands, and its rates, from those of what it rolls on."""
         rate = second = self.graph.const(0)
-        for coordinate, factor in rolled.factors:
+        for coordinate, _ in rolled.factors:
             one, two = self.rates_of(coordinate)
+            factor = self.ratio(rolled, coordinate)
             rate, second = rate + factor * one, second + factor * two
         if rolled.turns:
             stands: Real | Vec = Vec(*(self.graph.input(("rolled", rolled.key, part)) for part in ("cos", "sin")))
         else:
             stands = self.graph.input(("rolled", rolled.key, "travel"))
         return stands, rate, second
+
+    def ratio(self, rolled: Rolled, coordinate: Coordinate) -> Real:
+        """By how much what rolls goes as one of the angles and travels that it follows."""
+        return self.number("ratio", rolled.key, *coordinate).real
 
     def rates_of(self, coordinate: Coordinate) -> tuple[Real, Real]:
         """Rate and second rate of an angle or a travel."""
@@ -165,7 +171,7 @@ class Program:
 
 
 def _numbers(structure: Structure) -> dict[Name, complex]:
-    """Every place and direction that a structure gives, by name."""
+    """Every place, direction and ratio that a structure gives, by name."""
     found: dict[Name, complex] = {}
     for name, link in structure.links.items():
         for point, z in link.points.items():
@@ -174,6 +180,9 @@ def _numbers(structure: Structure) -> dict[Name, complex]:
         found["turn", s.key] = s.turn
         found["through", s.key] = s.guide.through
         found["direction", s.key] = s.guide.direction
+    for element in structure.elements:
+        if isinstance(element, Driven) and isinstance(rolled := element.driver, Rolled):
+            found |= {("ratio", rolled.key, *coordinate): complex(factor) for coordinate, factor in rolled.factors}
     return found
 
 
@@ -190,7 +199,8 @@ def _form(structure: Structure, open_: Container[Name]) -> Hashable:
 
 def _element_form(element: Driven | Dyad | Cluster) -> Hashable:
     if isinstance(element, Driven):
-        return element.link, _pair_form(element.pair), element.driver.key
+        follows = tuple(c for c, _ in element.driver.factors) if isinstance(element.driver, Rolled) else ()
+        return element.link, _pair_form(element.pair), type(element.driver).__name__, element.driver.key, follows
     if isinstance(element, Cluster):
         return element.members
     bodies = [
