@@ -194,9 +194,10 @@ _LATEST: list[tuple[DriverRange, dict[str, tuple[float, float]]]] = []
 
 def stroke_of(reach: DriverRange, pair: str) -> tuple[float, float]:
     """Least and greatest travel of a sliding pair (m)."""
-    if not _LATEST or _LATEST[0][0] is not reach:
-        _LATEST[:] = [(reach, {})]
-    known = _LATEST[0][1]
+    known = next((strokes for latest, strokes in _LATEST if latest is reach), None)
+    if known is None:
+        known = {}
+        _LATEST[:] = [(reach, known)]  # another thread may put its own here
     if pair not in known:
         turn = extremes(reach, Symbol.parse(f"stroke_{pair}"))
         known[pair] = turn.low, turn.high

@@ -96,9 +96,12 @@ def forces_of(motion: Motion) -> Forces:
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    if not _LATEST or _LATEST[0].motion is not motion:
-        _LATEST[:] = [_cut_free(motion).solved()]
-    return _LATEST[0]
+    for known in _LATEST:
+        if known.motion is motion:
+            return known
+    forces = _cut_free(motion).solved()
+    _LATEST[:] = [forces]  # another thread may put its own here
+    return forces
 
 
 _LATEST: list[Forces] = []

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from typing import NamedTuple
 from weakref import finalize
 
@@ -142,14 +142,15 @@ class Layout:
         return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
 
 
-_LAYOUTS: dict[tuple[int, tuple[str, ...], tuple[str, ...]], Layout] = {}
+_LAYOUTS: dict[tuple[Hashable, ...], Layout] = {}
 
 
 def layout_of(structure: Structure, group: Cluster) -> Layout:
-    """The layout of a group, made once."""
-    joined = (*(driver.key for driver in group.drivers), *(relation.name for relation in group.rolling))
-    key = (id(structure), group.members, joined)
-    if key not in _LAYOUTS:
-        _LAYOUTS[key] = Layout(structure, group)
+    """The layout of a group, made once; it goes with its structure."""
+    drivers = tuple(structure.drivers.index(driver) for driver in group.drivers)
+    key = (id(structure), group.members, group.pairs, drivers, group.rolling)
+    layout = _LAYOUTS.get(key)
+    if layout is None:
+        layout = _LAYOUTS[key] = Layout(structure, group)
         finalize(structure, _LAYOUTS.pop, key, None)
-    return _LAYOUTS[key]
+    return layout

@@ -100,7 +100,8 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
         end[which] += turns * wide
         for known, path in _ENDED:
             moved = path.end - start
-            if known is forms and np.array_equal(np.flatnonzero(moved), [which]):
+            same = known is forms and path.structure is structure and np.array_equal(path.start, start)
+            if same and np.array_equal(np.flatnonzero(moved), [which]):
                 by = float((end - start)[which] / moved[which])
                 if path.reach <= by:
                     return path.rescaled(by)
