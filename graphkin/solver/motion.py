@@ -55,7 +55,7 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
     if symbol.to is not None and symbol.of.point == symbol.to.point and _touches(motion, symbol.of, symbol.to):
         return _at_contact(motion, symbol, symbol.of, symbol.to)
     hinge = _hinge(motion, symbol.of, symbol.to)
-    if symbol.to is not None and hinge is not None and symbol.kind != "ar":
+    if symbol.to is not None and hinge is not None:
         return _turned(motion, symbol, symbol.of, symbol.to, hinge)
     if symbol.kind in ("an", "at"):
         return _turning(motion, symbol, symbol.of)
@@ -120,16 +120,14 @@ def _turned(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, hinge: s
     """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
 
     Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
-    part of that turn, and the Coriolis term of the second link's own rate.
+    part of that turn, or both together, and the Coriolis term of the second link's own rate.
     """
     one, base = motion.poses[of.link], motion.poses[to.link]
     arm = motion.point(of.point, of.link).z - motion.point(hinge, of.link).z
     rate = one.omega - base.omega
-    if symbol.kind == "an":
-        return np.asarray(-(rate**2) * arm)
-    if symbol.kind == "at":
-        return np.asarray(1j * (one.alpha - base.alpha) * arm)
-    return np.asarray(-2 * base.omega * rate * arm)
+    normal, tangential = -(rate**2) * arm, 1j * (one.alpha - base.alpha) * arm
+    parts = {"an": normal, "at": tangential, "ar": normal + tangential, "ak": -2 * base.omega * rate * arm}
+    return np.asarray(parts[symbol.kind])
 
 
 def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
@@ -170,19 +168,16 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
         if pair.slot:
             block = {pin.of for pin in motion.scene.pins if pin.key == pair.key}
             block |= {c.round[0].link for c in motion.scene.contacts if c.block == pair.key}
-        sides = (block, {pair.b})
-        for one, two in (sides, sides[::-1]):
-            if of.point != to.point:
+        for slides, guides in ((of, to), (to, of)):
+            if of.point != to.point or not any(_is_on(motion, slides, name) for name in block):
                 continue
-            if not any(_is_on(motion, of, n) for n in one) or not any(_is_on(motion, to, n) for n in two):
-                continue
-            first = motion.point(of.point, of.link)
-            second = motion.point(to.point, to.link)
-            return _apart(symbol, first, second, motion.poses[pair.b].omega)
-    for group in motion.structure.groups:  # links of a group that are drawn as one, seen from one of them
-        if isinstance(group, Cluster) and of.point == to.point and {of.link, to.link} <= {*group.members}:
-            first, second = motion.point(of.point, of.link), motion.point(to.point, to.link)
-            return _apart(symbol, first, second, motion.poses[to.link].omega)
+            # another link that is pinned there too has another rate, and so another Coriolis term
+            if guides.link == pair.b or (not guides.link and _is_on(motion, guides, pair.b)):
+                return _apart(motion, symbol, of, to, pair.b)
+    # links of a group that are drawn as one, seen from one of them
+    together = [{*group.members} for group in motion.structure.groups if isinstance(group, Cluster)]
+    if of.point == to.point and any({of.link, to.link} <= members for members in together):
+        return _apart(motion, symbol, of, to, to.link)
     pairs = [s for s in motion.slides if s.pin]
     example = (
         f"write for example {symbol.kind}_{pairs[0].pin}@{pairs[0].b}/{pairs[0].pin}"
@@ -194,8 +189,10 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
     )
 
 
-def _apart(symbol: Symbol, first: Pose, second: Pose, omega: Array) -> Array:
-    coriolis = 2j * omega * (first.v - second.v)
+def _apart(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, base: str) -> Array:
+    """Coriolis term by the turning of a link, or what is left of the acceleration of one point relative to another."""
+    first, second = motion.point(of.point, of.link), motion.point(to.point, to.link)
+    coriolis = 2j * motion.poses[base].omega * (first.v - second.v)
     return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
 
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+from typing import Any
+
 import pytest
 
 from graphkin.errors import CallError
-from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from graphkin.solver import Motion, solve
@@ -131,3 +134,32 @@ def test_names_of_forces_are_written_as_they_are_read(name: str) -> None:
 def test_forces_are_in_the_units_of_the_scene() -> None:
     units = Units(force="kN")
     assert [("kN", 1e3), ("kN m", 1e3)] == [Symbol.parse(name).unit(units) for name in ("F_5/6", "M_2")]
+
+
+def slot_in_the_frame() -> dict[str, Any]:
+    """A pin of the rod runs in a slot of the frame that passes the crank's pivot."""
+    return {
+        "frame": {"points": {"A": [0, 0]}, "guides": {"g": {"through": [0, 0], "angle": 0}}},
+        "links": {"1": {"points": ["A", "B"], "length": 20}, "2": {"points": ["B", "C"], "length": 60}},
+        "pins": {"C": {"of": "2", "in": "0.g"}},
+        "driver": {"link": "1", "angle": 60, "omega": 10},
+    }
+
+
+@pytest.mark.parametrize("source", [*library(), slot_in_the_frame()],
+                         ids=lambda source: source if isinstance(source, str) else "slot")  # fmt: skip
+def test_coriolis_and_the_rest_make_the_acceleration_between_any_two_links(source: str | dict[str, Any]) -> None:
+    motion = solve(mechanism_of(source))
+    links = [link for link in (motion.scene.frame, *motion.scene.links) if not link.redundant]
+    told = 0
+    for one, other in permutations(links, 2):
+        for point in {**one.points, **other.points}:
+            name = f"{point}@{one.name}/{point}@{other.name}"
+            try:
+                ak, ar = value(motion, f"ak_{name}"), value(motion, f"ar_{name}")
+            except CallError:
+                continue
+            told += 1
+            scale = abs(ak) + abs(ar)
+            assert value(motion, f"a_{name}") == pytest.approx(ak + ar, rel=1e-9, abs=1e-9 * scale)
+    assert told
