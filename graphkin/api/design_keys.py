@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Tables
 from graphkin.scene import mechanism_of
-from graphkin.scene.dimensions import Dimension, dimensions
+from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
 from graphkin.scene.file_keys import path_of_key, value_at
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.joints import turned
 from graphkin.study.designs import applied
 
@@ -85,20 +85,31 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
     Raises
     ------
     CallError : a key that the scene does not have, that holds no number, that changes nothing in the mechanism or not
-        by itself, or keys that do not act side by side
+        by itself, or keys that do not act side by side; a driver whose value or rate follows from dimensions
     """
-    if any(d.dead_point for d in scene.drivers):
-        wanted = "give its value instead"
-        raise CallError(Problem("designs", "the driver is given from a dead point, which moves with each", wanted))
+    written = mechanism_of(source)
+    for driver in written.drivers:
+        found = "the driver is given from a dead point, which moves with each" if driver.dead_point else ""
+        if isinstance(driver, AngleDriver) and driver.given_speed:
+            found = "the driver's rate is given by the speed of a point, and is another with each"
+        elif isinstance(driver, AngleDriver) and driver.position:
+            found = "the driver is given by a position, which moves with each"
+        if found:
+            raise CallError(Problem("designs", found, "give its value instead"))
     laws: dict[str, dict[Dimension, _Law]] = {}
     changed: dict[str, float] = {}
     for key in keys:
         begin, step = _begin(source, key)
         changed[key] = begin + step
-        laws[key] = _laws(key, begin, step, [_numbers(source, {key: begin + k * step}) for k in range(3)], scene)
+        read = [_read(source, {key: begin + k * step}) for k in range(3)]
+        laws[key] = _laws(key, begin, step, [dimensions(mechanism) for mechanism in read], scene)
+        beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
+        if beside:
+            hint = "sweep over it: graphkin.sweep(..., designs=...)"
+            raise CallError(Problem(f"designs {key}", f"changes more than dimensions: {', '.join(beside)}", hint))
     made = DesignKeys(scene, dimensions(scene), laws)
     if len(keys) > 1:
-        _side_by_side(made, changed, _numbers(source, changed))
+        _side_by_side(made, changed, dimensions(_read(source, changed)))
     return made
 
 
@@ -111,9 +122,9 @@ def _begin(source: Tables, key: str) -> tuple[float, float]:
     return float(own), abs(float(own)) / 8
 
 
-def _numbers(source: Tables, values: Mapping[str, float]) -> dict[Dimension, complex]:
+def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
     try:
-        return dimensions(mechanism_of(applied(source, tuple(values), tuple(values.values()))))
+        return mechanism_of(applied(source, tuple(values), tuple(values.values())))
     except SceneError as error:
         what = f"designs {', '.join(values)}"
         raise CallError(Problem(what, f"changed by itself the scene no longer fits: {error}")) from None

@@ -257,7 +257,7 @@ class Prepared(Tabled, OfScene):
 class PreparedDesigns(Tabled, OfScene):
     """Many designs of a prepared mechanism.
 
-    ``designs["v_C"]``, ``table`` and the rest are what they give at the scene's own position.
+    ``designs["v_C"]``, ``table`` and the rest are what they give at the own position of each.
 
     values : of the keys that are changed, shape (designs,)
     single : whether each is one number: then the arrays are those of one mechanism
@@ -276,13 +276,13 @@ class PreparedDesigns(Tabled, OfScene):
         return self.prepared.mechanism
 
     def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
-        """A quantity or a column of all designs at the scene's own position, shape (designs,), or () of a single one.
+        """A quantity or a column of all designs at the own position of each, shape (designs,), or () of a single one.
         Raises CallError as ``Samples``."""
         return self._here[name]
 
     @property
     def table(self) -> Table:
-        """What they give at the scene's own position: a row for each design."""
+        """What they give at the own position of each: a row for each design."""
         return self._here.table
 
     @cached_property

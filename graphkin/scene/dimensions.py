@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 
-__all__ = ["Dimension", "dimensions", "same_but_for_dimensions", "with_dimensions"]
+__all__ = ["Dimension", "changed_beside", "dimensions", "same_but_for_dimensions", "with_dimensions"]
 
 Dimension = tuple[str | int, ...]
 """("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
@@ -61,6 +61,18 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         sketch={**mechanism.drawn, **mechanism.sketch},
         drawn={},
     )
+
+
+_MOVING = ("frame", "links", "slidings", "pins", "drivers", "cams", "contacts", "gears", "starts", "slots")
+"""The parts of a mechanism on which its motion depends."""
+
+
+def changed_beside(one: Mechanism, other: Mechanism) -> tuple[str, ...]:
+    """The parts in which two mechanisms move otherwise for something else than these numbers: where a cam stands, the
+    radius of a disc, teeth."""
+    own = dimensions(one)
+    alike = [with_dimensions(mechanism, own) for mechanism in (one, other)]
+    return tuple(part for part in _MOVING if getattr(alike[0], part) != getattr(alike[1], part))
 
 
 def same_but_for_dimensions(one: Mechanism, other: Mechanism) -> bool:

@@ -91,8 +91,8 @@ class PreparedMechanisms:
         """Numbers of the formulas by name, for each design, where it changes them."""
         found: dict[Name, Array] = {}
         ready, scene = self.ready, self.ready.structure.scene
-        own, slides = ready.dimensions, ready.structure.slides
-        for name, values in self.given.items():
+        numbers = {name: (values, ready.dimensions[name]) for name, values in self.given.items()}
+        for name, (values, old) in {**numbers, **self._guides}.items():
             kind, *rest = name
             if kind in ("rate", "second"):
                 found[name] = values.real
@@ -100,16 +100,29 @@ class PreparedMechanisms:
             elif kind == "value" and rest[0]:
                 k, u = rest[0], turned(values.real)
                 found["travel", k], found["cos", k], found["sin", k] = values.real, u.real, u.imag
-            elif kind != "value":
-                keys = [(kind, s.key) for s in slides if [s.b, s.guide.name] == rest]
-                for number in keys if kind in ("through", "direction") else [name]:
-                    for axis, part, old in (("x", values.real, own[name].real), ("y", values.imag, own[name].imag)):
-                        if (part != old).any():
-                            found[*number, axis] = part
-                    found["error", *number] = GIVEN * np.abs(values)
+            elif kind in ("point", "turn") or name in self._guides:
+                for axis, part, was in (("x", values.real, old.real), ("y", values.imag, old.imag)):
+                    if (part != was).any():
+                        found[*name, axis] = part
+                found["error", *name] = GIVEN * np.abs(values)
         for link in {name[1] for name in self.given if name[0] == "point"}:
             points = [np.abs(self.given.get(("point", link, p), z)) for p, z in scene.by_name[str(link)].points.items()]
             found["reach", link] = np.broadcast_to(np.max(np.broadcast_arrays(*points), axis=0), (self.count,))
+        return found
+
+    @cached_property
+    def _guides(self) -> dict[Dimension, tuple[Array, complex]]:
+        """Place and direction of the guide of each sliding pair that the designs change, and those of the mechanism
+        itself.  The centre of a disc on a flat face slides beside the face, by the radius of the disc."""
+        own, found = self.ready.dimensions, dict[Dimension, tuple[Array, complex]]()
+        for s in self.ready.structure.slides:
+            through, direction = ("through", s.b, s.guide.name), ("direction", s.b, s.guide.name)
+            if through in self.given or direction in self.given:
+                beside = (s.guide.through - own[through]) / own[direction]
+                along = self.given.get(direction, np.full(1, own[direction]))
+                at = self.given.get(through, np.full(1, own[through])) + beside * along
+                found["through", s.key] = np.broadcast_to(at, (self.count,)), s.guide.through
+                found["direction", s.key] = np.broadcast_to(along, (self.count,)), s.guide.direction
         return found
 
     @cached_property
@@ -190,18 +203,19 @@ class PreparedMechanisms:
         """
         out = np.zeros((len(self.ready.asked), self.count, n))
         ok = np.repeat(self.together[:, None], n, axis=1)
-        values = self._values(n) if self.ready.turns else np.full((self.count, n), np.nan)
         which = np.flatnonzero(self.together)
         if fast and n >= LOOP:
             self._loops(which, n, out.reshape(len(out), -1))
         elif len(which):
             out[:, which] = self._compute(self._code.columns, which, *self._turns(which, n))
+        values = self._values(n) if self.ready.turns else np.full((self.count, n), np.nan)
+        if not self.together.all():
+            values = np.array(np.broadcast_to(values, (self.count, n)))
         for k in np.flatnonzero(~self.together).tolist():
             one = self._alone(k)
             if one is not None:
                 out[:, k], ok[k] = one.sweep(n)
-                if not self.ready.turns:
-                    values[k] = one.range.grid(n).values
+                values[k] = one.range.grid(n).values
         return out, ok, values
 
     def _values(self, n: int) -> Array:

@@ -216,3 +216,40 @@ def test_the_driven_slide_of_each_design_has_its_own_range():
         anew = graphkin.prepare(applied(lift, ("links.2.length",), (length,)), ["theta_2"]).sweep(5)
         assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-9)
         assert anew["theta_2"].tolist() == pytest.approx(found["theta_2"][k].tolist(), rel=1e-9)
+
+
+def test_a_face_may_lie_at_any_angle_in_its_own_link():
+    # the face touches a disc of radius 50 about O, 22 mm from A, and turns about C, 80 mm from A
+    def face(driver: float) -> float:
+        way = 22 * np.exp(1j * driver) - 80
+        return float(np.angle(way) - np.arcsin(50 / abs(way)))
+
+    h = 1e-5
+    omega = 10 * (face(np.pi / 2 + h) - face(np.pi / 2 - h)) / (2 * h)
+    designs, source = {"links.2.guides.f.angle": [0.0, 10.0, -25.0]}, "cam-eccentric-flat-rocker"
+    over = graphkin.prepare(source, "omega_2").over(designs).at(90)["omega_2"]
+    swept = graphkin.sweep(source, designs=designs, positions=1, find=["omega_2"]).table["omega_2"]
+    assert [omega] * 3 == pytest.approx(over.tolist(), rel=1e-8)
+    assert [omega] * 3 == pytest.approx(swept.tolist(), rel=1e-8)
+
+
+@pytest.mark.parametrize("key", ["frame.points.A.x", "frame.points.C.y", "links.2.length"])
+def test_a_key_that_moves_a_cam_by_its_law_is_refused(key):
+    ready = graphkin.prepare("cam-swinging-roller", ["theta_2"])
+    with pytest.raises(graphkin.CallError, match=f"designs {key}: changes more than dimensions: cams"):
+        ready.over({key: [50, 60]})
+
+
+def test_a_rate_that_follows_from_the_lengths_has_no_designs():
+    driver = {"link": "1", "angle": 60, "speed": 2000, "of": "C"}
+    ready = graphkin.prepare(FOUR_BAR | {"driver": driver}, ["v_C"])
+    with pytest.raises(graphkin.CallError, match="the driver's rate is given by the speed of a point"):
+        ready.over({"links.1.length": [140, 150]})
+
+
+def test_each_design_that_does_not_turn_fully_has_its_own_range():
+    designs = {"links.1.length": np.array([180.0, 300.0])}
+    found = graphkin.prepare(FOUR_BAR, ["omega_3"]).over(designs).sweep(6)
+    for k, length in enumerate(designs["links.1.length"].tolist()):
+        anew = graphkin.prepare(applied(FOUR_BAR, ("links.1.length",), (length,)), ["omega_3"]).sweep(6)
+        assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-12)

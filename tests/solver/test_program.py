@@ -56,8 +56,10 @@ def sun_and_planet_discs(r: float) -> dict[str, Any]:
     return tables | {"contacts": {"K": {"between": ["2.s", "3.p"], "rolling": True}}}
 
 
-@pytest.mark.parametrize("source", [*library(), sun_and_planet([20, 37]), rack_on_a_slider(-13), sun_and_planet_discs(13)],
-                         ids=lambda source: source if isinstance(source, str) else "rolls")  # fmt: skip
+ROLLING = sun_and_planet([20, 37]), rack_on_a_slider(-13), sun_and_planet_discs(13)
+
+
+@pytest.mark.parametrize("source", [*library(), *ROLLING], ids=lambda s: s if isinstance(s, str) else "rolls")
 def test_a_program_holds_no_number_of_a_mechanism(source):
     structure = structure_of(mechanism_of(source))
     program = program_of(structure, tuple(True for _ in structure.drivers)).program
