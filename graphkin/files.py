@@ -62,6 +62,9 @@ def whole_file(path: Path, beside: Path | None = None) -> Iterator[IO[bytes]]:
     try:
         with os.fdopen(handle, "wb") as stream:
             yield stream
+            # else a name may outlive a loss of power, and what it names may not
+            stream.flush()
+            os.fsync(stream.fileno())
         os.replace(temporary, path)
     except BaseException:
         with suppress(OSError):

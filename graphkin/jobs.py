@@ -88,9 +88,11 @@ class FinishedPiece:
 
 @dataclass(frozen=True)
 class Checkpoints:
-    """The finished pieces of one job, each a file in a hidden folder: a line of facts (JSON), then any content.
+    """The finished pieces of one job, each a file in a hidden folder: a line with the digest (SHA-256) of all that
+    follows, a line of facts (JSON), then any content.
 
-    The folder's name holds a key of the job, so that nothing of another job is ever used.
+    The folder's name holds a key of the job, so that nothing of another job is ever used; a piece whose digest does not
+    fit is as good as none.
     """
 
     place: Path
@@ -109,24 +111,34 @@ class Checkpoints:
             with whole_file(about) as out:
                 out.write(json.dumps(words, indent=1, ensure_ascii=False).encode())
 
-    def done(self) -> set[int]:
-        """Numbers of the finished pieces."""
-        if not self.place.is_dir():
-            return set()
-        return {int(path.name) for path in self.place.iterdir() if path.name.isdecimal()}
+    def done(self) -> tuple[dict[int, FinishedPiece], int]:
+        """The finished pieces by their numbers, and how many were damaged since they were written."""
+        names = [path.name for path in self.place.iterdir()] if self.place.is_dir() else []
+        numbers = sorted(int(name) for name in names if name.isdecimal())
+        pieces = {number: piece for number in numbers if (piece := self.load(number)) is not None}
+        return pieces, len(numbers) - len(pieces)
 
     def save(self, number: int, facts: Mapping[str, Json], content: bytes = b"") -> None:
         """Keep a finished piece."""
+        line = json.dumps(facts, ensure_ascii=False).encode() + b"\n"
         with whole_file(self.place / f"{number:07d}") as out:
-            out.write(json.dumps(facts, ensure_ascii=False).encode() + b"\n")
+            out.write(hashlib.sha256(line + content).hexdigest().encode() + b"\n")
+            out.write(line)
             out.write(content)
 
-    def load(self, number: int) -> FinishedPiece:
-        """A finished piece."""
+    def load(self, number: int) -> FinishedPiece | None:
+        """A finished piece; None where there is none, or a damaged one."""
         path = self.place / f"{number:07d}"
+        if not path.is_file():
+            return None
         with open(path, "rb") as stream:
-            line = stream.readline()
-        return FinishedPiece(json.loads(line), path, len(line))
+            told, line = stream.readline(), stream.readline()
+            digest = hashlib.sha256(line)
+            while block := stream.read(1 << 20):
+                digest.update(block)
+        if told != digest.hexdigest().encode() + b"\n":
+            return None
+        return FinishedPiece(json.loads(line), path, len(told) + len(line))
 
     def close(self) -> None:
         """Take them away: the job is done."""

@@ -52,6 +52,20 @@ def test_a_file_that_fails_leaves_the_one_before(tmp_path: Path) -> None:
     assert (b"before", ["a"]) == ((tmp_path / "a").read_bytes(), [p.name for p in tmp_path.iterdir()])
 
 
+def test_a_file_is_on_the_disk_before_it_takes_its_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    held: list[tuple[int, bool]] = []
+    flush = os.fsync
+
+    def fsync(handle: int) -> None:
+        held.append((os.fstat(handle).st_size, (tmp_path / "a").exists()))
+        flush(handle)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    with whole_file(tmp_path / "a") as out:
+        out.write(b"whole")
+    assert [(5, False)] == held
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="modes of POSIX")
 def test_a_new_file_has_the_mode_of_all_new_files(tmp_path: Path) -> None:
     with whole_file(tmp_path / "a") as out:

@@ -154,17 +154,41 @@ def test_a_checkpoint_gives_back_facts_and_content(tmp_path: Path) -> None:
     points = Checkpoints.of(tmp_path, "sweep", "1f")
     points.open(rows=3)
     points.save(7, {"good": 3}, b"1,2\n")
-    piece = points.load(7)
+    pieces, damaged = points.done()
     with open(tmp_path / "copy", "wb") as out:
-        piece.copy(out)
-    assert ({7}, {"good": 3}, b"1,2\n") == (points.done(), piece.facts, (tmp_path / "copy").read_bytes())
+        pieces[7].copy(out)
+    assert ([7], 0, {"good": 3}) == ([*pieces], damaged, pieces[7].facts)
+    assert b"1,2\n" == (tmp_path / "copy").read_bytes()
+
+
+DAMAGES = {
+    "a digit": lambda piece: piece.replace(b"1,2", b"1,3"),
+    "a digit of the facts": lambda piece: piece.replace(b"3}", b"8}"),
+    "a line lost": lambda piece: piece.replace(b"4,5\n", b""),
+    "a line more": lambda piece: piece + b"4,5\n",
+    "cut short": lambda piece: piece[:70],
+    "empty": lambda piece: b"",
+    "no text": lambda piece: b"\xff" * len(piece),
+}
+
+
+@pytest.mark.parametrize("what", DAMAGES)
+def test_a_damaged_checkpoint_does_not_count(what: str, tmp_path: Path) -> None:
+    points = Checkpoints.of(tmp_path, "sweep", "1f")
+    points.open(rows=3)
+    points.save(6, {"good": 3}, b"1,2\n4,5\n")
+    points.save(7, {"good": 3}, b"1,2\n4,5\n")
+    path = points.place / "0000007"
+    path.write_bytes(DAMAGES[what](path.read_bytes()))
+    pieces, damaged = points.done()
+    assert ([6], 1) == ([*pieces], damaged)
 
 
 def test_a_checkpoint_that_is_half_written_does_not_count(tmp_path: Path) -> None:
     points = Checkpoints.of(tmp_path, "sweep", "1f")
     points.open()
     (points.place / ".0000003.k3j_x9a1").write_bytes(b'{"good": 3}\n1,')
-    assert set() == points.done()
+    assert ({}, 0) == points.done()
 
 
 def test_another_job_has_another_key() -> None:

@@ -243,6 +243,8 @@ class Swept(Result, OfScene):
         if self.over.designs.keys:
             outcomes = ", ".join(f"{n} {refused(status, self.language)}" for status, n in self.outcomes.items())
             lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
+        if self.found.damaged:
+            lines.append(say(Phrase("pieces damaged", (self.found.damaged,)), self.language))
         lines.append(say(Phrase("positions solved", (self.good, self.rows)), self.language))
         return "\n".join(lines)
 

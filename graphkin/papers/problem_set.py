@@ -297,11 +297,10 @@ def _key(jobs: Sequence[Job], render: Render | None) -> str:
 def _finished(points: Checkpoints | None) -> dict[int, Attempt]:
     """Finished jobs by number, of those whose files are all there."""
     found: dict[int, Attempt] = {}
-    for number in points.done() if points is not None else ():
-        assert points is not None
-        facts = points.load(number).facts
-        if all((points.place.parent / name).is_file() for name in facts["files"]):
-            found[number] = _made(facts)
+    if points is not None:
+        for number, piece in points.done()[0].items():
+            if all((points.place.parent / name).is_file() for name in piece.facts["files"]):
+                found[number] = _made(piece.facts)
     return found
 
 

@@ -47,7 +47,7 @@ def write_tables(
         with folder_alone(folder):
             points = Checkpoints.of(folder, "sweep", sweep.key)
             points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
-            finished = points.done()
+            finished, damaged = points.done()
             missing = [k for k in range(sweep.pieces) if k not in finished]
             done = sweep.pieces - len(missing)
             _count(sweep, done, progress)
@@ -57,7 +57,7 @@ def write_tables(
                 points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
                 done += 1
                 _count(sweep, done, progress)
-            return _merged(sweep, points, folder, parquet)
+            return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
     except OSError as error:
         raise CallError(
             Problem(str(folder), f"cannot be written: {error.strerror or error}", "give another folder with -o")
@@ -71,6 +71,9 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
     with whole_file(files[0], points.place) as out:
         sweep.head.write_csv(out)
         for piece in map(points.load, range(sweep.pieces)):
+            if piece is None:
+                wanted = "run the same command again; the disk may be failing"
+                raise CallError(Problem(str(points.place), "a piece was damaged while the table was made", wanted))
             piece.copy(out)
             facts.append(piece.facts)
     found = _found(

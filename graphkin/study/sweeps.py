@@ -55,6 +55,7 @@ class Found:
     """What a sweep came to: rows in all, rows that are ok, and over designs how each came out.
 
     table : in memory; None where it was written into files
+    damaged : pieces kept from before that were damaged, and were made again
     """
 
     rows: int
@@ -62,6 +63,7 @@ class Found:
     outcomes: tuple[Outcome, ...] = ()
     table: Table | None = None
     files: tuple[Path, ...] = ()
+    damaged: int = 0
 
 
 @dataclass(frozen=True)
@@ -178,9 +180,11 @@ _BASE: list[FollowedDesign] = []
 
 def _same(design: FollowedDesign) -> FollowedDesign:
     """The design, or that which was swept last where it is the same."""
-    if not _BASE or _BASE[0] != design:
-        _BASE[:] = [design]
-    return _BASE[0]
+    for latest in _BASE:
+        if latest == design:
+            return latest
+    _BASE[:] = [design]  # another thread may put its own here
+    return design
 
 
 _LATEST: dict[tuple[str, int], FollowedDesign | tuple[str, str]] = {}

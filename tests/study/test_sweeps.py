@@ -26,7 +26,7 @@ from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
 from graphkin.study.sweep_quantities import SweepQuantity, quantity_of_symbol
 from graphkin.study.sweep_results import collect, write_tables
-from graphkin.study.sweeps import Sweep
+from graphkin.study.sweeps import Found, Sweep
 
 
 @pytest.fixture
@@ -42,9 +42,9 @@ def run(
     processes: int | None = None,
     parquet: bool = False,
     progress: Progress | None = None,
-) -> None:
+) -> Found:
     with Workers(executor, processes) as workers:
-        write_tables(sweep, folder, workers, parquet, progress)
+        return write_tables(sweep, folder, workers, parquet, progress)
 
 
 def watched(name: str) -> SweepQuantity:
@@ -144,6 +144,21 @@ def test_an_interrupted_sweep_goes_on_where_it_stopped(plan: Sweep, whole: Path,
     rest = Synchronous()
     run(plan, tmp_path / "b", rest)
     assert (2, prints(whole)) == (rest.given, prints(tmp_path / "b"))
+
+
+def test_a_damaged_piece_is_made_again_and_told(plan: Sweep, whole: Path, tmp_path: Path) -> None:
+    def interrupt(done: int, total: int) -> None:
+        if done >= total / 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run(plan, tmp_path / "b", progress=interrupt)
+    piece = min((tmp_path / "b").glob(".sweep-*/0*"))
+    text = piece.read_bytes()
+    piece.write_bytes(text[:-3] + (b"7" if text[-3:-2] != b"7" else b"8") + text[-2:])
+    rest = Synchronous()
+    found = run(plan, tmp_path / "b", rest)
+    assert (3, 1, prints(whole)) == (rest.given, found.damaged, prints(tmp_path / "b"))
 
 
 def test_an_interrupted_sweep_shows_no_table(plan: Sweep, tmp_path: Path) -> None:
