@@ -49,18 +49,22 @@ def _residues(sheet: Sheet) -> frozenset[Symbol]:
     velocity, acceleration = _drawn(sheet, "velocity"), _drawn(sheet, "acceleration")
     fastest = _largest(velocity.values())
     # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
-    push = max(_largest(acceleration.values()), (fastest * scales.velocity) ** 2 / size / scales.acceleration)
+    pushed = _largest(acceleration.values())
+    push = max(pushed, (fastest * scales.velocity) ** 2 / size / scales.acceleration)
     lost = _lost(sheet, ("mechanism", "velocity"))
     zero = {symbol for symbol, vector in velocity.items() if 0.0 < abs(vector.span) <= lost * fastest}
-    lost = _lost(sheet, ("mechanism", "velocity", "acceleration"))
+    residue = _lost(sheet, ("mechanism", "velocity", "acceleration")) * push
+    if pushed > residue:
+        # beside a dead point v squared over a length far exceeds all accelerations
+        residue = min(residue, MOST_LOST * pushed)
     still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
     fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
     for symbol, vector in acceleration.items():
         # at a contact the curvatures give a normal part where nothing slides too
         squares = () if symbol.of is not None and symbol.of.point in touching else _speeds(symbol, fixed)
         speed = next((s for s in squares if s in velocity), None)
-        residue = abs(vector.span) <= lost * push if speed is None else speed in still
-        if residue and vector.span != 0.0:
+        nothing = abs(vector.span) <= residue if speed is None else speed in still
+        if nothing and vector.span != 0.0:
             zero.add(symbol)
     return frozenset(zero)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import pytest
@@ -148,3 +149,41 @@ def test_what_the_driver_gives_is_determined_where_rounding_loses_the_group_behi
     assert (0.1, 0.05) == (pytest.approx(rows["v_C"].measured), pytest.approx(rows["a_C"].true))
     assert {"v_B", "omega_1", "alpha_2"} <= {str(symbol) for symbol in checked.report.undetermined}
     assert not checked.ok  # nothing that was found is judged
+
+
+def loops_beside_a_dead_point(angle: float) -> dict[str, Any]:
+    """C and all that hangs on it is nearly at a dead point; B, E and F are points of the crank."""
+    return {
+        "units": {"length": "ft"},
+        "frame": {"points": {"A": [0, 0]},
+                  "guides": {"g2": {"through": [-187.11612304490623, -15.089157129515335],
+                                    "angle": -78.94992418765644}}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 136.66179597464438,
+                  "guides": {"g1": {"through": [198.99331419363455, 194.36987755065223],
+                                    "angle": -168.30072546004033}},
+                  "at": {"F": {"from": ["A", "B"], "r": [121.79359394048747, 245.62302317784346], "side": "right"}}},
+            "2": {"points": ["C"], "on": "1.g1", "angle_on": 114.88742698588686},
+            "3": {"points": ["C"], "on": "0.g2",
+                  "at": {"D": {"from": "C", "r": 119.96961953184787, "angle": -35.70985385624916}}},
+            "4": {"points": ["A", "E"], "length": 160.77046011629275,
+                  "guides": {"g3": {"through": [-4.0184918053886225, -0.029076513119654424],
+                                    "angle": -269.5854334181873}}},
+            "5": {"points": ["F"], "on": "6"},
+            "6": {"points": ["C"]},
+        },
+        "pins": {"D": {"of": "3", "in": "4.g3"}},
+        "driver": {"link": "1", "angle": angle, "rpm": -61.45711285577262, "alpha": 43.24601968573202},
+        "sketch": {"C": [-196.93513323726478, 35.19061761610405], "E": [-42.52131367543874, 155.04540860444538]},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("angle", [269.05, 269.2, 269.25])
+def test_small_accelerations_beside_a_dead_point_are_drawn_as_they_are(angle: float) -> None:
+    omega = -61.45711285577262 * 2 * math.pi / 60
+    result = graphkin.check(loops_beside_a_dead_point(angle))
+    # l sqrt(omega^4 + alpha^2), some 1e-8 of the accelerations of what slides
+    whole = 136.66179597464438 * 0.3048 * math.hypot(omega**2, 43.24601968573202)
+    (row,) = (row for row in result.report.rows if str(row.symbol) == "a_B")
+    assert whole == pytest.approx(abs(row.reading.value), rel=1e-5)
+    assert [] == [str(row.symbol) for row in result.report.rows if row.ok is False]
