@@ -106,6 +106,7 @@ def sweep(
     >>> f"{abs(swept['v_C']).max():.0f} mm/s at most"
     '1346 mm/s at most'
     """
+    from graphkin.solver import structure_of
     from graphkin.study.designs import designs_of
     from graphkin.study.graphical import known_ordinate
     from graphkin.study.sweep_results import collect, write_tables
@@ -130,6 +131,8 @@ def sweep(
         from graphkin.study.designs import applied
 
         applied(source, made.keys, made[0])  # keys that the scene does not have
+    if not given.drivers:
+        structure_of(given)  # a sentence: what drives is missing
     if moves_by_law(given):
         positions = positions if positions is None else whole_number("positions", positions, 1, MOST_MOMENTS)
         _over_time_alone(at=at, measured=measured, **{name: tuple(names) for name, names in wishes.items()})

@@ -131,7 +131,8 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
         low, high = 0.0, 360.0 * reach.turns
     else:
         low, high = sorted(float(scene.unit_of(driver).of(reach.value(np.array(e)))) for e in reach.ends)
-    step = degree_step(high - low) if angle else next_of_series((high - low) / 12)
+    wide = high - low or scene.size / scene.units.metres  # a slide that its own place alone lets stand has no way
+    step = degree_step(high - low) if angle else next_of_series(wide / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)
     return DriverAxis(reach, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))

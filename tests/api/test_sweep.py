@@ -17,7 +17,9 @@ from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
+from tests.mechanisms import redriven
 from tests.scenes import four_bar
+from tests.solver.test_forces import loaded
 
 NAME = "slider-crank-s50-e16-K1.2"
 
@@ -33,6 +35,17 @@ def test_json_gives_back_stroke_and_K(tmp_path: Path) -> None:
     code, text = call(NAME, "-o", str(tmp_path), "--json")
     slider = json.loads(text)["outputs"][0]
     assert (0, 50.0, 1.2) == (code, pytest.approx(slider["stroke"], rel=1e-12), pytest.approx(slider["K"], rel=1e-12))
+
+
+def test_designs_of_a_scene_without_a_driver_are_refused_as_the_scene_is() -> None:
+    scene = {key: table for key, table in graphkin.read("fourbar-150-500-300-400").to_dict().items() if key != "driver"}
+    with pytest.raises(Unsolvable, match="no driver given"):
+        graphkin.sweep(scene | {"find": ["omega_3"]}, designs={"links.1.length": [50, 60]})
+
+
+def test_a_driven_slide_without_a_way_is_swept_where_it_stands() -> None:
+    (reach,) = graphkin.sweep(loaded(redriven(3000), 3000), positions=6).data["ranges"]
+    assert reach["low"] == reach["high"]
 
 
 def test_table_has_as_many_rows_as_positions(tmp_path: Path) -> None:
