@@ -10,16 +10,19 @@ import base64
 import json
 import re
 import uuid
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from xml.sax.saxutils import escape
+
+from markupsafe import Markup
 
 from graphkin.checking.slips import Evidence
 from graphkin.drawing.headings import structure_words
 from graphkin.errors import GraphkinError
 from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean
-from graphkin.papers.html import said_html, words_html
+from graphkin.papers.html import rendered, said_html, words_html
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import mechanism_picture, parts
 from graphkin.papers.problem import given, scene_title
@@ -56,6 +59,12 @@ class AskedNumber:
     value: float
     tolerance: float
     slips: tuple[KnownSlip, ...] = ()
+
+    @property
+    def answers(self) -> tuple[tuple[int, str, str, str], ...]:
+        """The right answer and the known wrong ones: share of the mark (%), value, tolerance, what is said to it."""
+        right = 100, f"{self.value:.10g}", f"{self.tolerance:.3g}", ""
+        return right, *((0, f"{slip.value:.10g}", f"{self.tolerance / 2:.3g}", slip.words) for slip in self.slips)
 
 
 @dataclass(frozen=True)
@@ -150,7 +159,7 @@ def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes
     for made in files:
         if "moodle.xml" in made:
             text = made["moodle.xml"].decode()
-            moodle.append(text[text.index(_CUT) + len(_CUT) : text.rindex("</quiz>")])
+            moodle.append(text[text.index(_CUT) : text.rindex("</quiz>")])
         if "questions.gift" in made:
             gifts.append(made["questions.gift"].decode())
     found: dict[str, bytes] = {}
@@ -163,81 +172,48 @@ def bank(category: str, files: Iterable[Mapping[str, bytes]]) -> dict[str, bytes
 
 # -- Moodle ------------------------------------------------------------------------------------------------------------
 
-_CUT = "<!-- questions -->\n"
+_CUT = "<!-- questions -->"
 
 
 def moodle_bank(category: str, entries: Sequence[str]) -> bytes:
     """A file of questions under one category."""
-    head = f"<question type=\"category\"><category><text>$course$/top/{escape(category)}</text></category></question>\n"
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n{head}{_CUT}{"".join(entries)}</quiz>\n'.encode()
+    return rendered("moodle.xml", category=category, questions=Markup("".join(entries))).encode()
 
 
 def moodle_entries(question: Question) -> str:
     """A cloze question with all that is asked, and a numerical one for each quantity."""
-    return _cloze(question) + "".join(_numerical(question, one) for one in question.asked)
-
-
-def _question_text(question: Question, more: str) -> str:
-    body = _body(question, f"@@PLUGINFILE@@/{PICTURE}", more)
-    data = base64.b64encode(question.picture).decode()
-    return (
-        f'<questiontext format="html"><text>{_cdata(body)}</text>'
-        f'<file name="{PICTURE}" path="/" encoding="base64">{data}</file></questiontext>'
+    return rendered(
+        "moodle_questions.xml",
+        question=question,
+        body=partial(_body, question, f"@@PLUGINFILE@@/{PICTURE}"),
+        field=_cloze_field,
+        cdata=_cdata,
+        PICTURE=PICTURE,
+        CUT=Markup(_CUT),
     )
 
 
-def _body(question: Question, source: str, more: str) -> str:
-    """The HTML of a question: structure, data, the figure, the rule of signs, and what is asked."""
-    picture = f'<p><img src="{source}" alt="{_quoted(question.seen)}"></p>'
-    return f"{question.html}{picture}<p>{escape(question.sign_rule)}</p>{more}"
+def _body(
+    question: Question,
+    source: str,
+    asked: Sequence[AskedNumber],
+    field: Callable[[AskedNumber], str] | None = None,
+) -> str:
+    """The HTML of a question: structure, data, the figure, the rule of signs, and what is asked, with the field in
+    which it is answered or else with its unit."""
+    return rendered("question.html", question=question, source=source, asked=asked, field=field)
 
 
-def _quoted(text: str) -> str:
-    return escape(text, {'"': "&quot;"})
-
-
-def _cdata(text: str) -> str:
-    return "<![CDATA[" + text.replace("]]>", "]]]]><![CDATA[>") + "]]>"
-
-
-def _named(text: str) -> str:
-    return f"<name><text>{escape(text)}</text></name>"
-
-
-def _numerical(question: Question, one: AskedNumber) -> str:
-    answers = [_answer(100, one.value, one.tolerance, "")]
-    answers += [_answer(0, slip.value, one.tolerance / 2, slip.words) for slip in one.slips]
-    return (
-        f'<question type="numerical">{_named(f"{question.title}: {one.plain}")}{_question_text(question, _asks(one))}'
-        "<defaultgrade>1</defaultgrade><penalty>0.3333333</penalty><hidden>0</hidden>"
-        f"{''.join(answers)}<unitgradingtype>0</unitgradingtype><unitpenalty>0.1</unitpenalty>"
-        "<showunits>3</showunits><unitsleft>0</unitsleft></question>\n"
-    )
-
-
-def _asks(one: AskedNumber) -> str:
-    return f"<p>{one.html} = ? ({escape(one.unit)})</p>"
-
-
-def _answer(fraction: int, value: float, tolerance: float, words: str) -> str:
-    feedback = f'<feedback format="html"><text>{_cdata(escape(words)) if words else ""}</text></feedback>'
-    return (
-        f'<answer fraction="{fraction}" format="moodle_auto_format"><text>{value:.10g}</text>'
-        f"<tolerance>{tolerance:.3g}</tolerance>{feedback}</answer>"
-    )
-
-
-def _cloze(question: Question) -> str:
-    rows = "".join(f"<p>{one.html} = {_cloze_field(one)} {escape(one.unit)}</p>" for one in question.asked)
-    return (
-        f'<question type="cloze">{_named(question.title)}{_question_text(question, rows)}'
-        "<penalty>0.3333333</penalty><hidden>0</hidden></question>\n"
-    )
+def _cdata(text: str) -> Markup:
+    """HTML inside XML."""
+    return Markup("<![CDATA[" + str(text).replace("]]>", "]]]]><![CDATA[>") + "]]>")
 
 
 def _cloze_field(one: AskedNumber) -> str:
-    answers = [f"={one.value:.10g}:{one.tolerance:.3g}"]
-    answers += [f"%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_cloze_words(slip.words)}" for slip in one.slips]
+    answers = (
+        f"%{share}%{value}:{tolerance}#{_cloze_words(words)}" if words else f"={value}:{tolerance}"
+        for share, value, tolerance, words in one.answers
+    )
     return "{1:NUMERICAL:" + "~".join(answers) + "}"
 
 
@@ -254,11 +230,8 @@ def gift(question: Question) -> str:
     made = []
     for one in question.asked:
         title = _gift_words(f"{question.title}: {one.plain}")
-        ask = _gift_words(_body(question, figure, _asks(one)))
-        answers = [f"=%100%{one.value:.10g}:{one.tolerance:.3g}#"]
-        answers += [
-            f"=%0%{slip.value:.10g}:{one.tolerance / 2:.3g}#{_gift_words(escape(slip.words))}" for slip in one.slips
-        ]
+        ask = _gift_words(_body(question, figure, [one]))
+        answers = [f"=%{share}%{v}:{within}#{_gift_words(escape(words))}" for share, v, within, words in one.answers]
         made.append(f"::{title}::[html]{ask} {{#\n" + "\n".join(answers) + "\n}\n")
     return "\n".join(made)
 
@@ -272,7 +245,11 @@ def _gift_words(words: str) -> str:
 
 def prairielearn(question: Question) -> dict[str, bytes]:
     """The files of a question's folder by name."""
-    right = {_variable(one.symbol): float(f"{one.value:.10g}") for one in question.asked}
+    right, slips = {}, {}
+    for one in question.asked:
+        (_, value, _, _), *others = one.answers
+        right[_variable(one)] = float(value)
+        slips[_variable(one)] = [[float(value), float(tolerance), words] for _, value, tolerance, words in others]
     info = {
         "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"graphkin/{question.name}/{question.title}/{right}")),
         "title": question.title,
@@ -280,49 +257,13 @@ def prairielearn(question: Question) -> dict[str, bytes]:
         "tags": ["graphical"],
         "type": "v3",
     }
-    rows = [
-        f'<p>{one.html} <pl-number-input answers-name="{_variable(one.symbol)}" comparison="relabs" rtol="0" '
-        f'atol="{one.tolerance:.3g}" label="=" suffix="{escape(one.unit)}"></pl-number-input></p>'
-        for one in question.asked
-    ]
-    page = (
-        f"<pl-question-panel>\n{question.html}\n<pl-figure file-name=\"{PICTURE}\" alt=\"{_quoted(question.seen)}\">"
-        "</pl-figure>\n"
-        f"<p>{escape(question.sign_rule)}</p>\n</pl-question-panel>\n" + "\n".join(rows) + "\n"
-    )
-    slips = {
-        _variable(one.symbol): [
-            [float(f"{slip.value:.10g}"), float(f"{one.tolerance / 2:.3g}"), slip.words] for slip in one.slips
-        ]
-        for one in question.asked
-    }
     return {
         "info.json": (json.dumps(info, ensure_ascii=False, indent=2) + "\n").encode(),
-        "question.html": page.encode(),
-        "server.py": _SERVER.format(right=repr(right), slips=repr(slips)).encode(),
+        "question.html": rendered("prairielearn.html", question=question, variable=_variable, PICTURE=PICTURE).encode(),
+        "server.py": rendered("prairielearn.py.txt", right=repr(right), slips=repr(slips)).encode(),
         f"clientFilesQuestion/{PICTURE}": question.picture,
     }
 
 
-def _variable(symbol: str) -> str:
-    return _NOTHING.sub("_", symbol).strip("_")
-
-
-_SERVER = '''RIGHT = {right}
-SLIPS = {slips}
-
-
-def generate(data):
-    data["correct_answers"].update(RIGHT)
-
-
-def grade(data):
-    for name, known in SLIPS.items():
-        given = data["submitted_answers"].get(name)
-        if not isinstance(given, (int, float)) or data["partial_scores"].get(name, {{}}).get("score"):
-            continue
-        for value, tolerance, words in known:
-            if abs(given - value) <= tolerance:
-                data["partial_scores"].setdefault(name, {{}})["feedback"] = words
-                break
-'''
+def _variable(one: AskedNumber) -> str:
+    return _NOTHING.sub("_", one.symbol).strip("_")

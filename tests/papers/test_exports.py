@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import html
 import json
 import re
 import runpy
@@ -185,3 +186,23 @@ def test_an_unknown_platform_is_told_by_name():
 def test_what_is_no_list_of_platforms_is_refused_by_name(exports):
     with pytest.raises(graphkin.CallError, match="give a list: moodle"):
         graphkin.handout(SCENE, exports=exports)
+
+
+def test_signs_of_markup_in_a_question_are_read_back_as_they_are(made):
+    from dataclasses import replace
+
+    from graphkin.papers.exports import KnownSlip, bank, files_for
+
+    words = 'a < b & "c" ]]> {#~}'
+    one = replace(made.question.asked[0], slips=(KnownSlip(1e9, words),))
+    hostile = replace(made.question, title=words, seen=words, asked=(one,))
+    files = bank(words, [files_for(hostile, PLATFORMS)] * 2)
+    category, cloze, numerical, *more = ElementTree.fromstring(files["moodle.xml"])
+    assert ["cloze", "numerical"] == [question.get("type") for question in more]
+    assert f"$course$/top/{words}" == category.find("category/text").text
+    assert words == cloze.find("name/text").text
+    feedback = numerical.findall("answer")[1].find("feedback/text").text
+    assert words == html.unescape(feedback) != feedback
+    page = files_for(hostile, PLATFORMS)[f"prairielearn/{SCENE}/question.html"].decode()
+    texts = numerical.find("questiontext/text").text, page
+    assert [words, words] == [html.unescape(re.search(r'alt="([^"]*)"', text)[1]) for text in texts]
