@@ -6,9 +6,12 @@ Text for the terminal, the notebook and the tests is made here and nowhere else.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
+
+from graphkin.words import Phrase, Wording, say, word
 
 __all__ = [
     "CallError", "Disagreement", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list",
@@ -31,20 +34,26 @@ class Problem:
     wanted : what would be right, as a clause; empty where ``found`` says it all
     """
 
-    where: str
-    found: str
-    wanted: str = ""
+    where: Wording
+    found: Wording
+    wanted: Wording = ""
 
     def __str__(self) -> str:
         return self.text()
 
-    def text(self, said: Callable[[str], str] = str, colon: str = ": ", semicolon: str = "; ") -> str:
-        """The problem in a sentence; ``said`` puts each part of it into another language."""
-        where, found = said(self.where), said(self.found)
-        text = printable(f"{_shortened(where)}{colon}{_shortened(found)}")
+    @property
+    def sentence(self) -> Phrase:
+        """The problem as a sentence to be."""
+        sentence = Phrase("where and what", where=self.where, found=self.found)
+        return Phrase("and what is wanted", text=sentence, wanted=self.wanted) if self.wanted else sentence
+
+    def text(self, language: str = "en") -> str:
+        """The problem in a sentence of a language."""
+        where, found = (printable(_shortened(say(part, language))) for part in (self.where, self.found))
         # what would be right may be several lines, to be pasted
-        wanted = "\n".join(printable(said(line)) for line in _shortened(self.wanted).split("\n"))
-        return f"{text}{semicolon}{wanted}" if wanted else text
+        wanted = "\n".join(map(printable, _shortened(say(self.wanted, language)).split("\n")))
+        text = word("where and what", language).format(where=where, found=found)
+        return word("and what is wanted", language).format(text=text, wanted=wanted) if wanted else text
 
 
 def _shortened(text: str) -> str:
@@ -61,6 +70,10 @@ class GraphkinError(Exception):
     def __init__(self, *problems: Problem) -> None:
         self.problems = problems
         super().__init__("\n".join(str(p) for p in problems))
+
+    def text(self, language: str = "en") -> str:
+        """What is wrong, a line for each problem, in a language."""
+        return "\n".join(p.text(language) for p in self.problems)
 
     def __reduce__(self) -> tuple[type[GraphkinError], tuple[Problem, ...]]:
         return type(self), self.problems
@@ -91,8 +104,14 @@ class Unsolvable(GraphkinError):
 
     @property
     def why(self) -> str:
-        """The reason in one line."""
-        return " ".join(str(p) for p in self.problems)
+        """The reason in one line, in English."""
+        return str(self.reason)
+
+    @property
+    def reason(self) -> Wording:
+        """The reason, to be said in one line of any language."""
+        sentences = (problem.sentence for problem in self.problems)
+        return reduce(lambda one, other: Phrase("one sentence and another", first=one, second=other), sentences)
 
 
 class Disagreement(GraphkinError):
@@ -127,11 +146,11 @@ def as_text(where: str, value: object) -> str:
     '2'
     """
     if not isinstance(value, str) and not type(value).__module__.startswith("graphkin."):  # a symbol
-        raise CallError(Problem(where, f"found {value!r:.60}", "give a name as a text"))
+        raise CallError(Problem(where, Phrase("found value", value=f'{value!r:.60}'), Phrase("give a name as a text")))
     return str(value)
 
 
-def as_list(where: str, value: object, wanted: str) -> list[Any]:
+def as_list(where: str, value: object, wanted: Wording) -> list[Any]:
     """What a caller gives one after the other; a text stands for itself alone.  Raises CallError for what is no list.
 
     >>> as_list("find", ("v_B", "v_C"), "give symbols"), as_list("find", "v_B", "give symbols")
@@ -140,24 +159,24 @@ def as_list(where: str, value: object, wanted: str) -> list[Any]:
     try:
         return [value] if isinstance(value, str) else list(value)  # type: ignore[call-overload]
     except TypeError:
-        raise CallError(Problem(where, f"found {value!r:.60}", wanted)) from None
+        raise CallError(Problem(where, Phrase("found value", value=f'{value!r:.60}'), wanted)) from None
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
+def did_you_mean(name: str, known: Iterable[str]) -> Phrase:
     """Return a clause that names the known words, the nearest first if one is near.
 
-    >>> did_you_mean("lenght", ["length", "points"])
-    'did you mean "length"?'
-    >>> did_you_mean("Q", ["A", "B"])
-    'known here: A, B'
+    >>> print(did_you_mean("lenght", ["length", "points"]))
+    did you mean "length"?
+    >>> print(did_you_mean("Q", ["A", "B"]))
+    known here: A, B
     """
     names = sorted(set(known))
     from difflib import get_close_matches  # of a slip only
 
-    near = get_close_matches(word, names, n=1, cutoff=0.6)
+    near = get_close_matches(name, names, n=1, cutoff=0.6)
     if not near:
-        near = [n for n in names if n.lower() == word.lower()]
+        near = [n for n in names if n.lower() == name.lower()]
     if near:
-        return f'did you mean "{near[0]}"?'
+        return Phrase("did you mean", name=near[0])
     shown = ", ".join(names[:12]) + (", ..." if len(names) > 12 else "")
-    return f"known here: {shown}" if names else "there is none here"
+    return Phrase("known here", names=shown) if names else Phrase("there is none here")

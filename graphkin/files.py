@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import IO, Any
 
 from graphkin.errors import CallError, Problem
+from graphkin.words import Phrase
 
 __all__ = ["Json", "OwnTables", "Tables", "folder_alone", "opened", "path_of", "whole_file"]
 
@@ -34,7 +35,9 @@ def path_of(place: str | os.PathLike[str]) -> Path:
         os.fsencode(place)  # half a pair of UTF-16 is in no name
         path = os.fspath(place)
     if not isinstance(path, str) or "\0" in path:
-        raise CallError(Problem("path", f"found {place!r:.60}", "give the name of a file or folder as a text"))
+        raise CallError(
+            Problem("path", Phrase("found value", value=f"{place!r:.60}"), Phrase("give the name of a file or folder"))
+        )
     return Path(path)
 
 
@@ -49,7 +52,7 @@ def opened(path: str | os.PathLike[str]) -> IO[bytes]:
     """
     mode = os.stat(path).st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode) or _HANDED_OVER.fullmatch(os.fspath(path))):
-        raise OSError(errno.EINVAL, "it is a pipe or a device, no file")
+        raise OSError(errno.EINVAL, Phrase("it is a pipe or a device no"))
     return open(path, "rb")
 
 
@@ -89,8 +92,8 @@ def folder_alone(folder: Path) -> Iterator[None]:
         who = ""
         with suppress(OSError):
             who = path.read_text(encoding="utf-8").strip()
-        found = f"another graphkin is writing into it{f' ({who})' if who else ''}"
-        raise CallError(Problem(str(folder), found, "wait until it has done, or give another folder with -o"))
+        found = Phrase("another graphkin is writing into it", by=f' ({who})' if who else '')
+        raise CallError(Problem(str(folder), found, Phrase("wait until it has done or give another")))
     try:
         import platform
 

@@ -30,6 +30,7 @@ from typing import IO, TYPE_CHECKING, Any, Generic, ParamSpec, TypeVar
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json, Tables, whole_file
 from graphkin.version import __version__
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -54,7 +55,7 @@ AHEAD = 4
 """Pieces given out for each worker, so that memory stays bounded and none waits."""
 MOST_LOSSES = 5
 """Times that a piece is given out again after its worker was lost."""
-LOST = Problem("the workers", "are lost again and again", "run with --workers 1")
+LOST = Problem(Phrase("the workers"), Phrase("are lost again and again"), Phrase("run with workers 1"))
 RENEWED = 600
 """Pieces after which processes of one's own are replaced by fresh ones, so that what libraries keep of each (Typst its
 words, for one) does not add up."""
@@ -350,13 +351,17 @@ def cluster(address: str) -> Executor:
         from distributed import Client
     except ImportError:
         raise CallError(
-            Problem("--scheduler", "Dask is not installed", 'install it with pip install "graphkin[cluster]"')
+            Problem(
+                "--scheduler", Phrase("dask is not installed"), Phrase("install it with pip install graphkin cluster")
+            )
         ) from None
     try:
         client = Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise CallError(
-            Problem(f"--scheduler {address}", f"no Dask scheduler answers: {error}", "give tcp://HOST:8786")
+            Problem(
+                f"--scheduler {address}", Phrase("no dask scheduler answers", error=error), Phrase("give tcp host 8786")
+            )
         ) from None
     return _Cluster(client)
 

@@ -10,6 +10,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 
 import pytest
+from graphkin.words.refused import clauses, refused
 
 import graphkin
 from graphkin.api.report_text import report_text
@@ -18,7 +19,6 @@ from graphkin.scene import reading
 from graphkin.scene.design_file import KINDS
 from graphkin.scene.file_table import keys_of
 from graphkin.scene.source import library_text
-from graphkin.words.refused import clauses, refused
 from tests.command import run
 
 ROOMS = Path(graphkin.__file__).parent

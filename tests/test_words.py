@@ -30,7 +30,7 @@ def words(language: str) -> dict[str, str]:
 
 
 def gaps(text: str) -> set[str]:
-    return set(re.findall(r"(?<!\{)\{(\d)\}", text.replace("{{{", "{")))
+    return set(re.findall(r"(?<!\{)\{(\w+)\}", text.replace("{{{", "{")))
 
 
 @pytest.mark.parametrize("language", LANGUAGES[1:])

@@ -19,7 +19,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed, Unreadable
 from graphkin.scene.spelling import Spelling, plain_text, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording, from_others
 
 __all__ = ["Answers", "AnswersLike", "Unread", "as_answers", "table_of", "with_points"]
 
@@ -100,8 +100,8 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     if isinstance(given, Mapping):
         strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
         if strange:
-            found = f"found {given[strange[0]]!r:.60}"
-            raise CallError(Problem(f"answers of {strange[0]}", found, 'give {"v_D": 480}'))
+            found = Phrase("found value", value=f'{given[strange[0]]!r:.60}')
+            raise CallError(Problem(Phrase("answers of", name=strange[0]), found, Phrase("give v_d 480")))
         heads = list(dict.fromkeys(s for values in given.values() for s in values))
         rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
         # who says nothing of a quantity was not asked for it
@@ -121,9 +121,13 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise CallError(Problem(shown, f"cannot be read: {reason}", "name a CSV file")) from None
+        raise CallError(
+            Problem(shown, Phrase("cannot be read", reason=from_others(reason)), Phrase("name a csv file"))
+        ) from None
     if len(data) > LARGEST:
-        raise CallError(Problem(shown, f"is larger than {LARGEST // 1_000_000} MB", "give fewer rows"))
+        raise CallError(
+            Problem(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
+        )
     text = ""
     for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
         try:
@@ -137,9 +141,9 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
     except csv.Error as error:
-        raise CallError(Problem(shown, f"is no table: {error}", "save it as CSV")) from None
+        raise CallError(Problem(shown, Phrase("is no table", error=error), Phrase("save it as csv"))) from None
     if len(lines) < 2:
-        raise CallError(Problem(shown, "has no rows", "write a line of heads, and a line for each row"))
+        raise CallError(Problem(shown, Phrase("has no rows"), Phrase("write a line of heads and a line")))
     return Rows(lines[0][1], tuple(lines[1:]), sign)
 
 
@@ -189,16 +193,24 @@ def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[P
             continue
         if symbol is None:
             if _QUANTITY.match(text):
-                problems += _unknown(scene, text, f"{name}, column {head}")
+                problems += _unknown(scene, text, Phrase("column", name=name, head=head))
             elif head:
                 others.append(i)
             continue
-        problems += _unknown(scene, str(symbol), f"{name}, column {head}")
+        problems += _unknown(scene, str(symbol), Phrase("column", name=name, head=head))
         if unit and unit_factor(unit, symbol, scene.units) is None:
-            wanted = f"give it in {symbol.unit(scene.units).text}"
-            problems.append(Problem(f"{name}, column {head}", f"{unit} is no unit of {symbol.measure}", wanted))
+            wanted = Phrase("give it in", unit=symbol.unit(scene.units).text)
+            problems.append(
+                Problem(
+                    Phrase("column", name=name, head=head),
+                    Phrase("is no unit of", unit=unit, measure=symbol.measure),
+                    wanted,
+                )
+            )
         if symbol in values.values():
-            problems.append(Problem(f"{name}, column {head}", "stands twice", "keep one of them"))
+            problems.append(
+                Problem(Phrase("column", name=name, head=head), Phrase("stands twice"), Phrase("keep one of them"))
+            )
         values[i], units[i] = symbol, unit
     if "person" not in roles and others:
         roles["person"] = others.pop(0)
@@ -212,7 +224,7 @@ def _role(head: str) -> Role | None:
     return next((role for role, names in _OTHER_COLUMNS.items() if plain in names), None)
 
 
-def _unknown(scene: Mechanism, text: str, where: str) -> list[Problem]:
+def _unknown(scene: Mechanism, text: str, where: Wording) -> list[Problem]:
     try:
         asked_symbols(scene, [text])
     except CallError as error:
@@ -226,8 +238,8 @@ def _answers(
     problems: list[Problem] = []
     columns = _columns(scene, sheet.heads, name, problems)
     if not columns.values and not problems:
-        known = "write symbols as heads, for example v_D or omega_3"
-        problems.append(Problem(name, f"no column is a quantity: {', '.join(sheet.heads)[:200]}", known))
+        known = Phrase("write symbols as heads for example v_d or")
+        problems.append(Problem(name, Phrase("no column is a quantity", names=', '.join(sheet.heads)[:200]), known))
     places = [own for _, cells in sheet.rows if (own := columns.cell("at", cells))]
     # numbers are driver values, unless all of them are names of positions
     by_name = scene.positions is not None and bool(places) and set(places) <= set(scene.positions.names)
@@ -239,7 +251,9 @@ def _answers(
             try:
                 at = text if by_name else _plain_number(text, sheet.sign)
             except ValueError:
-                problems.append(Problem(f"{name}, line {line}, at", f'"{text[:40]}" is no driver value'))
+                problems.append(
+                    Problem(Phrase("line at", name=name, line=line), Phrase("is no driver value", text=text[:40]))
+                )
         found.append(_row(scene, sheet, columns, line, cells, at, silent.get(line, frozenset())))
     if problems:
         raise CallError(*problems[:50])
@@ -278,7 +292,7 @@ def _row(
     person = columns.cell("person", cells)
     marks = {role: _mark(columns.cell(role, cells)) for role in ("equations", "drawing") if role in columns.roles}
     return Answers(
-        person or ("" if at is not None else f"line {line}"), at, tuple(values), unread=tuple(unread),
+        person or ("" if at is not None else str(Phrase("line", line=line))), at, tuple(values), unread=tuple(unread),
         variant=columns.cell("variant", cells), id=columns.cell("id", cells) if "id" in columns.roles else "",
         marks={role: mark for role, mark in marks.items() if mark is not None}, order=tuple(columns.values.values()),
     )  # fmt: skip

@@ -22,7 +22,7 @@ from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import BOTH, LANGUAGES, Phrase
+from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
 
 if TYPE_CHECKING:
     from graphkin.study.sweep_quantities import SweepQuantity
@@ -77,8 +77,8 @@ def known_words(
     CallError : every unknown word, with the nearest right one or all there are; no format at all
     """
     if isinstance(formats, str):
-        raise CallError(Problem("format", f'"{formats}" is a text', f'give a list: ["{formats}"]'))
-    formats = as_list("format", formats, f"give a list: {', '.join(known_formats)}")
+        raise CallError(Problem("format", Phrase("is a text", formats=formats), Phrase("give a list", formats=formats)))
+    formats = as_list("format", formats, Phrase("give a list of", names=", ".join(known_formats)))
     wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
     wishes += [
         (where, word, known)
@@ -96,9 +96,9 @@ def known_words(
         if not isinstance(w, str) or w not in known
     ]
     if not formats:
-        wrong.append(Problem("format", "none given", f"known here: {', '.join(known_formats)}"))
+        wrong.append(Problem("format", Phrase("none given"), Phrase("known here", names=', '.join(known_formats))))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
-        wrong.append(Problem("format", '"dxf"', 'it needs the extra cad: pip install "graphkin[cad]"'))
+        wrong.append(Problem("format", '"dxf"', Phrase("it needs the extra cad pip install graphkin")))
     if wrong:
         raise CallError(*wrong)
 
@@ -108,8 +108,8 @@ def whole_number(where: str, value: object, least: int, most: int, what: str = "
     number = isinstance(value, Real) and not isinstance(value, bool)
     if number and isinstance(value, Integral) and least <= int(value) <= most:
         return int(value)
-    found = f"{value}{what}" if number else f"found {value!r:.60}"
-    raise CallError(Problem(where, found, f"give a whole number from {least} to {most}"))
+    found = f"{value}{what}" if number else Phrase("found value", value=f'{value!r:.60}')
+    raise CallError(Problem(where, found, Phrase("give a whole number from to", least=least, most=most)))
 
 
 At = float | str | Mapping[str, float] | None
@@ -122,7 +122,9 @@ MOST_SEED = 10**18
 def require_callable(where: str, function: object) -> None:
     """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
     if function is not None and not callable(function):
-        raise CallError(Problem(where, f"found {function!r:.60}", "give a function, or leave it out"))
+        raise CallError(
+            Problem(where, Phrase("found value", value=f"{function!r:.60}"), Phrase("give a function or leave it out"))
+        )
 
 
 def as_scene(scene: SceneLike) -> Mechanism:
@@ -155,8 +157,10 @@ def for_paper(scene: SceneLike, asked: Sequence[Symbol] = ()) -> Mechanism:
         bearings = {name: z for name, z in given.frame.points.items() if name in ends}
         given = replace(given, frame=replace(given.frame, points=bearings))
     if len(given.links) > MOST_DRAWN:
-        wanted = f"a sheet shows at most {MOST_DRAWN}: with `find` only what leads to the named quantities is drawn"
-        raise CallError(Problem("links", f"{len(given.links)} moving links are too many for a figure", wanted))
+        wanted = Phrase("a sheet shows at most with find only", most=MOST_DRAWN)
+        raise CallError(
+            Problem("links", Phrase("moving links are too many for a figure", count=len(given.links)), wanted)
+        )
     return given
 
 
@@ -173,19 +177,19 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
     if at is None:
         return None
     if not scene.drivers:
-        raise CallError(Problem("at", "the scene has no driver", "give one in the file"))
+        raise CallError(Problem("at", Phrase("the scene has no driver"), Phrase("give one in the file")))
     if isinstance(at, str):
         if scene.positions is None:
-            wanted = f"give a value of driver {scene.drivers[0].key}: --at 75, or at=75"
-            raise CallError(Problem(f'position "{at:.40}"', "the scene has no [positions] table", wanted))
+            wanted = Phrase("give a value of driver at 75 or", key=scene.drivers[0].key)
+            raise CallError(Problem(f'position "{at:.40}"', Phrase("the scene has no positions table"), wanted))
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     values: dict[str, float] = {}
     for name, value in given.items():
         driver = _driver(scene, str(name))
         if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
-            said = f"{value!r:.60} is no driver value"
-            raise CallError(Problem(f"at {name}", said, "give a finite number below 1e9"))
+            said = Phrase("is no driver value of value", value=f'{value!r:.60}')
+            raise CallError(Problem(f"at {name}", said, Phrase("give a finite number below 1e9")))
         values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
     return values
 
@@ -205,10 +209,12 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         return scene, driver_values(scene, at)
     if isinstance(at, Mapping) and TIME in at and all(d.key != TIME for d in scene.drivers):
         if len(at) > 1:
-            raise CallError(Problem(f"at {TIME}", "stands beside driver values", "give the time, or values"))
+            raise CallError(
+                Problem(f"at {TIME}", Phrase("stands beside driver values"), Phrase("give the time or values"))
+            )
         time = at[TIME]
         if not isinstance(time, Real) or not math.isfinite(time):
-            raise CallError(Problem(f"at {TIME}", f"{time!r} is no time", "give seconds"))
+            raise CallError(Problem(f"at {TIME}", Phrase("is no time", time=f'{time!r}'), Phrase("give seconds")))
         from graphkin.scene.over_time import at_time
 
         return at_time(scene, float(time))
@@ -220,8 +226,10 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
             moment = law.reached(value)
             if moment is None:
                 low, high = (scene.unit_of(driver).said(end) for end in law.span)
-                found = f"{scene.unit_of(driver).said(value)} is not on its way"
-                raise CallError(Problem(f"at {driver.key}", found, f"its law goes from {low} to {high}"))
+                found = Phrase("is not on its way", value=scene.unit_of(driver).said(value))
+                raise CallError(
+                    Problem(f"at {driver.key}", found, Phrase("its law goes from to", least=low, greatest=high))
+                )
             driver = driver.moving(replace(law, time=moment))
         drivers.append(driver)
     return replace(scene, drivers=tuple(drivers)), values
@@ -239,8 +247,8 @@ def value_at(scene: Mechanism, name: str) -> float:
 
     known = scene.positions.names if scene.positions else ()
     if name not in known:
-        wanted = did_you_mean(name, known) if known else "name positions in [positions]"
-        raise CallError(Problem(f"position {name}", "there is no position of that name", wanted))
+        wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
+        raise CallError(Problem(Phrase("position", name=name), Phrase("there is no position of that name"), wanted))
     places = named_positions(scene)
     assert places is not None
     return places.values[name]
@@ -250,7 +258,9 @@ def _driver(scene: Mechanism, name: str) -> AnyDriver:
     for driver in scene.drivers:
         if name == driver.key or name == driver.key.split("/")[0]:
             return driver
-    raise CallError(Problem(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers])))
+    raise CallError(
+        Problem(f"at {name}", Phrase("no driver of that name"), did_you_mean(name, [d.key for d in scene.drivers]))
+    )
 
 
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
@@ -273,16 +283,16 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     if find is None:
         return scene.find
     found, problems = [], []
-    for text in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):
+    for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         try:
             symbol = text if isinstance(text, Symbol) else Symbol.parse(str(text))
         except ValueError as error:
-            problems.append(Problem("find", str(error)))
+            problems.append(Problem("find", error.args[0]))
             continue
         known = scene.positions.names if scene.positions else ()
         if symbol.at and symbol.at not in known:
-            wanted = did_you_mean(symbol.at, known) if known else "name positions in [positions]"
-            problems.append(Problem(f"find {symbol}", f'there is no position "{symbol.at}"', wanted))
+            wanted = did_you_mean(symbol.at, known) if known else Phrase("name positions in positions")
+            problems.append(Problem(f"find {symbol}", Phrase("there is no position", at=symbol.at), wanted))
         problems += _unknown_names(scene, symbol)
         found.append(symbol)
     if problems:
@@ -301,7 +311,7 @@ def quantity_shown(scene: Mechanism, name: str) -> SweepQuantity:
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
     def missing(what: str, known: Collection[str]) -> Callable[[str], Problem | None]:
         def problem(name: str) -> Problem | None:
-            found = f'there is no {what} "{name}"'
+            found = Phrase("there is no", what=what, name=name)
             return None if name in known else Problem(f"find {symbol}", found, did_you_mean(name, known))
 
         return problem
@@ -338,6 +348,10 @@ def write_files(folder: Path, files: Mapping[str, bytes | Iterable[bytes]]) -> l
                 for piece in [content] if isinstance(content, bytes) else content:
                     out.write(piece)
     except OSError as error:
-        where = Problem(str(folder), f"cannot be written: {error.strerror}", "give another folder with -o")
+        where = Problem(
+            str(folder),
+            Phrase("cannot be written", reason=from_others(error.strerror or str(error))),
+            Phrase("give another folder with o"),
+        )
         raise CallError(where) from None
     return [folder / name for name in files]

@@ -142,7 +142,7 @@ class Audited(Result, OfScene):
         found = tuple(j for j in judged if str(j.printed.symbol) == name)
         if not found:
             known = [str(j.printed.symbol) for j in judged]
-            raise CallError(Problem(f'"{name}"', "no value of this name", did_you_mean(str(name), known)))
+            raise CallError(Problem(f'"{name}"', Phrase("no value of this name"), did_you_mean(str(name), known)))
         return tuple(JudgedValue.of(self.mechanism, one, self.language) for one in found)
 
     @cached_property
@@ -254,7 +254,9 @@ def audit(
     known_words(language=language)
     if answers is None and not given.stated and not given.scans:
         raise CallError(
-            Problem("printed", "the scene has no printed values", "write them in [printed], or give answers as CSV")
+            Problem(
+                "printed", Phrase("the scene has no printed values"), Phrase("write them in printed or give answers as")
+            )
         )
     scans = _scanned(given, at) if given.scans and answers is None else ()
     scheme = scheme_of(given, grading)
@@ -304,8 +306,8 @@ def _problems(
     if not named:
         return {"": scene}
     if variants is None:
-        raise CallError(Problem("variant", f"the answers name variants ({', '.join(named)[:80]})",
-                                "give the folder of the problem set: --variants DIR"))  # fmt: skip
+        raise CallError(Problem("variant", Phrase("the answers name variants", named=', '.join(named)[:80]),
+                                Phrase("give the folder of the problem set variants")))  # fmt: skip
     found: dict[str, SceneLike] = {}
     if isinstance(variants, Mapping):
         found = {str(name): one for name, one in variants.items()}
@@ -318,7 +320,9 @@ def _problems(
     for name in named:
         key = name if name in found else plain.get(name.lstrip("0") or "0")
         if key is None:
-            problems.append(Problem(f"variant {name}", "is not in the set", did_you_mean(name, found)))
+            problems.append(
+                Problem(Phrase("variant of name", name=name), Phrase("is not in the set"), did_you_mean(name, found))
+            )
         else:
             made[name] = made[key]
     if problems:

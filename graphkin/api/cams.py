@@ -377,12 +377,18 @@ def cam(
 
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:
-        raise CallError(Problem("step", f"found {step!r:.40}", f"degrees from {FINEST:g} to {COARSEST:g}"))
+        raise CallError(
+            Problem(
+                "step",
+                Phrase("found value", value=f"{step!r:.40}"),
+                Phrase("degrees from to", finest=f"{FINEST:g}", coarsest=f"{COARSEST:g}"),
+            )
+        )
     given = for_paper(scene)
     discs = disc_cams(structure_of(given))
     if not given.cams and not discs:
-        wanted = "a cam is told by its law in [cams.LINK], or is a disc that the driver turns under a follower"
-        raise CallError(Problem(given.name or "scene", "has no cam", wanted))
+        wanted = Phrase("a cam is told by its law in")
+        raise CallError(Problem(given.name or "scene", Phrase("has no cam"), wanted))
     made = Cams(given, cam_made(given), discs, float(step), language)
     if out is not None:
         made.write(out, formats)

@@ -268,7 +268,9 @@ class Centred(Result, OfScene):
         taken = {str(v.symbol): v for v in self.velocities}
         if found is None and name not in taken:
             known = [_name(pair) for pair in self.centres.table] + list(taken)
-            raise CallError(Problem(f'"{name}"', "no centre or velocity of this name", did_you_mean(name, known)))
+            raise CallError(
+                Problem(f'"{name}"', Phrase("no centre or velocity of this name"), did_you_mean(name, known))
+            )
         if found is None:
             return SpeedByCentres.of(self.mechanism, taken[name])
         where = self.where(found)

@@ -33,7 +33,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import say
+from graphkin.words import Phrase, listed, say
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Advice
@@ -101,7 +101,7 @@ class Checked(Result, OfScene):
         name = as_text("name", name)
         rows = {str(row.symbol): row for row in self.report.rows}
         if name not in rows:
-            raise CallError(Problem(f'"{name}"', "no reading of this name", did_you_mean(str(name), rows)))
+            raise CallError(Problem(f'"{name}"', Phrase("no reading of this name"), did_you_mean(str(name), rows)))
         return ReadValue.of(self.mechanism, rows[name])
 
     @cached_property
@@ -342,7 +342,13 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     """The instrument of a name.  Raises CallError for another name."""
     if not isinstance(name, str):
-        raise CallError(Problem("instrument", f"found {name!r:.60}", f"known here: {', '.join(INSTRUMENTS)}"))
+        raise CallError(
+            Problem(
+                "instrument",
+                Phrase("found value", value=f"{name!r:.60}"),
+                Phrase("known here", names=", ".join(INSTRUMENTS)),
+            )
+        )
     if name == "exact":
         return EXACT
     if name == "cad":
@@ -369,8 +375,11 @@ def solved_here(
         values = {k: v for k, v in values.items() if k in kept} if values else values
     motion = solver.solve(structure, at=values)
     if motion.status[0] != "ok":
-        driver = ", ".join(
-            f"{d.key} at {scene.unit_of(d).said((values or {}).get(d.key, d.values[0]))}" for d in scene.drivers
+        drivers = [
+            Phrase("driver at value", driver=d.key, value=scene.unit_of(d).said((values or {}).get(d.key, d.values[0])))
+            for d in scene.drivers
+        ]
+        raise Unsolvable(
+            str(motion.status[0]), Problem(Phrase("driver of driver", driver=listed(drivers)), motion.said(0))
         )
-        raise Unsolvable(str(motion.status[0]), Problem(f"driver {driver}", f"{motion.status[0]}: {motion.why[0]}"))
     return motion

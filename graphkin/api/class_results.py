@@ -49,8 +49,8 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     """
     weights = given if given is not None else scene.grading
     if not isinstance(weights, Mapping):
-        wanted = 'give points by parts and symbols: {"drawing": 30, "v_D": 5}'
-        raise CallError(Problem("grading", f"found {weights!r:.60}", wanted))
+        wanted = Phrase("give points by parts and symbols drawing 30")
+        raise CallError(Problem("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted))
     if not weights:
         return None
     spelling = Spelling.of(scene)
@@ -60,14 +60,18 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     for name, weight in weights.items():
         symbol = spelling.symbol(str(name))
         if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
-            problems.append(Problem(f"grading {name}", f"found {weight!r:.40}", "give points, 0 or more"))
+            problems.append(
+                Problem(
+                    f"grading {name}", Phrase("found value", value=f"{weight!r:.40}"), Phrase("give points 0 or more")
+                )
+            )
         elif name in PARTS:
             parts[name] = float(weight)
         elif symbol is not None:
             symbols[symbol] = float(weight)
         else:
-            problems.append(Problem(f"grading {name}", "is no part and no quantity of the scene",
-                                    f"{', '.join(PARTS)}, or a symbol such as v_D"))  # fmt: skip
+            problems.append(Problem(f"grading {name}", Phrase("is no part and no quantity of the"),
+                                    Phrase("or a symbol such as v_d", names=', '.join(PARTS))))  # fmt: skip
     if problems:
         raise CallError(*problems)
     return Scheme(parts, symbols)

@@ -18,6 +18,7 @@ from graphkin.scene.mapping import toml_text
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.written import Scene, safe_name
 from graphkin.table import Table
+from graphkin.words import Phrase
 
 __all__ = ["Converted", "convert"]
 
@@ -114,7 +115,9 @@ def convert(source: SceneLike, out: str | os.PathLike[str] | None = None, lossy:
 def _all_kept(bodies: Bodies, lossy: bool) -> None:
     """Raises CallError naming what moves, drives or loads and would be lost."""
     if bodies.lost and not lossy:
-        raise CallError(*(Problem(t, "would be lost", "with --lossy (lossy=True) it is left out") for t in bodies.lost))
+        raise CallError(
+            *(Problem(t, Phrase("would be lost"), Phrase("with lossy lossy true it is left out")) for t in bodies.lost)
+        )
 
 
 def _is_file(path: str) -> bool:

@@ -136,11 +136,11 @@ def course_design(
     given = for_paper(scene)
     asked_symbols(given, find)
     if students is not None and at is not None:
-        raise CallError(Problem("at", "beside students", "write each position into the table of the students"))
+        raise CallError(Problem("at", Phrase("beside students"), Phrase("write each position into the table of the")))
     count = 12 if positions is None else whole_number("positions", positions, 2, 72)
     spoken, letters = language or given.sheet.language, convention or given.sheet.convention
     if rows is not None and variants is not None:
-        raise CallError(Problem("variants", "beside rows", "give one of them"))
+        raise CallError(Problem("variants", Phrase("beside rows"), Phrase("give one of them")))
     sources: Mapping[str, SceneLike] = {"": scene}
     data: tuple[tuple[str, ...], ...] = ()
     if rows is not None:

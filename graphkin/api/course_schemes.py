@@ -22,6 +22,7 @@ from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
+from graphkin.words import Phrase
 
 __all__ = ["Scheme", "asked_in_tables", "dealt_out", "read_at", "scheme_name", "scheme_of"]
 
@@ -105,36 +106,45 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         if head.strip().lower() in names
     }  # fmt: skip
     if "name" not in columns and "id" not in columns:
-        found = f"no column of names: {', '.join(table.heads)[:200]}"
-        raise CallError(Problem(str(students), found, "write a head name (姓名) or id (学号)"))
+        found = Phrase("no column of names", names=', '.join(table.heads)[:200])
+        raise CallError(Problem(str(students), found, Phrase("write a head name or id")))
     problems: list[Problem] = []
     head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
     may_be_groups = len(course) == 1 and head in GROUPS
     if head and "" in course and not may_be_groups:
         named = dict.fromkeys(cells[columns["scheme"]] for _, cells in table.rows if len(cells) > columns["scheme"])
         if schemes := ", ".join(filter(None, named))[:80]:
-            found, wanted = f"schemes without their data: {schemes}", "give a row for each: --rows FILE.csv"
+            found, wanted = (
+                Phrase("schemes without their data", schemes=schemes),
+                Phrase("give a row for each rows file.csv"),
+            )
             raise CallError(Problem(f"{students}, {head}", found, wanted))
     listed = []
     for line, cells in table.rows:
         who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
-        where = f"{students}, line {line}"
+        where = Phrase("line of students and line", students=students, line=line)
         if who.scheme and who.scheme not in course and not may_be_groups:
-            problems.append(Problem(where, f'there is no scheme "{who.scheme}"', did_you_mean(who.scheme, course)))
+            problems.append(
+                Problem(where, Phrase("there is no scheme", scheme=who.scheme), did_you_mean(who.scheme, course))
+            )
             continue
         known = course[scheme_name(course, who)].places if who.scheme or len(course) == 1 else None
         all_known = dict.fromkeys(n for one in course.values() for n in one.places) if known is None else known
         if who.place and who.place not in all_known:
-            problems.append(Problem(where, f'there is no position "{who.place}"', did_you_mean(who.place, all_known)))
+            problems.append(
+                Problem(where, Phrase("there is no position", at=who.place), did_you_mean(who.place, all_known))
+            )
             continue
         if who.place and known is not None and not known[who.place].read:
-            problems.append(Problem(where, f"position {who.place} cannot be drawn", "give another one"))
+            problems.append(
+                Problem(where, Phrase("position cannot be drawn", place=who.place), Phrase("give another one"))
+            )
         listed.append(who)
     if problems:
         raise CallError(*problems)
     free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
     if not any(free.values()):
-        raise CallError(Problem("positions", "none of them can be drawn", "give others in [positions]"))
+        raise CallError(Problem("positions", Phrase("none of them can be drawn"), Phrase("give others in positions")))
     taken: dict[str, list[str]] = {}
     for who in listed:
         if who.place:

@@ -23,6 +23,7 @@ from graphkin.scene.file_keys import path_of_key, value_at
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.joints import turned
 from graphkin.study.designs import applied
+from graphkin.words import Phrase
 
 __all__ = ["DesignKeys", "design_keys"]
 
@@ -66,8 +67,8 @@ class DesignKeys:
             bad = ~(np.isfinite(of_key) & (of_key > low))
             if bad.any():
                 found_one = float(of_key[int(np.argmax(bad))])
-                wanted = "give lengths above 0" if low == 0 else "give finite numbers"
-                raise CallError(Problem(f"designs {key}", f"found {found_one:g}", wanted))
+                wanted = Phrase("give lengths above 0") if low == 0 else Phrase("give finite numbers")
+                raise CallError(Problem(f"designs {key}", Phrase("found value", value=f'{found_one:g}'), wanted))
             for name, law in self.laws[key].items():
                 new = law(of_key)
                 found[name] = found[name] + (new - self.own[name]) if name in found else new
@@ -95,7 +96,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         elif isinstance(driver, AngleDriver) and driver.position:
             found = "the driver is given by a position, which moves with each"
         if found:
-            raise CallError(Problem("designs", found, "give its value instead"))
+            raise CallError(Problem("designs", found, Phrase("give its value instead")))
     laws: dict[str, dict[Dimension, _Law]] = {}
     changed: dict[str, float] = {}
     for key in keys:
@@ -106,7 +107,9 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
         if beside:
             hint = "sweep over it: graphkin.sweep(..., designs=...)"
-            raise CallError(Problem(f"designs {key}", f"changes more than dimensions: {', '.join(beside)}", hint))
+            raise CallError(
+                Problem(f"designs {key}", Phrase("changes more than dimensions", beside=", ".join(beside)), hint)
+            )
     made = DesignKeys(scene, dimensions(scene), laws)
     if len(keys) > 1:
         _side_by_side(made, changed, dimensions(_read(source, changed)))
@@ -127,7 +130,7 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
         return mechanism_of(applied(source, tuple(values), tuple(values.values())))
     except SceneError as error:
         what = f"designs {', '.join(values)}"
-        raise CallError(Problem(what, f"changed by itself the scene no longer fits: {error}")) from None
+        raise CallError(Problem(what, Phrase("changed by itself the scene no longer fits", error=error))) from None
 
 
 def _laws(
@@ -150,11 +153,11 @@ def _laws(
             slope = slope / abs(slope) if abs(abs(slope) - 1) < SAME else slope
             law = _Law(_none(a - slope * first, a), slope, True)
         else:
-            hint = "sweep over it: graphkin.sweep(..., designs=...)"
-            raise CallError(Problem(f"designs {key}", f"changes {name[1]} neither as a line nor as a turn", hint))
+            hint = Phrase("sweep over it graphkin.sweep designs")
+            raise CallError(Problem(f"designs {key}", Phrase("changes neither as a line nor as a", name=name[1]), hint))
         laws[name] = law
     if not laws:
-        raise CallError(Problem(f"designs {key}", "changes no dimension of the mechanism and no driver"))
+        raise CallError(Problem(f"designs {key}", Phrase("changes no dimension of the mechanism and no")))
     return laws
 
 
@@ -179,5 +182,5 @@ def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mappin
         mine = complex(told[name][0]) if name in told else own[name]
         if abs(mine - read_one) > 10 * SAME * max(abs(own[name]), abs(read_one), keys.scene.size):
             what = f"designs {', '.join(values)}"
-            hint = "sweep over them: graphkin.sweep(..., designs=...)"
-            raise CallError(Problem(what, f"act on {name[1]} together, not side by side", hint))
+            hint = Phrase("sweep over them graphkin.sweep designs")
+            raise CallError(Problem(what, Phrase("act on together not side by side", name=name[1]), hint))

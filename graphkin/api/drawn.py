@@ -30,7 +30,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table
-from graphkin.words import languages
+from graphkin.words import Phrase, languages
 
 if TYPE_CHECKING:
     from graphkin.api.reading_rows import ReadValue
@@ -335,9 +335,9 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
     """
     if names is None:
         return tuple(name for name, figure in FIGURES.items() if figure.by_itself(scene))
-    wanted = 'give a list: ["velocity"]'
+    wanted = Phrase("give a list velocity")
     if isinstance(names, str):
-        raise CallError(Problem("figures", f"found {names!r:.60}", wanted))
+        raise CallError(Problem("figures", Phrase("found value", value=f'{names!r:.60}'), wanted))
     names = as_list("figures", names, wanted)
     known = [isinstance(name, str) and name in FIGURES for name in names]
     wrong = [
@@ -395,7 +395,7 @@ def draw(
     motion = solved_here(structure, values, asked_here(asked))
     what = plan(structure, values, asked_here(asked))
     whole = with_elsewhere(checked(what, motion, hand), asked, seed)
-    places = tuple(as_list("beside", beside, 'give names of positions, or driver values: ["1", 75]'))
+    places = tuple(as_list("beside", beside, Phrase("give names of positions or driver values 1")))
     drawn = Drawn(whole, what, motion, wanted, seed, language, convention, driver, places)
     if out is not None:
         drawn.write(out, formats)

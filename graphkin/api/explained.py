@@ -22,7 +22,7 @@ from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, mobility_of
 from graphkin.table import Table
-from graphkin.words import Phrase, class_of, word
+from graphkin.words import Phrase, Wording, class_of, word
 
 __all__ = ["Explained", "explain"]
 
@@ -40,7 +40,7 @@ class Explained(Result, OfScene):
 
     mechanism: Mechanism
     sentences: tuple[Sentence, ...]
-    why: str
+    why: Wording
     language: str
     exit_code: int = 0
 
@@ -72,7 +72,7 @@ class Explained(Result, OfScene):
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:
             found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
-        return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": self.why} if self.why else {})}
+        return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": str(self.why)} if self.why else {})}
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
         """Write explanation.txt and explanation.json; returns the paths.  Raises CallError where it cannot be done."""
@@ -132,7 +132,8 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
     known_words(language=language)
     given = as_scene(scene)
     sentences = [*_units(given), *_links(given), *_joints(given), *_mobility(given), *_drivers(given)]
-    why, exit_code = "", 0
+    why: Wording = ""
+    exit_code = 0
     try:
         from graphkin.solver import structure_of
 
@@ -142,7 +143,7 @@ def explain(scene: SceneLike, language: str | None = None) -> Explained:
         if pointed:
             sentences.append(("explained groups", Phrase("explained pointed", (", ".join(pointed),))))
     except Unsolvable as error:
-        why, exit_code = error.why, error.exit_code
+        why, exit_code = error.reason, error.exit_code
     sentences += _loads(given)
     sentences += [("explained asked", Phrase("explained asked all"))] if not given.find else [
         ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.find)),)))

@@ -78,7 +78,7 @@ class Handout(FilesOfScene):
         name = as_text("name", name)
         rows = {row.symbol: row for row in self.key}
         if name not in rows:
-            raise CallError(Problem(f'"{name}"', "no answer of this name", did_you_mean(str(name), rows)))
+            raise CallError(Problem(f'"{name}"', Phrase("no answer of this name"), did_you_mean(str(name), rows)))
         return rows[name]
 
     @cached_property
@@ -175,7 +175,9 @@ def handout(
     given = for_paper(scene)
     count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
     if count > 1 and moves_by_law(given):
-        raise CallError(Problem("positions", f"found {count}", "a driver that moves by a law stands at its own moment"))
+        raise CallError(
+            Problem("positions", Phrase("found value", value=count), Phrase("a driver that moves by a law stands"))
+        )
     asked = asked_symbols(given, find)
     given, values = placed(given, at)
     motion = solved_here(given, values)
@@ -208,8 +210,8 @@ def papers_of(
 def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     """Names of learning platforms, each once.  Raises CallError for an unknown one."""
     if isinstance(exports, str):
-        raise CallError(Problem("export", f'"{exports}" is a text', f'give a list: ["{exports}"]'))
-    named = as_list("export", exports, f"give a list: {', '.join(PLATFORMS)}")
+        raise CallError(Problem("export", Phrase("is a text", formats=exports), Phrase("give a list", formats=exports)))
+    named = as_list("export", exports, Phrase("give a list of", names=", ".join(PLATFORMS)))
     wrong = [Problem("export", f'"{e!s:.60}"', did_you_mean(str(e)[:60], PLATFORMS))
              for e in named if not isinstance(e, str) or e not in PLATFORMS]  # fmt: skip
     if wrong:

@@ -21,6 +21,7 @@ from graphkin.construction import plan
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver import Motion
@@ -50,7 +51,13 @@ def judged_table(
         k = int(np.argmin(motion.ok))
         where = scene.unit_of(scene.drivers[0]).said(float(motion.values[k, 0]))
         status = str(motion.status[k])
-        raise Unsolvable(status, Problem(f"driver {key} at {where}", f"{status}: {motion.why[k]}"))
+        raise Unsolvable(
+            status,
+            Problem(
+                Phrase("driver at", key=key, where=where),
+                motion.said(k),
+            ),
+        )
     turning = [s for s in symbols if s.scope in ("turn", "cycle")]
     value = exact_values(solved_here(scene, None), turning)
     exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})

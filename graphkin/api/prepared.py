@@ -20,6 +20,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin import solver
@@ -43,7 +44,13 @@ def driver_value(value: object) -> float:
     """A value of a driver as a caller gives it.  Raises CallError for what is no number."""
     if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
-    raise CallError(Problem("at", f"{value!r:.60} is no driver value", "give a finite number below 1e9"))
+    raise CallError(
+        Problem(
+            "at",
+            Phrase("is no driver value of value", value=f"{value!r:.60}"),
+            Phrase("give a finite number below 1e9"),
+        )
+    )
 
 
 def _have_numba() -> bool:
@@ -135,10 +142,18 @@ class Prepared(Tabled, OfScene):
         try:
             own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
         except (TypeError, ValueError):
-            raise CallError(Problem("values", f"found {values!r:.60}", "give numbers, one for each position")) from None
+            raise CallError(
+                Problem(
+                    "values",
+                    Phrase("found value", value=f"{values!r:.60}"),
+                    Phrase("give numbers one for each position"),
+                )
+            ) from None
         wrong = own[~(np.abs(own) <= MOST_VALUE)]
         if len(wrong):
-            raise CallError(Problem("values", f"found {wrong[0]:g}", "give finite numbers below 1e9"))
+            raise CallError(
+                Problem("values", Phrase("found value", value=f"{wrong[0]:g}"), Phrase("give finite numbers below 1e9"))
+            )
         return self.samples(*self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own))), own)
 
     def sweep(self, n: int, out: Reals | None = None) -> Samples:
@@ -167,10 +182,16 @@ class Prepared(Tabled, OfScene):
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n
         if not isinstance(out, np.ndarray):
-            raise CallError(Problem("out", f"found {out!r:.60}", f"give an array of floats of the shape {shape}"))
+            raise CallError(
+                Problem(
+                    "out",
+                    Phrase("found value", value=f"{out!r:.60}"),
+                    Phrase("give an array of floats of the shape", shape=shape),
+                )
+            )
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
-            wanted = f"give an array of floats of the shape {shape}, in the order of C"
-            raise CallError(Problem("out", f"{out.dtype} of the shape {out.shape}", wanted))
+            wanted = Phrase("give an array of floats of the shape in", shape=shape)
+            raise CallError(Problem("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted))
 
     @cached_property
     def _plain(self) -> bool:
@@ -181,7 +202,13 @@ class Prepared(Tabled, OfScene):
     def allowed(n: int) -> None:
         """Raises CallError where n is no number of positions."""
         if isinstance(n, bool) or not isinstance(n, Integral) or not 1 <= n <= MOST:
-            raise CallError(Problem("sweep", f"{n!r:.60} positions", f"give a whole number from 1 to {MOST}"))
+            raise CallError(
+                Problem(
+                    "sweep",
+                    Phrase("positions of number", number=f"{n!r:.60}"),
+                    Phrase("give a whole number from 1 to", most=MOST),
+                )
+            )
 
     def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
         """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
@@ -201,15 +228,15 @@ class Prepared(Tabled, OfScene):
         from graphkin.solver.designs import PreparedMechanisms
 
         if self.ready.loads:
-            found = f"forces ({', '.join(self.ready.loads)}) are not given over designs"
-            raise CallError(Problem("over", found, "prepare each design, or sweep over designs"))
+            found = Phrase("forces are not given over designs", loads=', '.join(self.ready.loads))
+            raise CallError(Problem("over", found, Phrase("prepare each design or sweep over designs")))
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
         except (AttributeError, TypeError, ValueError):
             values = ()
         if not values or values[0].ndim > 1 or not values[0].size:
-            wanted = 'give one number or a list for each key: {"links.1.length": [50, 60]}'
-            raise CallError(Problem("designs", "are no numbers for each key", wanted))
+            wanted = Phrase("give one number or a list for each")
+            raise CallError(Problem("designs", Phrase("are no numbers for each key"), wanted))
         keys = tuple(as_text("designs", key) for key in designs)
         if keys not in self._keys:
             self._keys[keys] = design_keys(written(self.source)[0], self.mechanism, keys)
@@ -389,10 +416,16 @@ def prepare(
     from graphkin import solver
 
     given = as_scene(scene)
-    wanted = 'name quantities, for example ["v_C", "omega_3"]'
+    wanted = Phrase("name quantities for example v_c omega_3")
     asked = tuple(str(name) for name in ([find] if isinstance(find, Symbol) else as_list("find", find, wanted)))
     if not isinstance(bounds, bool) or not (fast is None or isinstance(fast, bool)):
-        raise CallError(Problem("bounds, fast", f"found {bounds!r:.40}, {fast!r:.40}", "give True or False"))
+        raise CallError(
+            Problem(
+                "bounds, fast",
+                Phrase("found of bounds and fast", bounds=f"{bounds!r:.40}", fast=f"{fast!r:.40}"),
+                Phrase("give true or false"),
+            )
+        )
     if not asked:
-        raise CallError(Problem("find", "asks for nothing", 'name quantities, for example ["v_C", "omega_3"]'))
+        raise CallError(Problem("find", Phrase("asks for nothing"), Phrase("name quantities for example v_c omega_3")))
     return Prepared(scene, asked, fast, solver.prepare(given, asked, given.units.per_si, bounds))

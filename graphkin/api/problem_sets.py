@@ -45,7 +45,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
 from graphkin.study.designs import applied
 from graphkin.table import Table
-from graphkin.words import languages
+from graphkin.words import Phrase, languages
 
 __all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
@@ -101,7 +101,7 @@ class ProblemSet(Result, OfScene):
         name = as_text("name", name)
         answers = self.made.answers
         if name not in answers:
-            raise CallError(Problem(f'"{name}"', "no variant of this name", did_you_mean(str(name), answers)))
+            raise CallError(Problem(f'"{name}"', Phrase("no variant of this name"), did_you_mean(str(name), answers)))
         return tuple(answers[name])
 
     def write(self, folder: str | os.PathLike[str]) -> list[Path]:
@@ -159,15 +159,21 @@ def problem_set(
     SceneError, CallError : the scene, the table or the call is wrong
     """
     if (variants is None) == (rows is None):
-        raise CallError(Problem("variants", "neither or both of variants and rows", "give one of them"))
+        raise CallError(Problem("variants", Phrase("neither or both of variants and rows"), Phrase("give one of them")))
     known_words(language=language, known_languages=ON_SHEETS)
     require_callable("render", render)
     require_callable("progress", progress)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if spread is not None and not isinstance(spread, Spread):
-        raise CallError(Problem("spread", f"found {spread!r:.60}", "give a Spread"))
+        raise CallError(Problem("spread", Phrase("found value", value=f'{spread!r:.60}'), Phrase("give a spread")))
     if executor is not None and not hasattr(executor, "submit"):
-        raise CallError(Problem("executor", f"found {executor!r:.60}", "give one that has submit, as those of Python"))
+        raise CallError(
+            Problem(
+                "executor",
+                Phrase("found value", value=f"{executor!r:.60}"),
+                Phrase("give one that has submit as those of"),
+            )
+        )
     source, name = _source(scene)
     if find is not None:
         source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
@@ -237,7 +243,9 @@ def _jobs(
         rules_checked(source)
         asked_symbols(as_scene(source), (source.get("vary") or {}).get("find", ()))
         if not varied_keys(source):
-            raise CallError(Problem("variants", "nothing in the scene can vary", "give lengths and a driver"))
+            raise CallError(
+                Problem("variants", Phrase("nothing in the scene can vary"), Phrase("give lengths and a driver"))
+            )
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
         return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()
     table, columns = _data_of(source, rows)
@@ -264,8 +272,8 @@ def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Column
         raise CallError(
             Problem(
                 str(rows),
-                f"no column is a datum of the scene: {', '.join(table.heads)[:200]}",
-                "write heads like links.1.length, O4B, n2 or phi1",
+                Phrase("no column is a datum of the scene", names=', '.join(table.heads)[:200]),
+                Phrase("write heads like links.1.length o4b n2 or phi1"),
             )
         )
     return table, columns
@@ -286,7 +294,7 @@ def schemes_of(
     problems: list[Problem] = []
     for (line, _), (name, own, _, why) in zip(table.rows, _rows(source, columns, table.rows), strict=True):
         if why:
-            problems.append(Problem(f"{rows}, line {line}", why))
+            problems.append(Problem(Phrase("line of students and line", students=rows, line=line), why))
         else:
             made[name] = as_scene(own)
     if problems:
@@ -319,7 +327,7 @@ def drawn_schemes(
     with Workers(None, 1) as working:
         for job, attempt in accepted(jobs, {}, working):
             if attempt.variant is None:
-                raise Unsolvable("not drawn", Problem(f"variant {job.name}", attempt.why))
+                raise Unsolvable("not drawn", Problem(Phrase("variant of name", name=job.name), attempt.why))
             made[job.name] = attempt.variant.scene
             lines.append((job.name, *(f"{float(value_at(attempt.variant.source, path)):.6g}" for path in keys)))
     return made, (("", *(_head_of(source, path) for path in keys)), *lines)

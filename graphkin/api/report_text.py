@@ -254,7 +254,7 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     try:
         found = force_extremes(turn.reach)
     except Unsolvable as stop:
-        return [word("forces", language) + word("colon", language) + stop.why]
+        return [word("forces", language) + word("colon", language) + say(stop.reason, language)]
     lines = []
     for name, (quantity, marks) in found.items():
         parts = [

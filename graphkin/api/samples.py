@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from graphkin.api.results import Tabled
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.table import Column, Table, Values
+from graphkin.words import Phrase
 
 __all__ = ["Quantities", "Samples"]
 
@@ -36,7 +37,7 @@ class Quantities:
         """Place of a quantity among those asked for.  Raises CallError for another one."""
         if name not in self.units:
             known = [*self.units, *self.names]
-            raise CallError(Problem(f'"{name}"', "was not asked for", did_you_mean(name, known)))
+            raise CallError(Problem(f'"{name}"', Phrase("was not asked for"), did_you_mean(name, known)))
         return list(self.units).index(name)
 
 
@@ -79,7 +80,7 @@ class Samples(Tabled):
         """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
         where nothing is known.  Raises CallError where bounds were not asked for."""
         if self._bounds is None:
-            raise CallError(Problem("bound", "no bounds were asked for", "prepare with bounds=True"))
+            raise CallError(Problem("bound", Phrase("no bounds were asked for"), Phrase("prepare with bounds true")))
         return np.asarray(self._bounds[self.quantities.place(name)])
 
     @property

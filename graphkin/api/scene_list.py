@@ -14,6 +14,7 @@ from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.scene.written import Scene
@@ -41,7 +42,9 @@ class Listed(Result):
         name = as_text("name", name)
         names = [row[0] for row in self.rows]
         if name not in names:
-            raise CallError(Problem(f'"{name}"', "no scene of this name comes along", did_you_mean(str(name), names)))
+            raise CallError(
+                Problem(f'"{name}"', Phrase("no scene of this name comes along"), did_you_mean(str(name), names))
+            )
         return read(name)
 
     def __iter__(self) -> Iterator[str]:

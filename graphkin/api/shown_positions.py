@@ -18,6 +18,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure, Turn
 from graphkin.structure.transmission import TransmissionAngle, joint_of_dyad
+from graphkin.words import Phrase, Wording
 
 __all__ = ["sheets_beside", "shown_positions"]
 
@@ -49,7 +50,7 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
 
     numbered = {name: drawn(values[name]) for name in names}
     limits: dict[str, tuple[Sheet, Sheet]] = {}
-    without: dict[str, str] = {}
+    without: dict[str, Wording] = {}
     measured: dict[tuple[str, str], float] = {}
     if "limits" in show:
         for output in _outputs(scene, structure):
@@ -59,7 +60,7 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
                 turned = execute(plan(structure, own.drivers, asked)).at(own.scales)
             except Unsolvable as stop:  # no whole turn, or an output that turns on and on
                 problem = stop.problems[0]
-                without[problem.where] = problem.found
+                without[str(problem.where)] = problem.found
                 continue
             found = turned.limits[output]
             limits[output] = drawn(found.low.value), drawn(found.high.value)
@@ -177,8 +178,8 @@ def sheets_beside(
     known = scene.positions.names if scene.positions else ()
     wished = wished or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
     if len(wished) < 2:
-        wanted = 'name two or more: --beside 1 --beside 7, beside=["1", 75], or show in [positions]'
-        raise CallError(Problem("figure polygons", "shows several positions beside each other", wanted))
+        wanted = Phrase("name two or more beside 1 beside 7")
+        raise CallError(Problem("figure polygons", Phrase("shows several positions beside each other"), wanted))
     asked = tuple(s for s in scene.find if s.scope == "motion" and not s.at)
     sheets = []
     for name in map(str, wished):

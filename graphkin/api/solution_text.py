@@ -15,7 +15,7 @@ from graphkin.solver import Forces, listed_points, own_slides
 from graphkin.study.quantities import Quantity, link_quantities, settled, slide_quantities, symbol_quantity
 from graphkin.study.sweep_quantities import SweepQuantity
 from graphkin.table import Array
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, Wording, say, word
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved
@@ -41,7 +41,7 @@ class SolutionTable:
         return [row for row in rows if row[1]]
 
 
-def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, str, list[SolutionTable]]]:
+def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wording, list[SolutionTable]]]:
     """For each position the values of the drivers, why there is no solution ("" where there is one), and the tables,
     which are the same for all positions."""
     motion, scene = solved.motion, solved.mechanism
@@ -50,7 +50,7 @@ def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, str, l
         drivers = zip(scene.drivers, motion.values[k], strict=True)
         values = [f"{d.key} = {scene.unit_of(d).said(float(v))}" for d, v in drivers]
         values += [f"t = {solved.times[k]:.6g} s"] if solved.times else []
-        yield ", ".join(values), "" if status == "ok" else f"{status}: {motion.why[k]}", tables
+        yield ", ".join(values), "" if status == "ok" else motion.said(k), tables
 
 
 def _texts(*parts: Array) -> list[str]:

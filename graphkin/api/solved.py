@@ -31,6 +31,7 @@ from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 from graphkin.table import Values
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.api.loops_text import LoopText
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 __all__ = ["Solved", "SolvedBlocks", "refused", "solve", "solve_in_blocks"]
 
 
-BALANCE_IDLE = "the balance does no work in this position, so that nothing it could be keeps the forces in equilibrium"
+BALANCE_IDLE = Phrase("the balance does no work in this position")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -284,7 +285,7 @@ def _task(scene: SceneLike, at: At, sweep: int | None) -> tuple[Mechanism, Mappi
     count = None if sweep is None else whole_number("sweep", sweep, 1, most, " positions")
     if count is not None and moves_by_law(given):
         if at is not None:
-            raise CallError(Problem("sweep", "stands beside at", "a sweep goes over the whole time of the law"))
+            raise CallError(Problem("sweep", Phrase("stands beside at"), Phrase("a sweep goes over the whole time of")))
         return given, None, count
     given, values = placed(given, at)
     return given, values, count
@@ -303,7 +304,7 @@ def _solved(
     if stuck.any():
         why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.why, strict=True))
         for name, where in solver.without_line(motion).items():
-            told = f"the two points of spring {name} coincide in this position, so that its force has no line"
+            told = Phrase("the two points of spring coincide in this", name=name)
             why = tuple(told if here else said for here, said in zip(where, why, strict=True))
         motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
     return _asked(Solved(motion, forces, times=times), find)
@@ -313,7 +314,7 @@ def _asked(solved: Solved, find: str | Symbol | Iterable[str | Symbol] | None) -
     """The solution limited to what is asked.  Raises CallError, naming everything that names nothing."""
     if find is None:
         return solved
-    names = [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]')
+    names = [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3"))
     problems: list[Problem] = []
     for name in map(str, names):
         try:

@@ -14,6 +14,7 @@ from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_wor
 from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.files import Json, path_of
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage
@@ -199,7 +200,7 @@ def stability(
     """
     from graphkin.study.stability import KINDS, run_singularities
 
-    wanted = tuple(as_list("kinds", kinds, 'give a list: ["dead point RRR"]'))
+    wanted = tuple(as_list("kinds", kinds, Phrase("give a list of", names='["dead point RRR"]')))
     wrong = [
         Problem("kind", f'"{kind!s:.60}"', did_you_mean(str(kind)[:60], KINDS))
         for kind in wanted if not isinstance(kind, str) or kind not in KINDS

@@ -27,6 +27,7 @@ from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.source import written
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import have
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.api.answers import AnswersLike
@@ -117,11 +118,17 @@ def sweep(
     positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and scheduler is not None:
-        raise CallError(Problem("executor", "is given beside a scheduler", "give one of them"))
+        raise CallError(Problem("executor", Phrase("is given beside a scheduler"), Phrase("give one of them")))
     if executor is not None and not hasattr(executor, "submit"):
-        raise CallError(Problem("executor", f"found {executor!r:.60}", "give one that has submit, as those of Python"))
+        raise CallError(
+            Problem(
+                "executor",
+                Phrase("found value", value=f"{executor!r:.60}"),
+                Phrase("give one that has submit as those of"),
+            )
+        )
     wishes = {
-        name: [as_text(name, one) for one in as_list(name, names, 'give names: ["s_6/1"]')]
+        name: [as_text(name, one) for one in as_list(name, names, Phrase("give names s_6 1"))]
         for name, names in (("differentiate", differentiate), ("integrate", integrate))
     }
     made = designs_of(designs, designs_file)
@@ -144,7 +151,9 @@ def sweep(
     for way, name in on_paper:
         known_ordinate(given, name, way)
     if on_paper and made.keys:
-        raise CallError(Problem("differentiate, integrate", "do not go with designs", "give one design"))
+        raise CallError(
+            Problem("differentiate, integrate", Phrase("do not go with designs"), Phrase("give one design"))
+        )
     elsewhere = () if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))
@@ -152,7 +161,7 @@ def sweep(
     spoken = language or given.sheet.language
     if out is None:
         if over.numbers > IN_MEMORY:
-            raise CallError(Problem("sweep", f"{over.rows} rows", "give a folder, out=... or -o"))
+            raise CallError(Problem("sweep", Phrase("rows", number=over.rows), Phrase("give a folder out or o")))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere, on_paper)
@@ -177,8 +186,8 @@ def _over_time_alone(**wishes: object) -> None:
     """Refuse what counts along the driver, where drivers move by laws over the time."""
     given = [name for name, wish in wishes.items() if wish not in (None, ())]
     if given:
-        found = "does not go with a driver that moves by a law over the time"
-        raise CallError(*(Problem(name, found, "leave it out, or give omega instead of the law") for name in given))
+        found = Phrase("does not go with a driver that moves")
+        raise CallError(*(Problem(name, found, Phrase("leave it out or give omega instead of")) for name in given))
 
 
 def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, float, float, bool], ...]:
@@ -189,7 +198,9 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
-        raise CallError(Problem("measured", "has no column at", "write the driver's value of each row under at"))
+        raise CallError(
+            Problem("measured", Phrase("has no column at"), Phrase("write the driver's value of each row under"))
+        )
     places = [(driver_values(scene, row.at) or {})[scene.drivers[0].key] for row in rows]
     signed = {one.symbol for row in rows for one in row.values if one.shows_sign}
     signed -= {one.symbol for row in rows for one in row.values if isinstance(one.value, complex)}
@@ -213,10 +224,12 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Sweep
         return tuple(forces.get(s) or quantity_of_symbol(s) for s in shown)
     found: list[SweepQuantity] = []
     problems: list[Problem] = []
-    for name in [find] if isinstance(find, Symbol) else as_list("find", find, 'give symbols: ["v_B", "omega_3"]'):
+    for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         named = quantity_named(scene, name) if isinstance(name, str) else None
         if isinstance(name, str) and name.startswith(OF_TURN):
-            problems.append(Problem(f"find {name}", "is of the whole turn, no column", "it stands in the summary"))
+            problems.append(
+                Problem(f"find {name}", Phrase("is of the whole turn no column"), Phrase("it stands in the summary"))
+            )
             continue
         try:
             found += [named] if named is not None else map(quantity_of_symbol, asked_symbols(scene, [name]))

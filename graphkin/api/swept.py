@@ -22,8 +22,7 @@ from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, Values, have
 from graphkin.table.csv_files import table_of_csv
-from graphkin.words import Phrase, say
-from graphkin.words.refused import refused
+from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
     import xarray
@@ -241,7 +240,9 @@ class Swept(Result, OfScene):
         if self.time is not None:
             lines += self.time.lines(self.language)
         if self.over.designs.keys:
-            outcomes = ", ".join(f"{n} {refused(status, self.language)}" for status, n in self.outcomes.items())
+            outcomes = ", ".join(
+                f"{n} {word('status ' + status, self.language)}" for status, n in self.outcomes.items()
+            )
             lines.append(say(Phrase("designs solved", (len(self.over.designs), outcomes)), self.language))
         if self.found.damaged:
             lines.append(say(Phrase("pieces damaged", (self.found.damaged,)), self.language))

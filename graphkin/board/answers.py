@@ -31,8 +31,7 @@ from graphkin.scene.reading import clause_of
 from graphkin.scene.source import LARGEST_FILE, parsed
 from graphkin.scene.written import put, resolved, safe_name
 from graphkin.structure import mobility_of
-from graphkin.words import LANGUAGES, area
-from graphkin.words.refused import refused, refused_as
+from graphkin.words import LANGUAGES, Phrase, area, from_others, say
 
 __all__ = ["LINK", "QUESTIONS", "Desk", "answer", "scene_link", "text_of_link"]
 
@@ -64,7 +63,9 @@ def answer(desk: Desk, message: object) -> Answer:
     head = {"id": number} if isinstance(number, int | str) else {}
     try:
         if not isinstance(message, Mapping):
-            raise CallError(Problem("question", f"found {message!r:.40}", "send an object"))
+            raise CallError(
+                Problem("question", Phrase("found value", value=f"{message!r:.40}"), Phrase("send an object"))
+            )
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
@@ -72,7 +73,7 @@ def answer(desk: Desk, message: object) -> Answer:
     except GraphkinError as error:
         return {**head, "ok": False, **_problems(desk, error, message)}
     except (RecursionError, MemoryError, OverflowError):
-        huge = CallError(Problem("the scene", "is too large to be shown"))
+        huge = CallError(Problem(Phrase("the scene"), Phrase("is too large to be shown")))
         return {**head, "ok": False, **_problems(desk, huge, message)}
 
 
@@ -87,7 +88,7 @@ def _problems(desk: Desk, error: GraphkinError, message: object) -> Answer:
     text = text if isinstance(text, str) else ""
     spoken, lines = language_of(message), isinstance(error, SceneError) or text != ""
     found: list[dict[str, Json]] = [
-        {"text": refused_as(problem, spoken), "line": line_of(problem, text) if lines else 0}
+        {"text": problem.text(spoken), "line": line_of(problem, text) if lines else 0}
         for problem in error.problems[:100]
     ]
     return {"problems": found, "kind": type(error).__name__, **_draft_of(desk, text, message)}
@@ -135,7 +136,9 @@ def _at(message: Message) -> dict[str, float] | None:
     if at is None:
         return None
     if not isinstance(at, Mapping) or not all(_finite(v) for v in at.values()):
-        raise CallError(Problem("at", f"found {at!r:.60}", "give a number for each driver"))
+        raise CallError(
+            Problem("at", Phrase("found value", value=f"{at!r:.60}"), Phrase("give a number for each driver"))
+        )
     return {str(key): float(value) for key, value in at.items()}
 
 
@@ -155,7 +158,13 @@ def _pull(desk: Desk, message: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
     x, y, point = message.get("x"), message.get("y"), message.get("point")
     if not _finite(x) or not _finite(y) or not isinstance(point, str):
-        raise CallError(Problem("pull", f"found {point!r:.40} to {x!r:.20}, {y!r:.20}", "name a point and a place"))
+        raise CallError(
+            Problem(
+                "pull",
+                Phrase("found to", point=f"{point!r:.40}", value=f"{x!r:.20}", other=f"{y!r:.20}"),
+                Phrase("name a point and a place"),
+            )
+        )
     scene, at, text = _scene(desk, message), _at(message), _text(message)
     options = pictures.FigureOptions.of(message)
     raw = parsed(text)
@@ -175,14 +184,16 @@ def _pull(desk: Desk, message: Message) -> Answer:
 def _change(desk: Desk, message: Message) -> Answer:
     changes = message.get("changes")
     if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
-        raise CallError(Problem("changes", f"found {changes!r:.60}", "give values by key"))
+        raise CallError(
+            Problem("changes", Phrase("found value", value=f"{changes!r:.60}"), Phrase("give values by key"))
+        )
     return {"text": changed(_text(message), changes)}
 
 
 def _build(desk: Desk, message: Message) -> Answer:
     step = message.get("step")
     if not isinstance(step, Mapping):
-        raise CallError(Problem("piece", f"found {step!r:.60}", "say what to build"))
+        raise CallError(Problem("piece", Phrase("found value", value=f'{step!r:.60}'), Phrase("say what to build")))
     return {"text": building.built(_text(message), step)}
 
 
@@ -209,10 +220,10 @@ def _keep(desk: Desk, message: Message) -> Answer:
 def _complete(desk: Desk, message: Message) -> Answer:
     line, column = message.get("line"), message.get("column")
     if not isinstance(line, int) or not isinstance(column, int):
-        raise CallError(Problem("complete", "no place in the text", "give line and column"))
+        raise CallError(Problem("complete", Phrase("no place in the text"), Phrase("give line and column")))
     language, found = language_of(message), completions(_text(message), line, column)
-    if language != "en":
-        found = [{**one, "detail": refused(clause_of(one["detail"]), language)} for one in found]
+    if language != LANGUAGES[0]:
+        found = [{**key, "detail": say(from_others(clause_of(key["detail"])), language)} for key in found]
     return {"options": found}
 
 
@@ -285,13 +296,13 @@ def _export(desk: Desk, message: Message) -> Answer:
         drawn, _ = pictures.drawn_at(solver.structure_of(scene), _at(message), options)
         figures = drawn.figures
         if not figures:
-            raise CallError(Problem("figure", "there is nothing to draw", "choose another figure"))
+            raise CallError(Problem("figure", Phrase("there is nothing to draw"), Phrase("choose another figure")))
         name, figure = next(iter(figures.items()))
         return _file(f"{scene.name}-{name}.{kind}", figure.content(kind))
     if kind == "scene":
         return _file(f"{scene.name}.toml", _text(message).encode())
     if kind not in ("papers", "variants"):
-        raise CallError(Problem("kind", f'"{kind!s:.40}"', "known here: svg, pdf, png, dxf, papers, variants, scene"))
+        raise CallError(Problem("kind", f'"{kind!s:.40}"', Phrase("known here svg pdf png dxf papers variants")))
     with tempfile.TemporaryDirectory() as folder:
         _papers(scene, message, options, Path(folder))
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
@@ -308,7 +319,13 @@ def _papers(scene: Mechanism, message: Message, options: pictures.FigureOptions,
         return
     count, seed = message.get("count"), message.get("seed")
     if not isinstance(count, int) or not 1 <= count <= MOST_VARIANTS:
-        raise CallError(Problem("variants", f"found {count!r:.20}", f"give a number from 1 to {MOST_VARIANTS}"))
+        raise CallError(
+            Problem(
+                "variants",
+                Phrase("found value", value=f"{count!r:.20}"),
+                Phrase("give a number from 1 to", most=MOST_VARIANTS),
+            )
+        )
     render = papers_of(scene, formats, options.language, options.convention)
     problem_set(scene, count, seed if isinstance(seed, int) else 0, out=folder, render=render)
 
@@ -346,7 +363,9 @@ def text_of_link(link: str) -> str:
             raise ValueError
         return text.decode()
     except (ValueError, zlib.error):
-        raise CallError(Problem("link", f'"{link[:40]}" carries no scene', f"a link begins with {LINK}")) from None
+        raise CallError(
+            Problem("link", Phrase("carries no scene", link=link[:40]), Phrase("a link begins with", link=LINK))
+        ) from None
 
 
 def _link(desk: Desk, message: Message) -> Answer:

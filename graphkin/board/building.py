@@ -13,6 +13,7 @@ from graphkin.board.scene_text import changed
 from graphkin.errors import CallError, Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.scene.source import parsed
+from graphkin.words import Phrase
 
 __all__ = ["EMPTY", "STEPS", "built", "draft", "trial_driver"]
 
@@ -115,7 +116,9 @@ def _points(made: Tables) -> set[str]:
 def _at(step: Step, key: str) -> list[float]:
     value = step.get(key)
     if not isinstance(value, list) or not _place(value):
-        raise CallError(Problem(key, f"found {value!r:.60}", "give a place [x, y] or the name of a point"))
+        raise CallError(
+            Problem(key, Phrase("found value", value=f"{value!r:.60}"), Phrase("give a place x y or the name"))
+        )
     return [_round(x) for x in value]
 
 
@@ -132,7 +135,9 @@ def _end(
         spots = draft(made)["points"]
         if value not in spots:
             shown = value[:40]
-            raise CallError(Problem(f"point {shown}", "has no place in the sketch", did_you_mean(shown, spots)))
+            raise CallError(
+                Problem(Phrase("point", point=shown), Phrase("has no place in the sketch"), did_you_mean(shown, spots))
+            )
         return value, [float(x) for x in spots[value]]
     place = _at(step, key)
     taken = {name.split(".")[1] for name in changes if name.startswith("sketch.")}
@@ -144,7 +149,9 @@ def _end(
 def _link_of(made: Tables, step: Step, key: str) -> str:
     name, links = str(step.get(key, "")), _tables(made, "links")
     if name not in links:
-        raise CallError(Problem(f'link "{name[:40]}"', "there is no such link", did_you_mean(name[:40], links)))
+        raise CallError(
+            Problem(Phrase("link", name=name[:40]), Phrase("there is no such link"), did_you_mean(name[:40], links))
+        )
     return name
 
 
@@ -164,7 +171,7 @@ def _bar(made: Tables, step: Step) -> OwnTables:
     (one, p), (other, q) = _end(made, step, "from", changes), _end(made, step, "to", changes)
     long = math.dist(p, q)
     if one == other or long == 0.0:
-        raise CallError(Problem("bar", "begins and ends in the same place", "pull it to another place"))
+        raise CallError(Problem("bar", Phrase("begins and ends in the same place"), Phrase("pull it to another place")))
     return {f"links.{next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
 
 
@@ -174,7 +181,11 @@ def _point_on(made: Tables, step: Step) -> OwnTables:
     own = _list(made["links"][name].get("points"))
     spots = draft(made)["points"]
     if len(own) < 2 or any(p not in spots for p in own):
-        raise CallError(Problem(f"link {name}", "has no axis of its own", "give it two points first"))
+        raise CallError(
+            Problem(
+                Phrase("link of name", name=name), Phrase("has no axis of its own"), Phrase("give it two points first")
+            )
+        )
     origin, end = (complex(*spots[p]) for p in own)
     along = (end - origin) / abs(end - origin)
     z = (complex(*place) - origin) / along
@@ -191,7 +202,7 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
     angle = float(step.get("angle", 0.0) or 0.0)
     if not math.isfinite(angle):
-        raise CallError(Problem("angle", f"found {angle}", "give degrees"))
+        raise CallError(Problem("angle", Phrase("found value", value=angle), Phrase("give degrees")))
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(angle)},
         f"links.{next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
@@ -217,7 +228,7 @@ def _pin(made: Tables, step: Step) -> OwnTables:
     point = str(step.get("point", ""))
     if point not in _points(made):
         near = did_you_mean(point[:40], _points(made))
-        raise CallError(Problem(f"point {point[:40]}", "there is no such point", near))
+        raise CallError(Problem(Phrase("point", point=point[:40]), Phrase("there is no such point"), near))
     return {f"pins.{point}": {"of": _link_of(made, step, "of"), "in": _link_of(made, step, "link")}}
 
 
@@ -230,7 +241,13 @@ def _drive(made: Tables, step: Step) -> OwnTables:
     if len(own) < 2:
         on = link.get("on")
         if not own or not isinstance(on, str) or not on.startswith(f"{fixed}."):
-            raise CallError(Problem(f"link {name}", "has no axis that could be driven", "drive a bar, or a slider"))
+            raise CallError(
+                Problem(
+                    Phrase("link of name", name=name),
+                    Phrase("has no axis that could be driven"),
+                    Phrase("drive a bar or a slider"),
+                )
+            )
         guide = _tables(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
@@ -251,7 +268,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
     else:
         point = str(step.get("point", ""))
         if point not in _points(made):
-            raise CallError(Problem(f"point {point[:40]}", "there is no such point"))
+            raise CallError(Problem(Phrase("point", point=point[:40]), Phrase("there is no such point")))
         gone = {n for n, link in links.items() if point in _list(link.get("points"))}
         changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in _tables(link, "at")}
         if point in _frame(made)[1]:
@@ -286,5 +303,7 @@ def trial_driver(made: Tables) -> OwnTables | None:
 def checked_text(text: object) -> str:
     """A text as a message brings it.  Raises SceneError for none."""
     if not isinstance(text, str):
-        raise SceneError(Problem("the scene", f"found {text!r:.40}", "give its text"))
+        raise SceneError(
+            Problem(Phrase("the scene"), Phrase("found value", value=f"{text!r:.40}"), Phrase("give its text"))
+        )
     return text

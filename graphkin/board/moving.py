@@ -16,6 +16,7 @@ from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
 from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
 from graphkin.solver import Motion
+from graphkin.words import Phrase
 
 __all__ = ["Pulled", "movable", "pulled"]
 
@@ -73,7 +74,13 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
     scene = motion.scene
     kinds = movable(scene)
     if point not in kinds:
-        raise CallError(Problem(f"point {point}"[:60], "cannot be pulled", "its place follows from the others"))
+        raise CallError(
+            Problem(
+                Phrase("point", point=point[:60]),
+                Phrase("cannot be pulled"),
+                Phrase("its place follows from the others"),
+            )
+        )
     if point in scene.frame.points:
         return Pulled(_of_frame(raw, scene, point, to), {})
     if kinds[point] == "driver" and not lengths:
@@ -86,7 +93,11 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
         if point in link.points:
             changes |= _of_link(raw, motion, link.name, point, to)
     if not changes:
-        raise CallError(Problem(f"point {point}", "has no length that could change", "pull another point"))
+        raise CallError(
+            Problem(
+                Phrase("point", point=point), Phrase("has no length that could change"), Phrase("pull another point")
+            )
+        )
     return Pulled(changes, {})
 
 
@@ -95,8 +106,8 @@ def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
     scene = motion.scene
     own = [driver.values[0] for driver in scene.drivers]
     if any(abs(v - o) > 1e-9 * max(1.0, abs(o)) for v, o in zip(motion.values[0], own, strict=True)):
-        raise CallError(Problem(f"point {point}", "is given as drawn at the scene's own position",
-                                "go back to that position to pull it"))
+        raise CallError(Problem(Phrase("point", point=point), Phrase("is given as drawn at the scene's own"),
+                                Phrase("go back to that position to pull it")))
     return {f"drawn.{point}": [_length(scene, to.real), _length(scene, to.imag)]}
 
 

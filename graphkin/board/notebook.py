@@ -11,6 +11,7 @@ from graphkin.board.server import STATIC
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.scene.mapping import toml_text
 from graphkin.scene.source import SceneLike, library, library_text, written
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from anywidget import AnyWidget
@@ -39,12 +40,14 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
         try:
             text = "" if scene is None else toml_text(written(scene)[0])
         except (TypeError, ValueError) as error:
-            said = Problem("scene", f"cannot be written as a file: {error}", "give texts and numbers")
+            said = Problem(
+                "scene", Phrase("cannot be written as a file", error=error), Phrase("give texts and numbers")
+            )
             raise SceneError(said) from None
     try:
         return _widget_class()(Desk(text=text))
     except ImportError:
-        raise CallError(Problem("open_board", "needs anywidget", 'pip install "graphkin[live]"')) from None
+        raise CallError(Problem("open_board", Phrase("needs anywidget"), 'pip install "graphkin[live]"')) from None
 
 
 @cache

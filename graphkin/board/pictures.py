@@ -32,8 +32,7 @@ from graphkin.solver import Motion
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.reach import driver_range
 from graphkin.structure import Structure, mobility_of
-from graphkin.words import Phrase, languages
-from graphkin.words.refused import refused, refused_as
+from graphkin.words import Phrase, Wording, languages, say
 from graphkin.words.written import in_markup
 
 __all__ = [
@@ -103,8 +102,8 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
             continue
         name = table["file"]
         if folder is None or Path(name).name != name or name.startswith(".") or (folder / name).is_symlink():
-            wanted = "on this page a scene names files of its own folder, without a path"
-            raise SceneError(Problem(f"{where}.file", f'found "{name[:60]}"', wanted))
+            wanted = Phrase("on this page a scene names files of")
+            raise SceneError(Problem(f"{where}.file", Phrase("found of name", name=name[:60]), wanted))
         table["file"] = str(folder / name)
     return made
 
@@ -132,7 +131,7 @@ class Reach(NamedTuple):
     low: float
     high: float
     turns: bool
-    why: str
+    why: Wording
 
 
 def reach(scene: Mechanism) -> Reach:
@@ -270,7 +269,7 @@ def _spoken(language: str | None, scene: Mechanism) -> str:
 
 
 def _said(error: GraphkinError, language: str) -> str:
-    return " ".join(refused_as(problem, language) for problem in error.problems)
+    return " ".join(problem.text(language) for problem in error.problems)
 
 
 def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> Unsolvable:
@@ -337,7 +336,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     speaker = Speaker(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
         found = reach(scene)
-        limits: dict[str, Json] = {**found._asdict(), "why": refused(found.why, spoken)}
+        limits: dict[str, Json] = {**found._asdict(), "why": say(found.why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [

@@ -11,6 +11,7 @@ from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
 from graphkin.scene.file_keys import item_of
 from graphkin.scene.source import LARGEST_FILE, parsed
+from graphkin.words import Phrase
 
 __all__ = ["changed", "completions", "line_of", "places"]
 
@@ -34,7 +35,9 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
 
     parsed(text)  # its sentences name the line
     if len(changes) > MOST_CHANGES:
-        raise CallError(Problem("changes", f"found {len(changes)}", f"at most {MOST_CHANGES} at once"))
+        raise CallError(
+            Problem("changes", Phrase("found value", value=len(changes)), Phrase("at most at once", most=MOST_CHANGES))
+        )
     try:
         document = tomlkit.parse(text)
         for key, value in changes.items():
@@ -43,7 +46,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
         raise CallError(Problem(", ".join(changes)[:80], f"cannot be changed: {error}"[:200])) from None
     if len(made) > LARGEST_FILE:
-        raise CallError(Problem("the file", f"would be larger than {LARGEST_FILE // 1000} kB"))
+        raise CallError(Problem(Phrase("the file"), Phrase("would be larger than kb", largest=LARGEST_FILE // 1000)))
     return made
 
 
@@ -64,12 +67,12 @@ def _put(document: Any, key: str, value: Any) -> None:
                 place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=holder)
             place = place[part]
         else:
-            raise CallError(Problem(key, f"{'.'.join(parts[:depth])} has nothing inside"))
+            raise CallError(Problem(key, Phrase("has nothing inside", names='.'.join(parts[:depth]))))
     last = parts[-1]
     if isinstance(place, list):
         place[_index(place, last, key)] = value
     elif not hasattr(place, "keys"):
-        raise CallError(Problem(key, f"{'.'.join(parts[:-1])} has nothing inside"))
+        raise CallError(Problem(key, Phrase("has nothing inside", names='.'.join(parts[:-1]))))
     elif value is None:
         if last in place:
             del place[last]
@@ -126,7 +129,9 @@ def _laid_out(made: str, before: str) -> str:
 def _index(place: list[Any], part: str, key: str) -> int:
     index = item_of(part, len(place))
     if index is None:
-        raise CallError(Problem(key, f"there is no item {part}", f"it has {len(place)}, counted from 1"))
+        raise CallError(
+            Problem(key, Phrase("there is no item", part=part), Phrase("it has counted from 1", count=len(place)))
+        )
     return index
 
 
@@ -188,10 +193,10 @@ def _inside(line: str, path: tuple[str, ...], number: int, found: dict[str, int]
 def line_of(problem: Problem, text: str) -> int:
     """The line (from 1) that a problem is about: that of its key, or of the nearest table that holds it; 0 where it is
     about the whole."""
-    if line := _LINE.match(problem.where):
+    if line := _LINE.match(str(problem.where)):
         return int(line[1])
     known = places(text)
-    name = re.split(r"[:,]| and ", problem.where)[0].strip()
+    name = re.split(r"[:,]| and ", str(problem.where))[0].strip()
     for word in (name, *_named(name)):
         parts = word.split(".")
         for n in range(len(parts), 0, -1):

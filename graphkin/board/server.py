@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer, language_of
 from graphkin.errors import CallError, Problem
-from graphkin.words.refused import refused
+from graphkin.words import Phrase, say
 
 if TYPE_CHECKING:
     import socket
@@ -67,7 +67,7 @@ def needs_live() -> None:
 
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
     if missing:
-        raise CallError(Problem("open", f"needs {', '.join(missing)}", 'pip install "graphkin[live]"'))
+        raise CallError(Problem("open", Phrase("needs", missing=', '.join(missing)), 'pip install "graphkin[live]"'))
 
 
 @cache
@@ -131,7 +131,7 @@ def application(desk: Desk, address: Address) -> Starlette:
             return headed(PlainTextResponse(why, 403))
         name = request.path_params["name"]
         if name not in _FILES:
-            return headed(PlainTextResponse("there is no such file", 404))
+            return headed(PlainTextResponse(Phrase("there is no such file"), 404))
         return headed(Response(_file(name), media_type=_FILES[name][1]))
 
     async def talk(socket: WebSocket) -> None:
@@ -172,8 +172,8 @@ def _answered(desk: Desk, text: str) -> str:
     except Exception as error:
         traceback.print_exc()
         number = message.get("id") if isinstance(message, dict) else None
-        said = f"this could not be answered ({type(error).__name__}); the terminal says more"
-        text = refused(said, language_of(message))
+        said = Phrase("this could not be answered the terminal says", name=type(error).__name__)
+        text = say(said, language_of(message))
         return json.dumps({"id": number, "ok": False, "problems": [{"text": text, "line": 0}], "kind": "Defect"})
 
 
@@ -200,7 +200,9 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
         listening.bind(("127.0.0.1", port))
     except (OSError, OverflowError) as error:
         listening.close()
-        raise CallError(Problem("port", f"{port} cannot be used: {error}", "give another one, or none")) from None
+        raise CallError(
+            Problem("port", Phrase("cannot be used", port=port, error=error), Phrase("give another one or none"))
+        ) from None
     address = Address.new(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:

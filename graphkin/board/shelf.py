@@ -14,6 +14,7 @@ from pathlib import Path
 from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.files import Json, whole_file
 from graphkin.scene.source import LARGEST_FILE, file_text, library, library_text
+from graphkin.words import Phrase, from_others
 
 __all__ = ["Shelf", "mark_of"]
 
@@ -74,7 +75,9 @@ class Shelf:
         if name in library():
             return library_text(name)
         known = [*self.files(), *library()]
-        raise CallError(Problem(f'"{name[:60]}"', "there is no such scene here", did_you_mean(name[:60], known)))
+        raise CallError(
+            Problem(f'"{name[:60]}"', Phrase("there is no such scene here"), did_you_mean(name[:60], known))
+        )
 
     def save(self, name: str, text: str, mark: str) -> str:
         """Write a file, and return the mark of its new version.
@@ -89,19 +92,21 @@ class Shelf:
         """
         path = self._path(name)
         if len(text) > LARGEST_FILE:
-            raise CallError(Problem(name, f"is larger than {LARGEST_FILE // 1000} kB"))
+            raise CallError(Problem(name, Phrase("is larger than kb", largest=LARGEST_FILE // 1000)))
         try:
             before = path.read_bytes() if path.is_file() else None
             if before is not None and mark_of(before.decode("utf-8-sig", "replace")) != mark:
-                raise CallError(Problem(name, "has been changed by somebody else since it was opened",
-                                        "open it again, or save under another name"))
+                raise CallError(Problem(name, Phrase("has been changed by somebody else since it"),
+                                        Phrase("open it again or save under another name")))
             if before is not None:
                 with whole_file(path.with_name(f"{path.name}~")) as kept:
                     kept.write(before)
             with whole_file(path) as out:
                 out.write(text.encode())
         except OSError as error:
-            raise CallError(Problem(name, f"cannot be written: {error.strerror or error}")) from None
+            raise CallError(
+                Problem(name, Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
+            ) from None
         return mark_of(text)
 
     def changed(self, name: str, mark: str) -> str | None:
@@ -114,12 +119,16 @@ class Shelf:
 
     def _path(self, name: str) -> Path:
         if self.folder is None:
-            raise CallError(Problem(name[:60] or "the file", "no file was opened that could be written",
-                                    "start with a folder: graphkin open FOLDER"))
+            raise CallError(Problem(name[:60] or Phrase("the file"), Phrase("no file was opened that could be written"),
+                                    Phrase("start with a folder graphkin open folder")))
         if name != self.only and (self.only or not _NAME.fullmatch(name)):
-            wanted = f"only {self.only} may be written here" if self.only else "a name like four-bar.toml is wanted"
-            raise CallError(Problem(f'"{name[:60]}"', "cannot be written", wanted))
+            wanted = (
+                Phrase("only may be written here", names=self.only)
+                if self.only
+                else Phrase("a name like four-bar.toml is wanted")
+            )
+            raise CallError(Problem(f'"{name[:60]}"', Phrase("cannot be written of nothing"), wanted))
         path = self.folder / name
         if path.is_symlink() and self.only != name:
-            raise CallError(Problem(name, "is a link to another place", "open that file itself"))
+            raise CallError(Problem(name, Phrase("is a link to another place"), Phrase("open that file itself")))
         return path

@@ -11,6 +11,7 @@ from graphkin.construction.sheet import DiagramName, Sheet, either_way
 from graphkin.construction.strokes import Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol, centre_links
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.centres import Centres
@@ -115,8 +116,10 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
             return None
         centre = centres[0].of(*pair)
         if centre.point is None:
-            found = "lies at infinity here" if centre.place is not None else "has no place here"
-            raise Unsolvable("not drawn", Problem(name, f"the instant centre of links {' and '.join(pair)} {found}"))
+            found = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
+            raise Unsolvable(
+                "not drawn", Problem(name, Phrase("the instant centre of links", pair=" and ".join(pair), value=found))
+            )
         return centre.point
 
     return place

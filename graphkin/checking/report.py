@@ -17,6 +17,7 @@ from graphkin.errors import Disagreement, Problem
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.structure import by_drivers_alone
+from graphkin.words import Phrase
 from graphkin.words.written import MOST, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
@@ -123,8 +124,8 @@ class Report:
         problems = []
         for row in off:
             drawn, exact = (_written(scene, row.symbol, value) for value in (row.measured, row.true))
-            found = f"{drawn} by the drawing, {exact} by computation"
-            problems.append(Problem(str(row.symbol), found, "no paper is written: please report this scene"))
+            found = Phrase("by the drawing by computation", value=drawn, exact=exact)
+            problems.append(Problem(str(row.symbol), found, Phrase("no paper is written please report this scene")))
         raise Disagreement(*problems)
 
     @property

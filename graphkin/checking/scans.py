@@ -118,17 +118,23 @@ def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:
     ends, where = _ends(sheet, diagram), f"scans.{scan.diagram}"
     unknown = [n for n in (*scan.points, *scan.read) if n not in ends]
     if unknown:
-        raise CallError(*(Problem(f"{where}.{n}", "is no end of this figure", did_you_mean(n, ends)) for n in unknown))
+        raise CallError(
+            *(Problem(f"{where}.{n}", Phrase("is no end of this figure"), did_you_mean(n, ends)) for n in unknown)
+        )
     (p, q), (one, other) = scan.points, scan.points.values()
     largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
     if abs(ends[p] - ends[q]) <= SAME * largest:
-        raise CallError(Problem(f"{where}.points", f"{p} and {q} lie at one place", "name two ends apart"))
+        raise CallError(
+            Problem(f"{where}.points", Phrase("and lie at one place", point=p, other=q), Phrase("name two ends apart"))
+        )
     step = (ends[q] - ends[p]) / (other - one)
     corner = ends[p] - step * one
     places = {name: corner + step * at for name, at in {**scan.points, **scan.read}.items()}
     lines = tuple(_lines(sheet, diagram, ends, places, scan.within))
     if not lines:
-        raise CallError(Problem(where, "no line goes from one of these ends to another", "read both ends of a line"))
+        raise CallError(
+            Problem(where, Phrase("no line goes from one of these ends"), Phrase("read both ends of a line"))
+        )
     return JudgedScan(scan, diagram, lines, corner, step)
 
 

@@ -22,6 +22,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import print_json, print_paths, print_table, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.words import Phrase
 
 __all__ = ["centres"]
 
@@ -56,9 +57,9 @@ def centres(
     wanted, values = split_words(formats), driver_values(at, position)
     known_words(wanted, text=text)
     if point and centrode is None:
-        raise CallError(Problem("--point", "without --centrode", "write --centrode LINK --point P"))
+        raise CallError(Problem("--point", Phrase("without centrode"), Phrase("write centrode link point p")))
     if motion and centrode is not None:
-        raise CallError(Problem("--motion", "stands beside --centrode", "write one of the two"))
+        raise CallError(Problem("--motion", Phrase("stands beside centrode"), Phrase("write one of the two")))
     if centrode is not None:
         _roll(scene, centrode, point, values, out, wanted, text, lang, convention, as_json, quiet)
         return

@@ -32,7 +32,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.words import languages
+from graphkin.words import Phrase, languages
 
 if TYPE_CHECKING:
     from graphkin.api.checked import Checked
@@ -211,5 +211,7 @@ def _points(text: str) -> dict[str, float] | None:
         try:
             found[name.strip()] = float(points)
         except ValueError:
-            raise CallError(Problem("grading", f'"{one[:40]}"', "write equations=20,drawing=30,values=50")) from None
+            raise CallError(
+                Problem("grading", f'"{one[:40]}"', Phrase("write equations 20 drawing 30 values 50"))
+            ) from None
     return found or None

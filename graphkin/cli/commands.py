@@ -20,6 +20,7 @@ import typer
 from graphkin import __version__
 from graphkin.cli.output import asked_languages, complain
 from graphkin.errors import GraphkinError
+from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
     from typing_extensions import Buffer
@@ -155,7 +156,7 @@ def main(interrupted: Callable[[int, FrameType | None], object] | None = None) -
         sys.stdout.flush()
     except Unwritable as error:
         with suppress(OSError):
-            complain(f"what is printed cannot be written: {error.strerror}")
+            complain(Phrase("what is printed cannot be written", reason=from_others(error.strerror or str(error))))
         status = 2
     except KeyboardInterrupt:  # a second one, while the first was answered, or at the very end
         status = INTERRUPTED
@@ -185,7 +186,7 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
     except Exception as error:
         if not isinstance(error, _WRONG_CALL):
             raise
-        complain(str(error.format_message()))  # type: ignore[attr-defined]
+        complain(from_others(str(error.format_message())))  # type: ignore[attr-defined]
         return 2
     return 0
 

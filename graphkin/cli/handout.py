@@ -24,6 +24,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import complain, print_json, print_paths, progress_bar, short_bar, tell, tell_unused
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.api.course_designs import CourseDesigns
@@ -87,21 +88,20 @@ def handout(
     if text != "glyphs":
         raise CallError(
             Problem(
-                "text", f'"{text}" with papers', "their PDF has its letters with it and needs none of the reader's; for"
-                f" figures with letters as paths: graphkin draw {scene} --text outlines",
+                "text", Phrase("with papers", text=text), Phrase("their pdf has its letters with it and", scene=scene),
             )
         )  # fmt: skip
     if template not in TEMPLATES:
         raise CallError(Problem("template", f'"{template}"', did_you_mean(template, TEMPLATES)))
     if template == "course-design":
         if export:
-            raise CallError(Problem("template course-design", "with --export", "leave one of them out"))
+            raise CallError(Problem("template course-design", Phrase("with export"), Phrase("leave one of them out")))
         place = driver_values(at, position)
         drawn = variants, seed
         _course(scene, students, rows, out, place, find, wanted, lang, convention, positions, drawn, as_json, quiet)
         return
     if students is not None:
-        raise CallError(Problem("students", "without a course design", "add --template course-design"))
+        raise CallError(Problem("students", Phrase("without a course design"), Phrase("add template course-design")))
     if is_design(scene):
         from graphkin.api.designed import design as designing
         from graphkin.api.task_papers import write_design_papers
@@ -116,7 +116,7 @@ def handout(
     if variants is not None or rows is not None:
         if at or positions is not None:
             raise CallError(
-                Problem("variants", "with --at or --positions", "a set draws positions of its own, one each")
+                Problem("variants", Phrase("with at or positions"), Phrase("a set draws positions of its own one"))
             )
         _problem_set(
             scene,
@@ -182,8 +182,7 @@ def _problem_set(
     from graphkin.api.handouts import papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.scene import mechanism_of
-    from graphkin.words import languages
-    from graphkin.words.refused import refused
+    from graphkin.words import languages, say
 
     target = out if out is not None else Path(mechanism_of(scene).name)
     papers = papers_of(scene, formats, lang, convention, exports)
@@ -203,10 +202,13 @@ def _problem_set(
     if as_json:
         print_json(made.data)
     elif not quiet:
-        said = f"{len(made.made.names)} problems in {target}, all answers in {target / 'answers.csv'}"
-        tell(refused(said, languages(lang or mechanism_of(scene).sheet.language)[0]))
+        answers = target / "answers.csv"
+        done = Phrase(
+            "problems in a folder with all answers", count=len(made.made.names), folder=target, answers=answers
+        )
+        tell(say(done, languages(lang or mechanism_of(scene).sheet.language)[0]))
     tell_unused(made.unused)
     for failure in made.made.failures:
-        complain(f"{failure.name}: {failure.why}")
+        complain(Phrase("where and what", where=failure.name, found=failure.why))
     if not made.ok:
         raise typer.Exit(min(failure.exit_code for failure in made.made.failures))

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from graphkin.errors import CallError, Problem
-from graphkin.words import BOTH, LANGUAGES
+from graphkin.words import BOTH, LANGUAGES, Phrase
 
 __all__ = [
     "AtOption",
@@ -94,7 +94,9 @@ def driver_values(at: list[str] | None, position: str | None = None) -> float | 
     """
     if position is not None:
         if at:
-            raise CallError(Problem("--position", "stands beside --at", "write one of the two"))
+            raise CallError(
+                Problem("--position", Phrase("stands beside at of nothing"), Phrase("write one of the two"))
+            )
         return position
     if not at:
         return None
@@ -105,15 +107,19 @@ def driver_values(at: list[str] | None, position: str | None = None) -> float | 
         try:
             value = float(number)
         except ValueError:
-            raise CallError(Problem(f"--at {text}", f'"{number}" is no number', "write --at 50 or --at 1=50")) from None
+            raise CallError(
+                Problem(f"--at {text}", Phrase("is no number", number=number), Phrase("write at 50 or at 1 50"))
+            ) from None
         if name in named or (not name and bare):
-            raise CallError(Problem("--at", f"{text} is given twice for one driver", "write --at 1=50 --at 2=30"))
+            raise CallError(
+                Problem("--at", Phrase("is given twice for one driver", text=text), Phrase("write at 1 50 at 2 30"))
+            )
         if name:
             named[name] = value
         else:
             bare.append(value)
     if bare and named:
-        raise CallError(Problem("--at", "a bare value beside named ones", "write --at 1=50 --at 2=30"))
+        raise CallError(Problem("--at", Phrase("a bare value beside named ones"), Phrase("write at 1 50 at 2 30")))
     return bare[0] if bare else named
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import typer
 
 from graphkin.errors import Problem, Unsolvable, printable
+from graphkin.words import Phrase, Wording, say
 
 __all__ = [
     "asked_languages", "complain", "print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell",
@@ -39,23 +40,16 @@ def asked_languages(arguments: Sequence[str]) -> tuple[str, ...]:
     return languages(given) if given in (*LANGUAGES, BOTH) else LANGUAGES[:1]
 
 
-def complain(*found: Problem | str) -> None:
+def complain(*found: Problem | Wording) -> None:
     """Say on stderr what is wrong, or was not done as asked, in the languages that the command is asked to speak."""
     for language in asked_languages(sys.argv[1:]):
-        for one in found:
-            tell(f"graphkin: {_refused(one, language)}", err=True)
-
-
-def _refused(found: Problem | str, language: str) -> str:
-    if language == "en":
-        return str(found)
-    from graphkin.words.refused import refused, refused_as
-
-    return refused(found, language) if isinstance(found, str) else refused_as(found, language)
+        for fault in found:
+            text = fault.text(language) if isinstance(fault, Problem) else say(fault, language)
+            tell(f"graphkin: {text}", err=True)
 
 
 def print_json(data: object) -> None:
-    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, default=str)
     typer.echo(re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text))
 
 
@@ -119,7 +113,7 @@ def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> 
 def tell_unused(heads: Sequence[str]) -> None:
     """Say which columns of a table were not used."""
     if heads:
-        complain(f"columns left alone: {', '.join(heads)[:300]}")
+        complain(Phrase("columns left alone", names=', '.join(heads)[:300]))
 
 
 @contextmanager
@@ -129,7 +123,7 @@ def progress_bar(shown: bool, target: Path) -> Iterator[Callable[[int, int], Non
         try:
             yield count
         except KeyboardInterrupt:
-            complain(f"interrupted; what is done is kept in {target}, the same command goes on")
+            complain(Phrase("interrupted what is done is kept in the", target=target))
             raise
 
 

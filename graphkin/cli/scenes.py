@@ -16,6 +16,7 @@ import typer
 from graphkin.cli.options import JsonOption, LangOption, QuietOption, SceneArgument
 from graphkin.cli.output import complain, print_json, print_paths, print_table, tell
 from graphkin.errors import CallError, Problem
+from graphkin.words import Phrase, from_others
 
 __all__ = ["convert", "explain", "open_page", "scenes"]
 
@@ -57,7 +58,7 @@ def scenes(
         else:
             typer.echo(text, nl=False)
     elif copy:
-        raise CallError(Problem("--copy", "no scene is named", "write graphkin scenes NAME --copy"))
+        raise CallError(Problem("--copy", Phrase("no scene is named"), Phrase("write graphkin scenes name copy")))
     else:
         _list(lang, as_json)
 
@@ -72,7 +73,9 @@ def _begin(kind: str, given: list[str], file: Path | None) -> None:
         try:
             values[name.strip()] = float(number)
         except ValueError:
-            raise CallError(Problem(f"--set {text}", f'"{number}" is no number', "write --set crank=150")) from None
+            raise CallError(
+                Problem(f"--set {text}", Phrase("is no number", number=number), Phrase("write set crank 150"))
+            ) from None
     new_scene(kind, values)
     if sys.stdin is not None and sys.stdin.isatty():
         for name, usual in NEW[kind].asks.items():
@@ -108,11 +111,13 @@ def _spoken_here() -> str:
 
 def _write_new(path: Path, text: str) -> None:
     if path.exists():
-        raise CallError(Problem(str(path), "a file of that name is there already", "name another file"))
+        raise CallError(Problem(str(path), Phrase("a file of that name is there already"), Phrase("name another file")))
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
-        raise CallError(Problem(str(path), f"cannot be written: {error.strerror}")) from None
+        raise CallError(
+            Problem(str(path), Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
+        ) from None
     print_paths([path])
 
 
@@ -151,7 +156,7 @@ def convert(
     from graphkin.api.converted import convert as converting
 
     if out is not None and out.exists():
-        raise CallError(Problem(str(out), "a file of that name is there already", "name another file"))
+        raise CallError(Problem(str(out), Phrase("a file of that name is there already"), Phrase("name another file")))
     made = converting(source, out, lossy)
     if as_json:
         print_json(made.data)

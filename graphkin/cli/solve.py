@@ -21,6 +21,7 @@ from graphkin.cli.options import (
     driver_values,
 )
 from graphkin.cli.output import complain, print_json, print_table, tell, unsolvable_as_json
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.api.solved import Solved, SolvedBlocks
@@ -73,13 +74,13 @@ def solve(
         _print_solution(solved, lang)
     if not solved.ok:
         first = solved.first.motion
-        complain(f"{first.status[0]}: {first.why[0]}")
+        complain(first.said(0))
         raise typer.Exit(3)
 
 
 def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
     from graphkin.api.arguments import passed_words
-    from graphkin.words import Phrase, class_of, listed, say
+    from graphkin.words import class_of, listed, say
 
     scene = solved.first.motion.scene
     said_first: Told = solved.first.head
@@ -98,14 +99,13 @@ def _print_solution(solved: SolvedBlocks, lang: str | None) -> None:
 
 def _print_positions(solved: Solved, language: str) -> None:
     from graphkin.api.solution_text import solution_tables
-    from graphkin.words import Phrase, say
-    from graphkin.words.refused import refused
+    from graphkin.words import say
 
     for k, (values, why, tables) in enumerate(solution_tables(solved, language)):
         tell("")
         tell(say(Phrase("solved driver", (values,)), language))
         if why:
-            tell(refused(why, language))
+            tell(say(why, language))
             continue
         for table in tables:
             print_table(table.heads, table.at(k), right=table.right)

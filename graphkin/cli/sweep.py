@@ -23,6 +23,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.output import complain, print_json, print_paths, progress_bar, tell, unsolvable_as_json
 from graphkin.errors import CallError, Problem
+from graphkin.words import Phrase
 
 __all__ = ["sweep"]
 
@@ -99,7 +100,7 @@ def sweep(
         tell(swept.text)
         print_paths(sorted(p for p in target.iterdir() if not p.name.startswith(".")))
     if not swept.ok:
-        complain("no position could be solved; designs.csv or table.csv says why")
+        complain(Phrase("no position could be solved designs.csv or table.csv"))
         raise typer.Exit(3)
 
 
@@ -109,8 +110,12 @@ def _replaced(given: list[str] | None) -> dict[str, str]:
     for text in given or []:
         key, sign, values = text.partition("=")
         if not sign or not key.strip():
-            raise CallError(Problem(f"--set {text}", "says no key or no values", "write --set links.1.length=40:60:21"))
+            raise CallError(
+                Problem(
+                    f"--set {text}", Phrase("says no key or no values"), Phrase("write set links.1.length 40 60 21")
+                )
+            )
         if key.strip() in found:
-            raise CallError(Problem(f"--set {text}", "the key is given twice", "write KEY=40,50,60"))
+            raise CallError(Problem(f"--set {text}", Phrase("the key is given twice"), Phrase("write key 40 50 60")))
         found[key.strip()] = values
     return found

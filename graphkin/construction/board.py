@@ -21,6 +21,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
 from graphkin.words.written import computed, on_paper
 
 __all__ = ["EXACT", "Board", "Cad", "Exact", "Hand", "Instrument", "erring", "nudged", "pencil"]
@@ -287,7 +288,9 @@ class Board:
         if sine < PARALLEL:
             raise Unsolvable(
                 "dead point",
-                Problem(what, "the two lines that should find it are parallel", "move the driver off this position"),
+                Problem(
+                    what, Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
+                ),
             )
         self.notice(diagram, SharpCrossing(what, sine))
         at = cross_lines(p, d, q, e)

@@ -19,6 +19,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Structure, analyse, part_of
 from graphkin.structure.assembly import ways
 from graphkin.structure.replacement import cams_replaced
+from graphkin.words import Phrase
 
 __all__ = ["cams_in_place", "follower_limits"]
 
@@ -130,7 +131,7 @@ def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mappi
         if cam is None or not isinstance(driver, AngleDriver) or (driver.link, driver.relative_to) != (
             cam.link, whole.frame.name
         ):  # fmt: skip
-            said = "is drawn of followers of the driven cam only", "ask for s_, theta_ or d_ at single positions"
+            said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
         ends = []
         for lift in (cam.law.least, cam.law.greatest):

@@ -128,7 +128,9 @@ class DesignPaper:
 
     def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
         if abs(cross(d, e)) < PARALLEL:
-            raise Unsolvable("not drawn", Problem(what, "the lines that should find it are parallel", "other data"))
+            raise Unsolvable(
+                "not drawn", Problem(what, Phrase("the lines that should find it are parallel"), Phrase("other data"))
+            )
         at = cross_lines(p, d, q, e)
         assert at is not None
         return self.hand.point(at)
@@ -137,7 +139,9 @@ class DesignPaper:
         """Where a line cuts a circle, the one further along d first."""
         found = cross_line_arc(p, d, centre, radius)
         if found is None:
-            raise Unsolvable("not drawn", Problem(what, "the line does not reach the circle", "other data"))
+            raise Unsolvable(
+                "not drawn", Problem(what, Phrase("the line does not reach the circle"), Phrase("other data"))
+            )
         return self.hand.point(found[0]), self.hand.point(found[1])
 
     def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:

@@ -288,7 +288,9 @@ def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> Non
     elif abs(arm) <= plot.tiny:
         raise CallError(
             Problem(
-                str(symbol), "the two points coincide, no line joins them", "ask for ak and ar of coincident points"
+                str(symbol),
+                Phrase("the two points coincide no line joins them"),
+                Phrase("ask for ak and ar of coincident points"),
             )
         )
     along = unit(arm)
@@ -309,8 +311,8 @@ def _pivot(plot: Plot, of: PointRef) -> PointRef:
     raise CallError(
         Problem(
             f"{of}",
-            "its link has no fixed pivot to which its normal points",
-            "name the other point too, for example an_C/B",
+            Phrase("its link has no fixed pivot to which"),
+            Phrase("name the other point too for example an_c"),
         )
     )
 
@@ -342,7 +344,7 @@ def _pair(plot: Plot, of: PointRef, to: PointRef, symbol: Symbol) -> str:
     raise CallError(
         Problem(
             str(symbol),
-            "these two points do not lie on the two sides of a sliding pair",
-            f"known are {known}" if known else "this mechanism has none",
+            Phrase("these two points do not lie on the"),
+            Phrase("known are", names=known) if known else Phrase("this mechanism has none"),
         )
     )

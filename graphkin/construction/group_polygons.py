@@ -27,6 +27,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, Dyad, Slide, Structure, Turn, driver_pair
+from graphkin.words import Phrase
 
 __all__ = ["GroupPolygons"]
 
@@ -98,7 +99,10 @@ class GroupPolygons(TrialPolygons):
                 break  # none can be so much better
         if best is None or not best[0]:
             names = ", ".join(group.links)
-            raise Unsolvable("dead point", Problem(f"links {names}", "no drawing tells how this group moves here"))
+            raise Unsolvable(
+                "dead point",
+                Problem(Phrase("links", links=names), Phrase("no drawing tells how this group moves here")),
+            )
         self.plans[group] = best[1]
         self._by_plan(order, group, best[1])
 

@@ -27,6 +27,7 @@ from graphkin.construction.trial_tables import table_of_one, table_of_several
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Driven, links_of
+from graphkin.words import Phrase
 
 __all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
 
@@ -109,7 +110,9 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
                 return fit
             poses.update(fit)
     names = ", ".join(reduced.cluster.links)
-    raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
+    raise Unsolvable(
+        "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
+    )
 
 
 def _between(one: Pose, two: Pose, part: float) -> Pose:
@@ -128,7 +131,9 @@ def _placed_by_hand(frame: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
     last = drawn_near(reduced, frame, poses, values)
     if last is None:
         names = ", ".join(reduced.cluster.links)
-        raise Unsolvable("not assembled", Problem(f"links {names}", "the last trial drawing does not close"))
+        raise Unsolvable(
+            "not assembled", Problem(Phrase("links", links=names), Phrase("the last trial drawing does not close"))
+        )
     frame.pricked.update(last.pricked)
     frame.poses.update(reduced.put_back(last))
     frame.settle([r.left_out for r in reduced.removed if r.left_out])
@@ -141,7 +146,9 @@ def _by_hand(
     drawn = drawn_near(reduced, frame, poses, values)
     if drawn is None:
         names = ", ".join(reduced.cluster.links)
-        raise Unsolvable("not assembled", Problem(f"links {names}", "a trial drawing does not close"))
+        raise Unsolvable(
+            "not assembled", Problem(Phrase("links", links=names), Phrase("a trial drawing does not close"))
+        )
     size = frame.mm * reduced.structure.scene.size
     gaps = np.array([
         gap if one.is_angle else frame.instrument.read(gap * size) / size
@@ -153,7 +160,7 @@ def _by_hand(
     for i in range(len(values)):
         sides = [drawn_near(reduced, exact, poses, values + s * step * np.eye(len(values))[i]) for s in (-1, 1)]
         if sides[0] is None or sides[1] is None:
-            raise Unsolvable("dead point", Problem("trial", "the trial drawing is at a dead point"))
+            raise Unsolvable("dead point", Problem("trial", Phrase("the trial drawing is at a dead point")))
         rows.append((np.array(reduced.gaps(sides[1])) - np.array(reduced.gaps(sides[0]))) / (2 * step))
     return gaps, np.array(rows).T
 

@@ -26,6 +26,7 @@ from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
+from graphkin.words import Phrase
 
 __all__ = ["Inversion", "TriangleDrawn", "inversions_of", "opened_at_triangles", "own_assembly"]
 
@@ -205,7 +206,10 @@ def own_assembly(
         found = list(_ways(frame, elements, run, mine))
         if not found:
             names = ", ".join(group.links)
-            raise Unsolvable("not assembled", Problem(f"links {names}", "no assembly of the group fits together here"))
+            raise Unsolvable(
+                "not assembled",
+                Problem(Phrase("links", links=names), Phrase("no assembly of the group fits together here")),
+            )
         index = pick(structure.scene, group.links, [frame.fresh(way.poses) for way in found], None).index
         way = found[index]
         taken.update({v.key: branch for v, branch in zip(mine, way.triangles, strict=True)})

@@ -28,6 +28,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Slide, Structure, links_of
 from graphkin.structure.transmission import sliding_pair
+from graphkin.words import Phrase
 
 __all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
 
@@ -81,8 +82,8 @@ class TurnOfCrank:
         """
         driver = structure.scene.drivers[0]
         if not isinstance(driver, AngleDriver):
-            raise Unsolvable("no whole turn", Problem(why, "belongs to a whole turn, but the driver slides",
-                                                      "ask for s_, theta_ or d_ at single positions"))  # fmt: skip
+            raise Unsolvable("no whole turn", Problem(why, Phrase("belongs to a whole turn but the driver"),
+                                                      Phrase("ask for s_ theta_ or d_ at single")))  # fmt: skip
         choices = Choices(structure, elements)
         placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
         start = {name: pose for name, pose in poses.items() if name in placed}
@@ -105,7 +106,7 @@ class TurnOfCrank:
             found.append(at)
             step = min(2 * step, STEP)
         if _moved(start, at.poses) > CLOSED:
-            raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn of the driver"))
+            raise Unsolvable("no whole turn", Problem(why, Phrase("the motion does not repeat after one turn")))
         return cls(structure, elements, values, choices, tuple(found))
 
     def near(self, value: float, guess: Poses) -> Turned | None:
@@ -121,12 +122,12 @@ class TurnOfCrank:
         """
         travels = _travels(output, self.positions)
         if isinstance(output, str) and abs(travels[-1] - travels[0]) > 1.0:
-            found = f"link {output} turns on and on, it has no limit positions"
-            raise Unsolvable("no whole turn", Problem(why, found, "ask for a link that swings, or a slide"))
+            found = Phrase("link turns on and on it has no", output=output)
+            raise Unsolvable("no whole turn", Problem(why, found, Phrase("ask for a link that swings or a")))
         if max(travels) - min(travels) < STILL:
             name = output if isinstance(output, str) else output.key
-            found = f"{name} does not move, it has no limit positions"
-            raise Unsolvable("no whole turn", Problem(why, found, "ask for an output that moves"))
+            found = Phrase("does not move it has no limit positions", name=name)
+            raise Unsolvable("no whole turn", Problem(why, found, Phrase("ask for an output that moves")))
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
         return low[0], high[0], high[1] - low[1]
 
@@ -239,9 +240,9 @@ def _drawn_again(
 
 
 def _short(why: str, link: str, value: float) -> Problem:
-    end = f"it stops near {math.degrees(value):.2f} deg"
-    found = f"belongs to a whole turn, but driver {link} does not turn fully ({end})"
-    return Problem(why, found, "ask for s_, theta_ or d_ at single positions")
+    end = Phrase("it stops near deg", degrees=f'{math.degrees(value):.2f}')
+    found = Phrase("belongs to a whole turn but driver does", link=link, end=end)
+    return Problem(why, found, Phrase("ask for s_ theta_ or d_ at single"))
 
 
 def _along(output: Slide | str, here: Turned, near: float) -> float:

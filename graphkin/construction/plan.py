@@ -44,6 +44,7 @@ from graphkin.structure import (
     pins_on_circles,
 )
 from graphkin.structure.replacement import with_cams
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
@@ -294,7 +295,10 @@ def _by_trial(
             at_hand = standing(there, element, frame, poses) if given else best_reduced(choices, element, frame, poses)
             if at_hand is None:
                 names = ", ".join(element.links)
-                raise Unsolvable("dead point", Problem(f"links {names}", "every trial drawing is at a dead point here"))
+                raise Unsolvable(
+                    "dead point",
+                    Problem(Phrase("links", links=names), Phrase("every trial drawing is at a dead point")),
+                )
             trials[element] = GroupTrial(at_hand.rolled_from(poses, frame.mm), poses, given)
         for name in links_of(element):
             frame.poses[name] = poses[name]

@@ -23,6 +23,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
+from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = ["Order", "Plot", "letter"]
@@ -151,8 +152,8 @@ class Plot:
             return pushed[1]
         read = self.board.read_arm(between, abs(arm))
         if read == 0.0:
-            found = f"{abs(arm):.2g} mm on paper are too short to be read"
-            raise Unsolvable("not drawn", Problem("".join(between), found, "draw the mechanism larger"))
+            found = Phrase("mm on paper are too short to be", length=f'{abs(arm):.2g}')
+            raise Unsolvable("not drawn", Problem("".join(between), found, Phrase("draw the mechanism larger")))
         return read * self.scales.length
 
     def found_mm(self, symbol: Symbol, span: complex) -> float:

@@ -36,6 +36,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollower
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, Turn, links_of
+from graphkin.words import Phrase
 
 __all__ = ["Polygons", "links_alike", "same_turn"]
 
@@ -121,7 +122,9 @@ class Polygons(Plot):
         point = slide.pin or next(iter(self.links[slide.a].points), "")
         if not point:
             names = ", ".join((slide.a, slide.b))
-            raise Unsolvable("not drawn", Problem(f"links {names}", "no point of the sliding link is drawn"))
+            raise Unsolvable(
+                "not drawn", Problem(Phrase("links", links=names), Phrase("no point of the sliding link is drawn"))
+            )
         along = self.frame.poses[slide.b].axis * slide.guide.direction
         slip = self.end(order, node(self.links, point, slide.a)) - self.end(order, node(self.links, point, slide.b))
         return dot(slip, along) * self.scales.of(order)
@@ -176,7 +179,7 @@ class Polygons(Plot):
             names = ", ".join(dyad.links)
             raise Unsolvable(
                 "not drawn",
-                Problem(f"links {names}", "points of theirs fall together on any sheet that shows the whole mechanism"),
+                Problem(Phrase("links", links=names), Phrase("points of theirs fall together on any sheet")),
             )
         return chain
 

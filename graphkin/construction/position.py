@@ -119,8 +119,8 @@ def _refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
             "not assembled",
             Problem(
                 names,
-                f"the two loci of the {element.kind} group do not meet here",
-                "choose a driver value at which the mechanism can be assembled",
+                Phrase("the two loci of the group do not", kind=element.kind),
+                Phrase("choose a driver value at which the mechanism"),
             ),
         )
     if not meeting.poses or meeting.sine < DEAD:
@@ -128,8 +128,8 @@ def _refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
             "dead point",
             Problem(
                 names,
-                f"the {element.kind} group stands at a dead point, its loci only touch",
-                "move the driver off this position",
+                Phrase("the group stands at a dead point its", kind=element.kind),
+                Phrase("move the driver off this position"),
             ),
         )
 

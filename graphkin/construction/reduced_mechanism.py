@@ -19,6 +19,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, SlideDriver
 from graphkin.structure import Cluster, Driven, Dyad, Structure, Turn, links_of, regrouped, unrolled
+from graphkin.words import Phrase
 
 __all__ = ["ReducedMechanism", "clusters", "reduced_mechanisms"]
 
@@ -128,7 +129,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
         if found:
             return found
     names = ", ".join(cluster.links)
-    raise Unsolvable("not drawn", Problem(f"links {names}", "nothing can be left out so that only dyads remain"))
+    raise Unsolvable("not drawn", Problem(Phrase("links", links=names), Phrase("nothing can be left out so that only")))
 
 
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:

@@ -14,6 +14,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure
 from graphkin.structure.model import Coordinate
+from graphkin.words import Phrase
 
 __all__ = ["rolled_position"]
 
@@ -38,7 +39,9 @@ def rolled_position(
             frame = _with(frame, element.driver.key, element.driver.start)
         elif not isinstance(element, Driven | Dyad):
             names = ", ".join(element.links)
-            raise Unsolvable("not drawn", Problem(f"links {names}", "a larger group beside what rolls is not drawn"))
+            raise Unsolvable(
+                "not drawn", Problem(Phrase("links", links=names), Phrase("a larger group beside what rolls is not"))
+            )
         choose(structure, frame, i, element, chosen)
     near = dict(start)
     drivers = structure.scene.drivers
@@ -62,9 +65,15 @@ def _placed(
         if isinstance(element, Dyad):
             found = meet(frame, element).poses
             if not found:
-                wanted = "choose a driver value that the motion reaches"
-                raise Unsolvable("not assembled", Problem(
-                    f"links {', '.join(element.links)}", "their loci do not meet on the way to this position", wanted))
+                wanted = Phrase("choose a driver value that the motion reaches")
+                raise Unsolvable(
+                    "not assembled",
+                    Problem(
+                        Phrase("links", links=", ".join(element.links)),
+                        Phrase("their loci do not meet on the way"),
+                        wanted,
+                    ),
+                )
             chosen[i] = min(range(len(found)), key=lambda k, found=found: apart(found[k], before))  # type: ignore[misc]
             frame.poses.update(found[chosen[i]])
         elif isinstance(element, Driven):

@@ -31,6 +31,7 @@ from graphkin.scene.synthesis import (
     LimitsTask,
     SliderCrankTask,
 )
+from graphkin.words import Phrase
 
 __all__ = ["construct"]
 
@@ -104,11 +105,15 @@ def _pivot_on_circle(paper: DesignPaper, D: complex, circle: tuple[complex, floa
     reach = paper.hand.compass(paper.mm(task.frame))
     line = middle - D
     if abs(line) < 1e-9 * radius:
-        raise Unsolvable("not drawn", Problem("A", "the circle over C1C2 is one about D", "another K or swing"))
+        raise Unsolvable(
+            "not drawn", Problem("A", Phrase("the circle over c1c2 is one about d"), Phrase("another k or swing"))
+        )
     up = (reach**2 - (radius - abs(line)) * (radius + abs(line))) / (2.0 * abs(line))
     across = (reach - up) * (reach + up)
     if across < 0.0:
-        raise Unsolvable("not drawn", Problem("A", "the arc about D does not reach the circle", "another frame"))
+        raise Unsolvable(
+            "not drawn", Problem("A", Phrase("the arc about d does not reach the"), Phrase("another frame"))
+        )
     sides = [D + unit(line) * complex(up, s * math.sqrt(across)) for s in (1.0, -1.0)]
     A = paper.hand.point(min(sides, key=lambda z: z.real))
     paper.do("design arc", ("D", paper.shown(paper.mm(task.frame)), "A"),
@@ -325,7 +330,9 @@ def _(task: FunctionTask, paper: DesignPaper) -> None:
     across = paper.hand.read(abs(crossing.real)) * math.copysign(1.0, crossing.real)
     upward = paper.hand.read(abs(crossing.imag)) * math.copysign(1.0, crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * one:
-        raise Unsolvable("not drawn", Problem("design.pairs", "they ask for a bar without end", "other angles"))
+        raise Unsolvable(
+            "not drawn", Problem("design.pairs", Phrase("they ask for a bar without end"), Phrase("other angles"))
+        )
     crank, rocker = frame * one / across, frame * one / upward
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
     B = paper.hand.point(A + paper.hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
@@ -368,7 +375,9 @@ def _trials(
         if len(found) == 2:
             break
     if len(found) < 2:
-        raise Unsolvable("not drawn", Problem("design.pairs", "no trial crank tells the pairs apart", "other pairs"))
+        raise Unsolvable(
+            "not drawn", Problem("design.pairs", Phrase("no trial crank tells the pairs apart"), Phrase("other pairs"))
+        )
     strokes: list[DesignStroke] = []
     ends = []
     for crank, reciprocal, B, moved, p in found:

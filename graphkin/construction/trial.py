@@ -21,6 +21,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, links_of, pick
+from graphkin.words import Phrase
 
 __all__ = ["Known", "found_by_trial"]
 
@@ -84,7 +85,10 @@ def _own_position(choices: Choices, elements: Sequence[Element]) -> dict[str, Po
 def _dyad_by_sketch(scene: Mechanism, structure: Structure, frame: PlacedLinks, dyad: Dyad) -> None:
     meeting = meet(frame, dyad)
     if not meeting.poses:
-        raise Unsolvable("not assembled", Problem(f"links {', '.join(dyad.links)}", "their loci do not meet here"))
+        raise Unsolvable(
+            "not assembled",
+            Problem(Phrase("links", links=", ".join(dyad.links)), Phrase("their loci do not meet here")),
+        )
     candidates = [_fresh(structure, frame, poses) for poses in meeting.poses]
     frame.poses.update(meeting.poses[pick(scene, dyad.links, candidates, 0).index])
 
@@ -122,7 +126,9 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
         found += [fit for fit in _as_told(structure, frame, near) if not any(_near(fit, other) for other in found)]
     if not found:
         names = ", ".join(cluster.links)
-        raise Unsolvable("not assembled", Problem(f"links {names}", "no trial position closes this group here"))
+        raise Unsolvable(
+            "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
+        )
     found = _without_twins(structure, frame, cluster, found)
     candidates = [_fresh(structure, frame, poses) for poses in found]
     frame.poses.update(found[pick(structure.scene, cluster.links, candidates, None).index])

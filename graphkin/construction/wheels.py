@@ -13,6 +13,7 @@ from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
 from graphkin.structure import Structure, meshes_of
 from graphkin.structure.model import Coordinate
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.centre_lines import CentreLine, TrainPlan
@@ -78,7 +79,9 @@ class Wheels:
             line = plan.line(inside[0])
             assert line is not None
             return made, line.rate, abs(line.foot)
-        raise Unsolvable("not drawn", Problem(f"link {name}", "no velocity plan leads to what rolls here"))
+        raise Unsolvable(
+            "not drawn", Problem(Phrase("link of name", name=name), Phrase("no velocity plan leads to what rolls here"))
+        )
 
     def _alike(self, name: str) -> set[str]:
         """Links that turn as one does, because they slide on each other."""

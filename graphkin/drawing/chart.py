@@ -39,6 +39,7 @@ from graphkin.drawing.page import (
 from graphkin.drawing.primitives import Primitive, Stroke, Text
 from graphkin.drawing.text import rich
 from graphkin.errors import CallError, Problem
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes  # also for those who paint charts
@@ -132,8 +133,8 @@ class ChartPage(Kept):
         return hash((self.width, self.height, self.title, self.desc))
 
     def __reduce__(self) -> tuple[object, ...]:
-        wanted = "pickle the result that it belongs to, or save it as a file"
-        raise CallError(Problem("a chart", "is drawn by a function and cannot be pickled", wanted))
+        wanted = Phrase("pickle the result that it belongs to or")
+        raise CallError(Problem(Phrase("a chart"), Phrase("is drawn by a function and cannot be"), wanted))
 
     def figure(self, dpi: float = 72.0) -> Figure:
         """The page as a matplotlib figure of its own, to be changed at will."""

@@ -16,6 +16,7 @@ from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Scan, Stroke, Text
 from graphkin.errors import CallError, Problem
 from graphkin.plane import added_up
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as DxfFile
@@ -61,7 +62,7 @@ def _document(put: Callable[[DxfFile], None]) -> bytes:
         import ezdxf
         from ezdxf import units
     except ImportError:
-        needs = 'it needs the extra cad: pip install "graphkin[cad]"'
+        needs = Phrase("it needs the extra cad pip install graphkin")
         raise CallError(Problem("format", '"dxf"', needs)) from None
     with _ALONE:  # that no date is written is an option of the whole process
         before = ezdxf.options.write_fixed_meta_data_for_testing

@@ -27,8 +27,7 @@ from graphkin.drawing.symbols import BLOCK_LENGTH, BLOCK_WIDTH
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
-from graphkin.words import Phrase, languages, say
-from graphkin.words.refused import refused
+from graphkin.words import Phrase, Wording, languages, say
 
 __all__ = ["Shown", "positions_figure"]
 
@@ -66,7 +65,7 @@ class Shown:
     paths: Mapping[str, Sequence[complex]]
     measured: Mapping[tuple[str, str], float]
     marks: tuple[str, ...]
-    without: Mapping[str, str] = field(default_factory=dict)
+    without: Mapping[str, Wording] = field(default_factory=dict)
 
 
 def positions_figure(shown: Shown, *, language: str | None = None, convention: str | None = None) -> Drawing:
@@ -303,5 +302,5 @@ def _measured_lines(shown: Shown, spoken: str) -> list[str]:
         told = Phrase("positions of", (pair, ",  ".join(values)))
         said += in_both([say(told, each) for each in languages(spoken)])
     for output, why in shown.without.items():
-        said += in_both([say(Phrase("no limits", (output, refused(why, each))), each) for each in languages(spoken)])
+        said += in_both([say(Phrase("no limits", (output, why)), each) for each in languages(spoken)])
     return said

@@ -14,6 +14,7 @@ from graphkin.exchange.pmks import is_address, read_address, read_table
 from graphkin.exchange.pylinkage import read_pylinkage, write_pylinkage
 from graphkin.exchange.pyslvs import read_pyslvs, write_pyslvs
 from graphkin.files import opened
+from graphkin.words import Phrase, from_others
 
 __all__ = ["FRAME", "READ", "Bodies", "BodyDrive", "BodySlide", "is_address", "read_bodies", "write_bodies"]
 
@@ -41,20 +42,26 @@ def read_bodies(source: str) -> Bodies:
     path = Path(source)
     title, kind = path.stem, path.suffix.lower()
     if kind not in READ:
-        raise CallError(Problem(path.name[:100], f'"{kind}" is of no program known here', f"known: {', '.join(READ)}"))
+        raise CallError(
+            Problem(
+                path.name[:100],
+                Phrase("is of no program known here", kind=kind),
+                Phrase("known", names=", ".join(READ)),
+            )
+        )
     try:
         with opened(path) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise CallError(Problem(str(path)[:200], f"cannot be read: {reason}")) from None
+        raise CallError(Problem(str(path)[:200], Phrase("cannot be read", reason=from_others(reason)))) from None
     if len(data) > LARGEST:
-        raise CallError(Problem(str(path), "is larger than 20 MB", "a mechanism is smaller"))
+        raise CallError(Problem(str(path), Phrase("is larger than 20 mb"), Phrase("a mechanism is smaller")))
     if kind == ".ggb":
         return read_geogebra(data, title)
     if data.startswith(b"SQLite format 3"):
-        wanted = "open it in pyslvs and save it as YAML, or copy its expression"
-        raise CallError(Problem(path.name, "is a data base of an early pyslvs", wanted))
+        wanted = Phrase("open it in pyslvs and save it as")
+        raise CallError(Problem(path.name, Phrase("is a data base of an early pyslvs"), wanted))
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -76,5 +83,9 @@ def write_bodies(bodies: Bodies, ending: str) -> str:
     """The text of a file for another program, by the ending of its name.  Raises CallError for an unknown one."""
     if ending not in WRITTEN:
         known = ", ".join((".toml", *WRITTEN))
-        raise CallError(Problem("convert", f'"{ending}" is of no program that is written here', f"known: {known}"))
+        raise CallError(
+            Problem(
+                "convert", Phrase("is of no program that is written here", ending=ending), Phrase("known", names=known)
+            )
+        )
     return WRITTEN[ending](bodies)

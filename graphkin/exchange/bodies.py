@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
+from graphkin.words import Phrase
 
 __all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "FileJoint", "bodies_of", "number"]
 
@@ -63,7 +64,13 @@ class Bodies:
         """A point by a name that a scene may have, which is returned."""
         made = _fresh(_point_name(name), self.places)
         if not abs(place) <= FARTHEST:
-            raise CallError(Problem(f"point {made}", f"lies at {place}", "its coordinates are finite numbers"))
+            raise CallError(
+                Problem(
+                    Phrase("point", point=made),
+                    Phrase("lies at", place=place),
+                    Phrase("its coordinates are finite numbers"),
+                )
+            )
         self.places[made] = place
         return made
 
@@ -84,7 +91,7 @@ class Bodies:
         self._tidy()
         moving = [name for name in self.bodies if name != FRAME]
         if not moving:
-            raise CallError(Problem(self.title, "holds no moving link", "draw one link at least"))
+            raise CallError(Problem(self.title, Phrase("holds no moving link"), Phrase("draw one link at least")))
         shift, tables = self._lines()
         frame: dict[str, Json] = {"name": FRAME}
         frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
@@ -210,7 +217,13 @@ class Bodies:
         if before is None:
             return {"on": ref} | ({"angle_on": angle} if angle else {})
         if isinstance(before, list):
-            raise CallError(Problem(f"link {slide.body}", "slides on more than two others", "a scene has two at most"))
+            raise CallError(
+                Problem(
+                    Phrase("link of name", name=slide.body),
+                    Phrase("slides on more than two others"),
+                    Phrase("a scene has two at most"),
+                )
+            )
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
     def _driver(self, drive: BodyDrive) -> dict[str, Json]:

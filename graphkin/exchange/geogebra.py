@@ -16,6 +16,7 @@ from zipfile import BadZipFile, ZipFile
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
+from graphkin.words import Phrase
 
 __all__ = ["read_geogebra"]
 
@@ -31,10 +32,14 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
         with ZipFile(BytesIO(data)) as archive:
             entry = archive.getinfo("geogebra.xml")
             if entry.file_size > LARGEST:
-                raise CallError(Problem(title, "is too large to be a linkage", "save the construction alone"))
+                raise CallError(
+                    Problem(title, Phrase("is too large to be a linkage"), Phrase("save the construction alone"))
+                )
             construction = _Construction(title, ElementTree.fromstring(archive.read(entry)))
     except DAMAGED as error:
-        raise CallError(Problem(title, f"is no file of GeoGebra: {error}", "save it as .ggb")) from None
+        raise CallError(
+            Problem(title, Phrase("is no file of geogebra", error=error), Phrase("save it as ggb"))
+        ) from None
     return construction.bodies()
 
 

@@ -14,6 +14,7 @@ from xml.etree import ElementTree
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
+from graphkin.words import Phrase
 
 __all__ = ["read_linkage2", "write_linkage2"]
 
@@ -26,9 +27,13 @@ def read_linkage2(text: str, title: str) -> Bodies:
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
-        raise CallError(Problem(title, f"is not XML: {error}", "save it from Linkage anew")) from None
+        raise CallError(
+            Problem(title, Phrase("is not xml", error=error), Phrase("save it from linkage anew"))
+        ) from None
     if root.tag != "linkage2":
-        raise CallError(Problem(title, f"begins with <{root.tag}>", "a file of Linkage begins with <linkage2>"))
+        raise CallError(
+            Problem(title, Phrase("begins with", tag=root.tag), Phrase("a file of linkage begins with linkage2"))
+        )
     made = Bodies(title)
     elements = [e for e in root if e.tag in ("element", "Link", "link")]
     used = {c.get("id") for e in elements for c in e}
@@ -76,7 +81,9 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CallError(Problem(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', "a number is wanted"))
+        raise CallError(
+            Problem(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', Phrase("a number is wanted"))
+        )
     return value
 
 

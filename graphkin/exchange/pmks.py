@@ -15,6 +15,7 @@ from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, FileJoint, bodies_of
+from graphkin.words import Phrase
 
 __all__ = ["is_address", "read_address", "read_table"]
 
@@ -53,8 +54,10 @@ def read_table(text: str, title: str) -> Bodies:
         if at is None and not any(map(_is_number, cells)):
             continue  # the head
         if not at or len(numbers) < 2 or (cells[at].upper() != "R" and len(numbers) < 3):
-            wanted = "write links, R, P or RP, x, y, and of a slide its angle: ground,1 R 0 0"
-            problems.append(Problem(f"{title}, row {number}", f'"{row.strip()[:60]}" is no joint', wanted))
+            wanted = Phrase("write links r p or rp x y")
+            problems.append(
+                Problem(Phrase("row", name=title, number=number), Phrase("is no joint", joint=row.strip()[:60]), wanted)
+            )
             continue
         angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
         joints.append(FileJoint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
@@ -79,7 +82,9 @@ def _whole(text: str, title: str) -> int:
     value = 0
     for sign in text:
         if sign not in DIGITS or len(text) > MOST_DIGITS:
-            raise CallError(Problem(title, f'"{text[:20]}" is no number of PMKS+', "copy the whole link"))
+            raise CallError(
+                Problem(title, Phrase("is no number of pmks", text=text[:20]), Phrase("copy the whole link"))
+            )
         value = value * 64 + DIGITS.index(sign)
     return -value if text.startswith("0") else value
 
@@ -88,8 +93,8 @@ def read_address(text: str, title: str) -> Bodies:
     """The bodies of a shared link of PMKS+.  Raises CallError where it is none."""
     body = _payload(text)
     if "*" in body:
-        found = "is a link of today's PMKS+, with a check sum after the *, whose form is not read here yet"
-        raise CallError(Problem(title, found, "draw it anew as a scene"))
+        found = Phrase("is a link of today's pmks with a")
+        raise CallError(Problem(title, found, Phrase("draw it anew as a scene")))
     parts = body.split(".")
     heads, rest = parts[:4], parts[4:]
     sections: list[list[str]] = [[]]
@@ -99,7 +104,7 @@ def read_address(text: str, title: str) -> Bodies:
         else:
             sections.append([])
     if len(sections) < 3 or not sections[0] or not sections[1]:
-        raise CallError(Problem(title, "is no link of PMKS+ with joints and links", "copy the whole link"))
+        raise CallError(Problem(title, Phrase("is no link of pmks with joints and"), Phrase("copy the whole link")))
     flags, speeds = _whole(heads[0], title), heads[2].split(",")
     decimals = heads[1].split(",")
     made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
@@ -114,7 +119,9 @@ def read_address(text: str, title: str) -> Bodies:
         cells = piece.split(",")
         own = cells[7:]
         if len(own) < 1 or len(piece) < 2:
-            raise CallError(Problem(title, f'"{piece[:30]}" is no link of PMKS+', "copy the whole address"))
+            raise CallError(
+                Problem(title, Phrase("is no link of pmks", piece=piece[:30]), Phrase("copy the whole address"))
+            )
         ends = own[: own.index("")] if "" in own else own
         if piece[:2] == "NR":
             continue  # a part of a welded link, which is there as a whole
@@ -145,7 +152,9 @@ class _SharedJoint:
     def __init__(self, text: str, title: str) -> None:
         cells = text[1:].split(",")
         if len(cells) < 5:
-            raise CallError(Problem(title, f'"{text[:30]}" is no joint of PMKS+', "copy the whole link"))
+            raise CallError(
+                Problem(title, Phrase("is no joint of pmks", text=text[:30]), Phrase("copy the whole link"))
+            )
         flags = _whole(text[:1], title)
         self.slides, self.driven, self.grounded, self.welded = (bool(flags >> k & 1) for k in range(4))
         self.id, self.name = cells[0], cells[1]

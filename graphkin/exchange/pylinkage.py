@@ -17,6 +17,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross_arcs
+from graphkin.words import Phrase
 
 __all__ = ["read_pylinkage", "write_pylinkage"]
 
@@ -29,9 +30,11 @@ def read_pylinkage(text: str, title: str) -> Bodies:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise CallError(Problem(title, f"is not JSON: {error}", "save it from pylinkage anew")) from None
+        raise CallError(
+            Problem(title, Phrase("is not json", error=error), Phrase("save it from pylinkage anew"))
+        ) from None
     if not isinstance(data, dict) or not isinstance(data.get("joints"), list):
-        raise CallError(Problem(title, "has no list of joints", "a file of pylinkage has joints"))
+        raise CallError(Problem(title, Phrase("has no list of joints"), Phrase("a file of pylinkage has joints")))
     made = Bodies(str(data.get("name") or title)[:200])
     try:
         if isinstance(data.get("links"), list):
@@ -39,7 +42,9 @@ def read_pylinkage(text: str, title: str) -> Bodies:
         else:
             _linkage(made, data["joints"])
     except (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
-        raise CallError(Problem(title, f"is no mechanism of pylinkage: {error!r:.100}", "save it anew")) from None
+        raise CallError(
+            Problem(title, Phrase("is no mechanism of pylinkage", error=f"{error!r:.100}"), Phrase("save it anew"))
+        ) from None
     return made
 
 
@@ -53,7 +58,7 @@ def _mechanism(made: Bodies, data: Tables) -> None:
     for joint in data["joints"]:
         x, y = joint.get("position") or (None, None)
         if x is None or y is None:
-            raise ValueError(f"joint {joint['id']} has no place")
+            raise ValueError(Phrase("joint has no place", joint=joint['id']))
         points[joint["id"]] = made.point(str(joint.get("name") or joint["id"]), complex(float(x), float(y)))
         if joint.get("type") == "prismatic":
             sliding[joint["id"]] = joint
@@ -93,7 +98,7 @@ def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
             return name
         name = str(value["ref"] if isinstance(value, dict) else value)
         if name not in points:
-            raise ValueError(f"joint {name} is not there")
+            raise ValueError(Phrase("joint is not there", name=name))
         return name
 
     def join(name: str, *others: str) -> str:
@@ -119,7 +124,7 @@ def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
             fixed.append(name)
             continue
         if not first or (not second and kind != "crank"):
-            raise ValueError(f"joint {name} refers to no other")
+            raise ValueError(Phrase("joint refers to no other", name=name))
         one = made.places[points[first]]
         if kind == "crank":
             way = here - one if joint.get("x") is not None else complex(float(joint["distance"]))
@@ -137,7 +142,7 @@ def _linkage(made: Bodies, joints: Sequence[Tables]) -> None:
             r, s = float(joint["distance0"]), float(joint["distance1"])
             both = cross_arcs(one, r, two, s)
             if both is None:
-                raise ValueError(f"the bars of {name} do not meet")
+                raise ValueError(Phrase("the bars of do not meet", name=name))
             points[name] = made.point(name, min(both, key=lambda z: abs(z - here)))
             join(name, first)
             join(name, second)

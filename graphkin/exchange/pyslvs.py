@@ -13,6 +13,7 @@ from collections.abc import Iterable
 
 from graphkin.errors import CallError, Problem
 from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, FileJoint, bodies_of, number
+from graphkin.words import Phrase
 
 __all__ = ["INPUT_SPEED", "read_pyslvs", "write_pyslvs"]
 
@@ -30,17 +31,19 @@ def read_pyslvs(text: str, title: str) -> Bodies:
     plain = re.sub(r"#\[[\s\S]*?#\][^\n]*|#[^\n]*", "", text)
     begin = re.search(r"\bM\s*\[", plain)
     if begin is None:
-        raise CallError(Problem(title, "holds no expression M[...]", "copy the expression from pyslvs"))
+        raise CallError(Problem(title, Phrase("holds no expression m"), Phrase("copy the expression from pyslvs")))
     inner, end = _inside(plain, begin.end(), title)
     joints: list[FileJoint] = []
     rest = _JOINT.sub("", inner)
     if re.sub(r"[\s,]+", "", rest):
-        found = f'"{rest.strip(" ,")[:60]}" is no joint'
-        raise CallError(Problem(title, found, "write J[R, P[0, 0], L[ground, link_1]]"))
+        found = Phrase("is no joint", joint=rest.strip(" ,")[:60])
+        raise CallError(Problem(title, found, Phrase("write j r p 0 0 l ground")))
     for kind, angle, x, y, links in _JOINT.findall(inner):
         names = tuple(filter(None, (n.strip() for n in links.split(","))))
         if not names:
-            raise CallError(Problem(title, f"the joint at {x}, {y} has no link", "write L[ground, link_1]"))
+            raise CallError(
+                Problem(title, Phrase("the joint at has no link", value=x, other=y), Phrase("write l ground link_1"))
+            )
         place, turn = complex(float(x), float(y)), math.radians(float(angle or 0))
         joints.append(FileJoint(f"P{len(joints)}", kind, place, names, turn))
     made = bodies_of(title, joints)
@@ -67,7 +70,7 @@ def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
         depth += {"[": 1, "]": -1}.get(text[k], 0)
         if not depth:
             return text[begin:k], k + 1
-    raise CallError(Problem(title, "a bracket is not closed", "copy the whole expression"))
+    raise CallError(Problem(title, Phrase("a bracket is not closed"), Phrase("copy the whole expression")))
 
 
 def _first_crank(made: Bodies) -> list[tuple[str, str]]:

@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from graphkin.files import Tables
+from graphkin.words import Phrase
 
 __all__ = ["Columns", "columns_of", "names_in", "replaced", "value_of"]
 
@@ -56,7 +57,7 @@ def value_of(text: str, known: Mapping[str, float]) -> float:
     except ValueError:
         value = _evaluated(_tree(plain), known)
     if not math.isfinite(value):
-        raise ValueError(f'"{plain[:40]}" is no number')
+        raise ValueError(Phrase("is no number", number=plain[:40]))
     return value
 
 
@@ -79,7 +80,7 @@ def _tree(text: str) -> ast.expr:
     try:
         return ast.parse(_PRODUCT.sub(r"\1*", text.strip()), mode="eval").body
     except (SyntaxError, RecursionError, MemoryError, ValueError):
-        raise ValueError(f'"{text[:40]}" is no number') from None
+        raise ValueError(Phrase("is no number", number=text[:40])) from None
 
 
 def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:

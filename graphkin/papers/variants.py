@@ -23,6 +23,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.position_values import transmission
 from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
+from graphkin.words import Phrase
 
 __all__ = ["Answer", "Unfit", "Variant", "asked_of", "examined"]
 
@@ -310,5 +311,5 @@ def _answers(
     for symbol, found in values.items():
         least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
         if symbol in drawn and abs(drawn[symbol] - found) > max(1e-6 * abs(found), least, 1e-15):
-            raise SceneError(Problem(str(symbol), "the drawing and the solver disagree"))
+            raise SceneError(Problem(str(symbol), Phrase("the drawing and the solver disagree")))
         yield symbol, 0.0 if abs(found) < least else abs(found) if symbol.is_vector else found.real

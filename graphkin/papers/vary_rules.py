@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
 from graphkin.scene.file_keys import KeyPath, path_of_key, put_at, value_at
+from graphkin.words import Phrase
 
 __all__ = [
     "LEVELS", "Bounds", "asked_now", "free_of_rules", "level_of", "round_step", "ruled", "ruled_keys", "rules_checked",
@@ -61,7 +62,7 @@ def _path_of_number(source: Tables, key: str) -> KeyPath:
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
     if path is None or isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError("is no number of the scene")
+        raise ValueError(Phrase("is no number of the scene"))
     return path
 
 
@@ -76,12 +77,25 @@ def rules_checked(source: Tables) -> None:
         try:
             _path_of_number(source, key)
         except ValueError as error:
-            problems.append(Problem(where, f'"{key}" {error}', "write a key such as links.2.length or driver.angle"))
-    problems += [Problem(f"vary.ranges.{k}", f"from {low:g} to {high:g}", "give the smaller value first")
-                 for k, (low, high) in table.get("ranges", {}).items() if low > high]  # fmt: skip
+            problems.append(
+                Problem(where, f'"{key}" {error}', Phrase("write a key such as links.2.length or driver.angle"))
+            )
+    problems += [
+        Problem(
+            f"vary.ranges.{k}",
+            Phrase("from to", least=f"{low:g}", greatest=f"{high:g}"),
+            Phrase("give the smaller value first"),
+        )
+        for k, (low, high) in table.get("ranges", {}).items()
+        if low > high
+    ]
     asked, most = table.get("ask"), len(table.get("find", ()))
     if asked is not None and asked > most:
-        problems.append(Problem("vary.ask", f"{asked} of {most} quantities", "list more of them in vary.find"))
+        problems.append(
+            Problem(
+                "vary.ask", Phrase("of quantities", asked=asked, most=most), Phrase("list more of them in vary.find")
+            )
+        )
     if problems:
         raise CallError(*problems)
 

@@ -17,6 +17,7 @@ from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, Structure
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import Split, reference, refined, split
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc
@@ -148,12 +149,12 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     structure = solver.structure_of(scene)
     larger = next((group for group in structure.groups if not isinstance(group, Dyad)), None)
     if larger is not None:
-        what = f"links {', '.join(larger.links)}"
-        raise CallError(Problem(what, "have no closed form", "solve such a mechanism with solve"))
+        what = Phrase("links", links=", ".join(larger.links))
+        raise CallError(Problem(what, Phrase("have no closed form"), Phrase("solve such a mechanism with solve")))
     outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
-        what = "nothing moves that could be looked at"
-        raise CallError(Problem(scene.name or "scene", what, "give the driver a rate"))
+        nothing = Phrase("nothing moves that could be looked at")
+        raise CallError(Problem(scene.name or "scene", nothing, Phrase("give the driver a rate")))
     fine = solver.solve(structure.scene, sweep=FINE).require()
     good = np.flatnonzero(fine.ok)
     full = len(good) == FINE and isinstance(scene.drivers[0], AngleDriver)

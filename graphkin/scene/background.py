@@ -11,6 +11,7 @@ from pathlib import Path
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import opened
 from graphkin.scene.sheet_tables import Background, ReadScan
+from graphkin.words import Phrase, from_others
 
 __all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
 
@@ -57,12 +58,14 @@ def scans_of(tables: Mapping[str, ReadScan], problems: list[Problem]) -> tuple[P
         where, before = f"scans.{diagram}", len(problems)
         points, read = ({n: complex(x, -y) for n, (x, y) in own.items()} for own in (table.points, table.read))
         if len(points) != 2 or len(set(points.values())) < len(points):
-            hint = "two ends at two places set scale and direction"
-            problems.append(Problem(f"{where}.points", f"found {len(points)}", hint))
+            hint = Phrase("two ends at two places set scale and")
+            problems.append(Problem(f"{where}.points", Phrase("found value", value=len(points)), hint))
         for name in sorted(set(points) & set(read)):
-            problems.append(Problem(f"{where}.read.{name}", "stands in points too", "leave one of them out"))
+            problems.append(
+                Problem(f"{where}.read.{name}", Phrase("stands in points too"), Phrase("leave one of them out"))
+            )
         if not read:
-            problems.append(Problem(f"{where}.read", "is empty", "write the ends that were read: { C = [812, 340] }"))
+            problems.append(Problem(f"{where}.read", Phrase("is empty"), Phrase("write the ends that were read c 812")))
         found = _picture(f"{where}.file", table.file) if table.file is not None else ("", 0, 0, b"")
         if isinstance(found, Problem):
             problems.append(found)
@@ -80,16 +83,22 @@ def background_of(
     known = {**drawn, **fixed}
     wrong = [found] if isinstance(found, Problem) else []
     if len(table.points) != 2:
-        hint = "two points whose pixels are known set scale and direction"
-        wrong.append(Problem(f"{where}.points", f"found {len(table.points)}", hint))
+        hint = Phrase("two points whose pixels are known set scale")
+        wrong.append(Problem(f"{where}.points", Phrase("found value", value=len(table.points)), hint))
     for point in table.points:
         if point not in known:
-            hint = f"write a point of the frame or of [drawn]; {did_you_mean(point, known)}".rstrip("; ")
-            wrong.append(Problem(f"{where}.points.{point}", "is no point that stays where the picture has it", hint))
+            hint = Phrase("write a point of the frame or of", hint=did_you_mean(point, known))
+            wrong.append(Problem(f"{where}.points.{point}", Phrase("is no point that stays where the picture"), hint))
     if not wrong:
         (p, q), (one, other) = table.points, (complex(x, -y) for x, y in table.points.values())
         if one == other or known[p] == known[q]:
-            wrong.append(Problem(f"{where}.points", f"{p} and {q} lie at the same place", "name two points apart"))
+            wrong.append(
+                Problem(
+                    f"{where}.points",
+                    Phrase("and lie at the same place", point=p, other=q),
+                    Phrase("name two points apart"),
+                )
+            )
     problems += wrong
     if wrong or isinstance(found, Problem):
         return None
@@ -108,22 +117,40 @@ def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        return Problem(where, f"{shown} cannot be read: {reason}", "name a PNG or JPEG beside the scene")
+        return Problem(
+            where,
+            Phrase("cannot be read of shown and reason", shown=shown, reason=from_others(reason)),
+            Phrase("name a png or jpeg beside the scene"),
+        )
     if len(data) > LARGEST:
-        return Problem(where, f"{shown} is larger than {LARGEST // 1_000_000} MB", "save it smaller")
-    hint = "a PNG or JPEG is wanted"
+        return Problem(
+            where,
+            Phrase("is larger than mb of shown and largest", shown=shown, largest=LARGEST // 1_000_000),
+            Phrase("save it smaller"),
+        )
+    hint = Phrase("a png or jpeg is wanted")
     try:
         with warnings.catch_warnings(), Image.open(BytesIO(data), formats=list(KINDS)) as image:
             warnings.simplefilter("ignore")
             if image.width * image.height > MOST_PIXELS:
-                found = f"{shown} has {image.width} x {image.height} pixels"
-                return Problem(where, found, f"at most {MOST_PIXELS // 1_000_000} million are possible")
+                found = Phrase("has so many pixels", name=shown, width=image.width, height=image.height)
+                return Problem(where, found, Phrase("at most million are possible", most=MOST_PIXELS // 1_000_000))
             if image.getexif().get(0x0112, 1) != 1:
-                return Problem(where, f"{shown} is stored turned, and only a note in it says so", "save it upright")
+                return Problem(
+                    where, Phrase("is stored turned and only a note in", shown=shown), Phrase("save it upright")
+                )
             image.load()
             return KINDS[str(image.format)], image.width, image.height, data
     except Image.DecompressionBombError:
-        return Problem(where, f"{shown} has too many pixels", f"{MOST_PIXELS // 1_000_000} million are possible")
+        return Problem(
+            where,
+            Phrase("has too many pixels", shown=shown),
+            Phrase("million are possible", most=MOST_PIXELS // 1_000_000),
+        )
     except (OSError, SyntaxError, ValueError, EOFError) as error:
-        said = "is no picture that can be read" if isinstance(error, UnidentifiedImageError) else "is damaged"
-        return Problem(where, f"{shown} {said}", hint)
+        key = (
+            "is no picture that can be read"
+            if isinstance(error, UnidentifiedImageError)
+            else "is damaged"
+        )
+        return Problem(where, Phrase(key, name=shown), hint)

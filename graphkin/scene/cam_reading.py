@@ -13,6 +13,7 @@ from graphkin.scene.contact_tables import Cam, LawPiece
 from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece, form_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase, Wording
 
 __all__ = ["cams_of"]
 
@@ -37,8 +38,11 @@ def cams_of(
     for name, table in file.cams.items():
         other = moved.setdefault(table.follower, name)
         if other != name:
-            reading.say(f"cams.{name}.follower", f"link {table.follower} is moved by cam {other} already",
-                        "a follower has one cam")  # fmt: skip
+            reading.say(
+                f"cams.{name}.follower",
+                Phrase("link is moved by cam already", follower=table.follower, other=other),
+                Phrase("a follower has one cam"),
+            )
         one = reading.cam(name, table)
         if one is not None:
             found.append(one)
@@ -57,7 +61,7 @@ class _CamReading:
     drawn: Mapping[str, complex]
     problems: list[Problem]
 
-    def say(self, where: str, found: str, wanted: str) -> None:
+    def say(self, where: str, found: Wording, wanted: Wording) -> None:
         self.problems.append(Problem(where, found, wanted))
 
     def cam(self, name: str, table: Cam) -> LawCam | None:
@@ -68,10 +72,13 @@ class _CamReading:
         roller = (table.roller or 0.0) * metres
         base = table.base.r * metres + (roller if table.base.of == "profile" else 0.0)
         if table.flat and table.roller is not None:
-            self.say(f"{where}.flat", "stands beside roller", "the face is flat, or it has a roller")
+            self.say(f"{where}.flat", Phrase("stands beside roller"), Phrase("the face is flat or it has a"))
         if not table.flat and base <= roller:
-            self.say(f"{where}.base.r", f"found {table.base.r:g} with a roller of {table.roller:g}",
-                     "the base circle of the pitch curve is larger than the roller")  # fmt: skip
+            self.say(
+                f"{where}.base.r",
+                Phrase("found with a roller of", r=f"{table.base.r:g}", roller=f"{table.roller:g}"),
+                Phrase("the base circle of the pitch curve is"),
+            )
         allowed = self._allowed(where, table)
         motion: SlidingFollower | SwingingFollower | None = None
         if point and swings is not None and len(self.problems) == before:
@@ -87,15 +94,21 @@ class _CamReading:
         """The point of the frame about which the cam turns; "" where there is none."""
         missing = self.names.no_link(where, name, moving=True)
         if missing or name == self.names.frame:
-            self.problems.append(missing or Problem(where, f"link {name} is the frame", "a cam turns"))
+            self.problems.append(
+                missing or Problem(where, Phrase("link is the frame", name=name), Phrase("a cam turns"))
+            )
             return ""
         link = self.file.links.get(name)
         if link is None or self.flaws.under("links", name):
             return ""
         if not link.points or link.points[0] not in self.places:
             if not self.flaws.under("frame"):
-                own = f"{link.points[0]} is no point of the frame" if link.points else f"link {name} has no point"
-                self.say(where, own, "a cam turns about its first point, which the frame has too")
+                own = (
+                    Phrase("is no point of the frame", points=link.points[0])
+                    if link.points
+                    else Phrase("link has no point", name=name)
+                )
+                self.say(where, own, Phrase("a cam turns about its first point which"))
             return ""
         return link.points[0]
 
@@ -107,8 +120,11 @@ class _CamReading:
             self.problems.append(missing)
             return None
         if follower in (name, self.names.frame):
-            self.say(where, "the cam itself" if follower == name else f"link {follower} is the frame",
-                     "name the link that the cam moves")  # fmt: skip
+            self.say(
+                where,
+                Phrase("the cam itself") if follower == name else Phrase("link is the frame", name=follower),
+                Phrase("name the link that the cam moves"),
+            )
             return None
         if follower in self.lines:
             return False
@@ -117,18 +133,20 @@ class _CamReading:
             return None
         pivots = [p for p in link.points if p in self.places]
         if len(pivots) != 1 or link.on is not None:
-            self.say(where, f"link {follower} neither slides on a guide of the frame nor swings about a point of it",
-                     f'write on = "{self.names.frame}.GUIDE", or points with a pivot of the frame')  # fmt: skip
+            self.say(where, Phrase("link neither slides on a guide of the", follower=follower),
+                     Phrase("write on guide or points with a pivot", frame=self.names.frame))  # fmt: skip
             return None
         if len(link.points) != 2:
-            self.say(where, f"link {follower} has no point but its pivot",
-                     'it is a bar from its pivot to the roller: points = ["C", "B"], length')  # fmt: skip
+            self.say(where, Phrase("link has no point but its pivot", follower=follower),
+                     Phrase("it is a bar from its pivot to"))  # fmt: skip
             return None
         for key in ("offset", "flat"):
             if getattr(table, key) not in (None, False):
-                kind = "an offset" if key == "offset" else "a flat face"
+                kind = Phrase("an offset") if key == "offset" else Phrase("a flat face")
                 own = where.removesuffix(".follower")
-                self.say(f"{own}.{key}", f"link {follower} swings", f"{kind} is for a sliding follower")
+                self.say(
+                    f"{own}.{key}", Phrase("link swings", name=follower), Phrase("is for a sliding follower", kind=kind)
+                )
         return True
 
     def _law(self, where: str, pieces: Sequence[LawPiece], unit: float) -> FollowerLaw | None:
@@ -137,7 +155,7 @@ class _CamReading:
         start = low = most = 0.0
         good = True
 
-        def wrong(i: int, said: str, wanted: str) -> None:
+        def wrong(i: int, said: Wording, wanted: Wording) -> None:
             nonlocal good
             good = False
             self.say(f"{where}.law.{i}", said, wanted)
@@ -146,19 +164,23 @@ class _CamReading:
         for i, piece in enumerate(pieces, 1):
             rise = (piece.rise or 0.0) - (piece.fall or 0.0)
             if piece.rise is not None and piece.fall is not None:
-                wrong(i, "has both rise and fall", "give one of them, or none for a dwell")
+                wrong(i, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
             elif piece.rise is not None or piece.fall is not None:
                 key = "rise" if piece.rise is not None else "fall"
                 if not getattr(piece, key) > 0.0:
-                    wrong(i, f"{key} = {getattr(piece, key):g}", "it must be positive; a dwell has neither")
+                    wrong(i, f"{key} = {getattr(piece, key):g}", Phrase("it must be positive a dwell has neither"))
                 if piece.by is None:
-                    wrong(i, "does not say its law", f"by = {', '.join(names[:-1])} or {names[-1]}")
+                    wrong(i, Phrase("does not say its law"), f"by = {', '.join(names[:-1])} or {names[-1]}")
             elif piece.by is not None:
-                wrong(i, f'has by = "{piece.by}" without rise or fall', "a dwell has no law")
+                wrong(i, Phrase("has by without rise or fall", by=piece.by), Phrase("a dwell has no law"))
             if not piece.to > start:
-                wrong(i, f"ends at {piece.to:g} deg, where it begins at {start:g}", "degrees grow from 0 to 360")
+                wrong(
+                    i,
+                    Phrase("ends at deg where it begins at", to=f"{piece.to:g}", start=f"{start:g}"),
+                    Phrase("degrees grow from 0 to 360"),
+                )
             elif piece.to > 360.0:
-                wrong(i, f"ends at {piece.to:g} deg", "the law ends at 360")
+                wrong(i, Phrase("ends at deg", start=f'{piece.to:g}'), Phrase("the law ends at 360"))
             high = low + rise
             most = max(most, abs(high), abs(low))
             if abs(high) < 1e-9 * most:
@@ -167,14 +189,14 @@ class _CamReading:
             found.append(LiftPiece(*ends, low * unit, high * unit, form_of(piece.by)))
             start, low = piece.to, high
         if not pieces:
-            self.say(f"{where}.law", "is empty", 'write [{ to = 60, rise = 28, by = "harmonic" }, ...]')
+            self.say(f"{where}.law", Phrase("is empty"), Phrase("write to 60 rise 28 by harmonic"))
             return None
         if good and start != 360.0:
-            wrong(len(pieces), f"ends at {start:g} deg", "the last piece ends at 360")
+            wrong(len(pieces), Phrase("ends at deg", start=f'{start:g}'), Phrase("the last piece ends at 360"))
         if good and low != 0.0:
             way = "up" if low > 0 else "down"
-            self.say(f"{where}.law", f"does not come back: a turn leaves the follower {abs(low):.9g} further {way}",
-                     "all that rises falls again")  # fmt: skip
+            self.say(f"{where}.law", Phrase("does not come back a turn leaves the", least=f'{abs(low):.9g}', way=way),
+                     Phrase("all that rises falls again"))  # fmt: skip
             return None
         return FollowerLaw(tuple(found)) if good else None
 
@@ -183,7 +205,11 @@ class _CamReading:
         for key in ("rise", "fall"):
             value = getattr(table.allow, key) if table.allow else None
             if value is not None and not 0.0 < value < 90.0:
-                self.say(f"{where}.allow.{key}", f"found {value:g}", "a pressure angle lies between 0 and 90 degrees")
+                self.say(
+                    f"{where}.allow.{key}",
+                    Phrase("found value", value=f"{value:g}"),
+                    Phrase("a pressure angle lies between 0 and 90"),
+                )
             found.append(None if value is None else math.radians(value))
         return found[0], found[1]
 
@@ -193,8 +219,11 @@ class _CamReading:
         metres = self.file.units.metres
         size = max(abs(axis - through), table.base.r * metres)
         if table.offset is not None and abs(table.offset * metres - offset) > AGREES * size:
-            self.say(f"{where}.offset", f"found {table.offset:g}, but the guide makes it {offset / metres:.9g}",
-                     "one is wrong; positive where the axis is to the left of the guide's sense")  # fmt: skip
+            self.say(
+                f"{where}.offset",
+                Phrase("found but the guide makes it", offset=f"{table.offset:g}", other=f"{offset / metres:.9g}"),
+                Phrase("one is wrong positive where the axis is"),
+            )
             return None
         travel = dot(along, axis - through)
         return SlidingFollower(pair, through + along * travel, along, travel, offset)
@@ -205,10 +234,18 @@ class _CamReading:
         pivot, tip = (first, second) if first in self.places else (second, first)
         centre = self.places[pivot]
         if centre == axis:
-            self.say(f"{where}.follower", f"swings about the cam's own axis {pivot}", "its pivot lies elsewhere")
+            self.say(
+                f"{where}.follower",
+                Phrase("swings about the cam's own axis", pivot=pivot),
+                Phrase("its pivot lies elsewhere"),
+            )
             return None
         if link.length is None:
-            self.say(f"links.{table.follower}.length", "is missing", "the length of a swinging follower is written")
+            self.say(
+                f"links.{table.follower}.length",
+                Phrase("is missing"),
+                Phrase("the length of a swinging follower is written"),
+            )
             return None
         side = 1
         if tip in self.drawn:

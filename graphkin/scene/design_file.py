@@ -16,6 +16,7 @@ from graphkin.plane import degrees, direction
 from graphkin.scene import source as scenes
 from graphkin.scene.synthesis import KINDS, BarPlace, BarPositionsTask, Design, DesignTask
 from graphkin.scene.written import safe_name
+from graphkin.words import Phrase, Wording, from_others
 
 __all__ = ["DesignLike", "design_of", "designs", "is_design"]
 
@@ -69,13 +70,13 @@ def design_of(source: DesignLike) -> Design:
     elif isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):
-            missing = "there is no such file, and no design of this name comes along"
+            missing = Phrase("there is no such file and no design")
             raise SceneError(Problem(text[:200], missing, did_you_mean(text[:60], designs())))
         raw, name = scenes.parsed(scenes.file_text(text)), Path(text).stem
     else:
         if not isinstance(source, Mapping):
-            wanted = "give a file, the name of a design that comes along, or a mapping of the same shape"
-            raise CallError(Problem("design", f"found {source!r:.60}", wanted))
+            wanted = Phrase("give a file the name of a design")
+            raise CallError(Problem("design", Phrase("found value", value=f'{source!r:.60}'), wanted))
         raw, name = plain(source), "design"
     return _read(raw, safe_name(name))
 
@@ -85,13 +86,13 @@ def _read(raw: Tables, name: str) -> Design:
     given: OwnTables = {}
     for key, value in raw.items():
         if key not in ("title", "title_zh", "source", "design", "units", "sheet"):
-            unknown = "unknown table" if isinstance(value, dict) else "unknown key"
+            unknown = Phrase("unknown table") if isinstance(value, dict) else Phrase("unknown key")
             hint = did_you_mean(key, ["title", "title_zh", "source", "design", "units", "sheet"])
             if key == "links":
-                hint = "this is a scene; a design file has a table [design]"
+                hint = Phrase("this is a scene a design file has")
             problems.append(Problem(key[:60], unknown, hint))
         elif key in ("title", "title_zh", "source") and not isinstance(value, str):
-            problems.append(Problem(key, f"found {_shown(value)}", "a text is wanted"))
+            problems.append(Problem(key, Phrase("found value", value=_shown(value)), Phrase("a text is wanted")))
         elif key in ("title", "title_zh", "source"):
             given[key] = value
     task = _task(raw.get("design"), problems)
@@ -113,17 +114,17 @@ def _units_and_sheet(raw: Tables, problems: list[Problem]) -> OwnTables:
 
 def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     if raw is None:
-        problems.append(Problem("design", "is missing", "a design file has a table [design] with kind and its data"))
+        problems.append(Problem("design", Phrase("is missing"), Phrase("a design file has a table design with")))
         return None
     if not isinstance(raw, dict):
-        problems.append(Problem("design", f"found {_shown(raw)}", "a table is wanted"))
+        problems.append(Problem("design", Phrase("found value", value=_shown(raw)), Phrase("a table is wanted")))
         return None
     kind = raw.get("kind")
     if kind is None:
-        problems.append(Problem("design.kind", "is missing", f"one of {', '.join(KINDS)}"))
+        problems.append(Problem("design.kind", Phrase("is missing"), Phrase("one of", names=', '.join(KINDS))))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        problems.append(Problem("design.kind", f"found {_shown(kind)}", _kind_meant(str(kind))))
+        problems.append(Problem("design.kind", Phrase("found value", value=_shown(kind)), _kind_meant(str(kind))))
         return None
     made = KINDS[kind]
     keys = {f.name: f for f in fields(made) if f.metadata["form"] != "beside"}
@@ -131,13 +132,13 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     before = len(problems)
     for key in raw:
         if key != "kind" and key not in keys:
-            problems.append(Problem(f"design.{key[:60]}", "unknown key", did_you_mean(key, keys)))
+            problems.append(Problem(f"design.{key[:60]}", Phrase("unknown key"), did_you_mean(key, keys)))
     for key, one in keys.items():
         where = f"design.{key}"
         if key in raw:
             values[key] = _value(where, one.metadata["form"], raw[key], problems)
         elif one.default is MISSING:
-            problems.append(Problem(where, "is missing", one.metadata["description"]))
+            problems.append(Problem(where, Phrase("is missing"), from_others(one.metadata["description"])))
     if len(problems) > before:
         return None
     if made is BarPositionsTask:
@@ -145,10 +146,10 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
     return made(**values)
 
 
-def _kind_meant(kind: str) -> str:
+def _kind_meant(kind: str) -> Wording:
     """The kinds that there are, the nearest first."""
-    hint, known = did_you_mean(kind, KINDS), ", ".join(KINDS)
-    return f"{hint} the kinds are {known}" if hint.startswith("did") else f"the kinds are {known}"
+    hint, known = did_you_mean(kind, KINDS), Phrase("the kinds are", names=", ".join(KINDS))
+    return Phrase("one sentence and another", first=hint, second=known) if hint.key == "did you mean" else known
 
 
 def _value(where: str, form: str, value: object, problems: list[Problem]) -> object:
@@ -158,15 +159,19 @@ def _value(where: str, form: str, value: object, problems: list[Problem]) -> obj
     if form == "place":
         return _place(where, value, problems)
     if form == "angles":
-        return _pair(where, value, problems, "two angles in degrees are wanted: [-30, 30]")
-    wanted = "[crank angle, rocker angle]" if form == "pairs" else "{ B = [x, y], C = [x, y] }"
+        return _pair(where, value, problems, Phrase("two angles in degrees are wanted 30 30"))
+    wanted = Phrase("crank angle rocker angle") if form == "pairs" else "{ B = [x, y], C = [x, y] }"
     if not isinstance(value, list) or len(value) != 3:
-        found = f"found {len(value)} of them" if isinstance(value, list) else f"found {_shown(value)}"
-        problems.append(Problem(where, found, f"three of {wanted} are wanted"))
+        found = (
+            Phrase("found of them", count=len(value))
+            if isinstance(value, list)
+            else Phrase("found value", value=_shown(value))
+        )
+        problems.append(Problem(where, found, Phrase("three of are wanted", wanted=wanted)))
         return None
     if form == "pairs":
         return tuple(
-            _pair(f"{where}.{i}", one, problems, "two angles in degrees are wanted: [30, 60]")
+            _pair(f"{where}.{i}", one, problems, Phrase("two angles in degrees are wanted 30 60"))
             for i, one in enumerate(value, 1)
         )
     return [_bar(f"{where}.{i}", one, problems) for i, one in enumerate(value, 1)]
@@ -175,19 +180,19 @@ def _value(where: str, form: str, value: object, problems: list[Problem]) -> obj
 def _bar(where: str, value: object, problems: list[Problem]) -> OwnTables:
     """A place of a bar as it is written: B with C or angle."""
     if not isinstance(value, dict):
-        problems.append(Problem(where, f"found {_shown(value)}", "write { B = [x, y], C = [x, y] }"))
+        problems.append(Problem(where, Phrase("found value", value=_shown(value)), Phrase("write b x y c x y")))
         return {}
     problems += [
-        Problem(f"{where}.{key[:60]}", "unknown key", did_you_mean(key, ["B", "C", "angle"]))
+        Problem(f"{where}.{key[:60]}", Phrase("unknown key"), did_you_mean(key, ["B", "C", "angle"]))
         for key in value
         if key not in ("B", "C", "angle")
     ]
     if ("C" in value) == ("angle" in value):
-        found = "has both C and angle" if "C" in value else "has neither C nor angle"
-        problems.append(Problem(where, found, "a bar lies where B and C lie, or B and its angle"))
+        found = Phrase("has both c and angle") if "C" in value else Phrase("has neither c nor angle")
+        problems.append(Problem(where, found, Phrase("a bar lies where b and c lie")))
     made: OwnTables = {}
     if "B" not in value:
-        problems.append(Problem(f"{where}.B", "is missing", "the first point of the bar, [x, y]"))
+        problems.append(Problem(f"{where}.B", Phrase("is missing"), Phrase("the first point of the bar x y")))
     for key in ("B", "C"):
         if key in value:
             made[key] = _place(f"{where}.{key}", value[key], problems)
@@ -200,14 +205,22 @@ def _bar_positions(values: OwnTables, problems: list[Problem]) -> BarPositionsTa
     bars, length = values["positions"], float(values.get("BC") or 0.0)
     by_angle = ["angle" in bar for bar in bars]
     if any(by_angle) and not length:
-        problems.append(Problem("design.BC", "is missing", "length of the bar, since its places are told by angles"))
+        problems.append(Problem("design.BC", Phrase("is missing"), Phrase("length of the bar since its places are")))
     if not any(by_angle) and length:
         told = abs(bars[0]["C"] - bars[0]["B"])
         if abs(told - length) > 1e-3 * length:
-            problems.append(Problem("design.BC", f"found {length:.6g}", f"B and C of position 1 lie {told:.6g} apart"))
+            problems.append(
+                Problem(
+                    "design.BC",
+                    Phrase("found value", value=f"{length:.6g}"),
+                    Phrase("b and c of position 1 lie apart", value=f"{told:.6g}"),
+                )
+            )
     if ("A" in values) != ("D" in values):
         missing = "D" if "A" in values else "A"
-        problems.append(Problem(f"design.{missing}", "is missing", "both fixed pivots are given, or none"))
+        problems.append(
+            Problem(f"design.{missing}", Phrase("is missing"), Phrase("both fixed pivots are given or none"))
+        )
     if problems:
         return None
     placed = [
@@ -217,9 +230,17 @@ def _bar_positions(values: OwnTables, problems: list[Problem]) -> BarPositionsTa
     for i, bar in enumerate(placed, 1):
         here = abs(bar.C - bar.B)
         if here < SMALLEST:
-            problems.append(Problem(f"design.positions.{i}", "B and C lie at one place", "a bar has a length"))
+            problems.append(
+                Problem(f"design.positions.{i}", Phrase("b and c lie at one place"), Phrase("a bar has a length"))
+            )
         elif abs(here - own) > 1e-3 * own:
-            problems.append(Problem(f"design.positions.{i}", f"the bar is {here:.6g} long", f"in position 1 {own:.6g}"))
+            problems.append(
+                Problem(
+                    f"design.positions.{i}",
+                    Phrase("the bar is long", value=f"{here:.6g}"),
+                    Phrase("in position 1", name=f"{own:.6g}"),
+                )
+            )
     angles = tuple(degrees(bar.C - bar.B) for bar in placed)
     first, second, third = placed
     task = BarPositionsTask(positions=(first, second, third), BC=length or None, angles=angles)
@@ -231,34 +252,47 @@ def _positive(where: str, value: object, problems: list[Problem], zero: bool = F
     if number is None:
         return 0.0
     if number < 0.0 or (number < SMALLEST and not (zero and number == 0.0)):
-        what = "a negative number" if number < 0 else "nothing" if number == 0 else "far too small a number"
-        problems.append(Problem(where, f"found {number:.15g}, {what}", "it must be positive" + " or 0" * zero))
+        key = (
+            "found a negative number"
+            if number < 0
+            else "found nothing"
+            if number == 0
+            else "found far too small a number"
+        )
+        wanted = Phrase("it must be positive or 0" if zero else "it must be positive")
+        problems.append(Problem(where, Phrase(key, number=f"{number:.15g}"), wanted))
     return number
 
 
 def _finite(where: str, value: object, problems: list[Problem]) -> float | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        problems.append(Problem(where, f"found {_shown(value)}", "a number is wanted"))
+        problems.append(Problem(where, Phrase("found value", value=_shown(value)), Phrase("a number is wanted")))
     elif not math.isfinite(value) or abs(value) > LARGEST:
-        problems.append(Problem(where, f"found {_shown(value)}", f"a finite number up to {LARGEST:g} is wanted"))
+        problems.append(
+            Problem(
+                where,
+                Phrase("found value", value=_shown(value)),
+                Phrase("a finite number up to is wanted", largest=f"{LARGEST:g}"),
+            )
+        )
     else:
         return float(value)
     return None
 
 
-def _pair(where: str, value: object, problems: list[Problem], wanted: str) -> tuple[float, float]:
+def _pair(where: str, value: object, problems: list[Problem], wanted: Wording) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
-        problems.append(Problem(where, f"found {_shown(value)}", wanted))
+        problems.append(Problem(where, Phrase("found value", value=_shown(value)), wanted))
         return 0.0, 0.0
     first, second = (_finite(where, one, problems) for one in value)
     return first or 0.0, second or 0.0
 
 
 def _place(where: str, value: object, problems: list[Problem]) -> complex:
-    return complex(*_pair(where, value, problems, "a place is [x, y]"))
+    return complex(*_pair(where, value, problems, Phrase("a place is x y")))
 
 
-def _shown(value: object) -> str:
+def _shown(value: object) -> Wording:
     from graphkin.scene.reading import shown
 
     return shown(value)

@@ -24,6 +24,7 @@ from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.placing import Placement, guide_of, place_of
 from graphkin.scene.tables import Polar, SceneTables
+from graphkin.words import Phrase
 
 __all__ = ["DrawnPosition", "find_position", "running_points", "starts_apart", "starts_of", "travel_of"]
 
@@ -271,8 +272,8 @@ def starts_apart(file: SceneTables, position: DrawnPosition) -> Iterable[Problem
             told = f"{degrees(turn):.10g} deg"
         else:
             continue
-        said = f"found {link.start:.10g}, but the given places make it {told}"
-        yield Problem(f"links.{name}.start", said, "one of the two is wrong; leave start out")
+        said = Phrase("found but the given places make it", start=f'{link.start:.10g}', value=told)
+        yield Problem(f"links.{name}.start", said, Phrase("one of the two is wrong leave start"))
 
 
 def starts_of(file: SceneTables, position: DrawnPosition, contacts: tuple[PlacedContact, ...]) -> dict[str, float]:

@@ -17,6 +17,7 @@ from graphkin.scene.model import FromDeadPoint, PinInSlot, SlidingPair
 from graphkin.scene.motion_law import MotionLaw, law_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SMALLEST, DrivenSlide, Driver, SceneTables
+from graphkin.words import Phrase, alternatives
 
 __all__ = ["DriverEntry", "drives"]
 
@@ -105,18 +106,23 @@ def _law(where: str, table: Driver | DrivenSlide, metres: float) -> tuple[Motion
     given |= {key: getattr(table, key, None) for key in ("sense", "position")} | {"from": table.origin}
     if table.law is None:
         if table.time is not None:
-            problems.append(Problem(f"{where}.time", "tells the moment of a law", "write law = ... with it"))
+            problems.append(Problem(f"{where}.time", Phrase("tells the moment of a law"), Phrase("write law with it")))
         return None, problems
     value = "angle" if isinstance(table, Driver) else "travel"
     for key, there in given.items():
         if there is not None and key != value:
-            problems.append(Problem(f"{where}.{key}", "stands beside law", "the law gives it; leave one of them out"))
+            problems.append(
+                Problem(f"{where}.{key}", Phrase("stands beside law"), Phrase("the law gives it leave one of them"))
+            )
     if table.time is not None and given[value] is not None:
-        problems.append(Problem(f"{where}.time", f"stands beside {value}", "write one of the two"))
+        problems.append(Problem(f"{where}.time", Phrase("stands beside", value=value), Phrase("write one of the two")))
     law = law_of(f"{where}.law", table.law, math.pi / 180 if value == "angle" else metres, problems)
     if law is not None and table.time is not None:
         if not law.pieces[0].start <= table.time <= law.duration:
-            found, wanted = f"found {table.time:g}", f"the law goes from {law.pieces[0].start:g} to {law.duration:g} s"
+            found, wanted = (
+                Phrase("found value", value=f"{table.time:g}"),
+                Phrase("the law goes from to s", start=f"{law.pieces[0].start:g}", duration=f"{law.duration:g}"),
+            )
             problems.append(Problem(f"{where}.time", found, wanted))
         law = replace(law, time=table.time)
     return law, problems
@@ -126,7 +132,11 @@ def _too_slow(where: str, table: Driver | DrivenSlide) -> Iterator[Problem]:
     for key in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
         rate = getattr(table, key, None)
         if rate and abs(rate) < SMALLEST:
-            yield Problem(f"{where}.{key}", f"found {rate:g}", f"write 0, or at least {SMALLEST:g}")
+            yield Problem(
+                f"{where}.{key}",
+                Phrase("found value", value=f"{rate:g}"),
+                Phrase("write 0 or at least", smallest=f"{SMALLEST:g}"),
+            )
 
 
 def _from_dead_point(
@@ -144,16 +154,19 @@ def _origin_problems(
     what = "angle" if isinstance(table, Driver) else "travel"
     if table.origin is None:
         if table.near is not None:
-            yield Problem(f"{where}.near", "tells which dead point", 'write from = "dead point" with it')
+            yield Problem(f"{where}.near", Phrase("tells which dead point"), Phrase("write from dead point with it"))
         return
     if value is None or value == 0.0:
-        yield Problem(f"{where}.{what}", "is missing" if value is None else "0 is the dead point itself",
-                      "write the distance from the dead point")
+        yield Problem(
+            f"{where}.{what}",
+            Phrase("is missing") if value is None else Phrase("0 is the dead point itself"),
+            Phrase("write the distance from the dead point"),
+        )
     if len(file.drivers) > 1:
-        yield Problem(f"{where}.from", "a dead point is found for a single driver only", "give the value itself")
+        yield Problem(f"{where}.from", Phrase("a dead point is found for a single"), Phrase("give the value itself"))
     if file.drawn:
-        yield Problem(f"{where}.from", "with [drawn] the value of the driver follows from the points",
-                      "leave one of the two out")
+        yield Problem(f"{where}.from", Phrase("with drawn the value of the driver follows"),
+                      Phrase("leave one of the two out"))
 
 
 def _angle_problems(
@@ -167,38 +180,47 @@ def _angle_problems(
         if missing:
             yield missing
         elif name in file.links and file.links[name].redundant:
-            yield Problem(f"{where}.{key}", f"link {name} is redundant", "drive by a link that counts")
+            yield Problem(
+                f"{where}.{key}", Phrase("link is redundant", what=name), Phrase("drive by a link that counts")
+            )
     if table.link == names.frame and table.link not in file.links:
-        yield Problem(f"{where}.link", f"link {table.link} is the frame", f"drive a moving link: {moving}")
+        yield Problem(
+            f"{where}.link", Phrase("link is the frame", name=table.link), Phrase("drive a moving link", moving=moving)
+        )
     if table.relative_to == table.link:
-        yield Problem(f"{where}.relative_to", f"link {table.link} is driven relative to itself",
-                      "name another link, or leave it out for the frame")
+        yield Problem(f"{where}.relative_to", Phrase("link is driven relative to itself", link=table.link),
+                      Phrase("name another link or leave it out for"))
     if table.omega is not None and table.rpm is not None:
-        yield Problem(f"{where}.omega", f"found omega = {table.omega:g} and rpm = {table.rpm:g}",
-                      "write one of the two")
+        yield Problem(f"{where}.omega", Phrase("found omega and rpm", omega=f'{table.omega:g}', rpm=f'{table.rpm:g}'),
+                      Phrase("write one of the two"))
     for other, rate in (("omega", table.omega), ("rpm", table.rpm)):
         if table.speed is not None and rate is not None:
-            yield Problem(f"{where}.speed", f"found speed = {table.speed:g} and {other} = {rate:g}",
-                          "write one of the two")
+            yield Problem(
+                f"{where}.speed",
+                Phrase("found speed and", speed=f"{table.speed:g}", other=other, rate=f"{rate:g}"),
+                Phrase("write one of the two"),
+            )
     if table.speed is not None and table.of is None and "of" not in lost:
-        yield Problem(f"{where}.of", "is missing", 'write of = "B", the point whose speed it is')
+        yield Problem(f"{where}.of", Phrase("is missing"), Phrase("write of b the point whose speed it"))
     if table.of is not None:
         if table.speed is None and "speed" not in lost:
-            yield Problem(f"{where}.of", "names a point whose speed is not given", "write speed = ..., or leave it out")
+            yield Problem(
+                f"{where}.of", Phrase("names a point whose speed is not given"), Phrase("write speed or leave it out")
+            )
         moving_points = [p for n, own in names.points.items() if n != names.frame for p in own]
         if table.of not in moving_points and not names.unsure:
             wanted = did_you_mean(table.of, moving_points)
-            yield Problem(f"{where}.of", f"no moving link has a point {table.of}", wanted)
+            yield Problem(f"{where}.of", Phrase("no moving link has a point", name=table.of), wanted)
         if len(file.drivers) > 1:
-            yield Problem(f"{where}.speed", "the speed of a point tells the rate of a single driver only",
-                          "give omega")
+            yield Problem(f"{where}.speed", Phrase("the speed of a point tells the rate"),
+                          Phrase("give omega"))
     for key, rate in (("omega", table.omega), ("rpm", table.rpm), ("speed", table.speed)):
         if table.sense is not None and rate is not None and rate < 0:
-            yield Problem(f"{where}.{key}", f"found {rate:g} beside the sense {table.sense}",
-                          "with sense write the size, or leave sense out")
+            yield Problem(f"{where}.{key}", Phrase("found beside the sense", rate=f'{rate:g}', sense=table.sense),
+                          Phrase("with sense write the size or leave sense"))
     told = table.omega, table.rpm, table.speed, table.law
     if all(one is None for one in told) and not lost & {"omega", "rpm", "speed", "law"}:
-        yield Problem(f"{where}.omega", "is missing", "write omega = ... in rad/s or rpm = ...; it may be 0")
+        yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
 
 
 def _position_problems(where: str, i: int, table: Driver, file: SceneTables) -> Iterator[Problem]:
@@ -207,17 +229,23 @@ def _position_problems(where: str, i: int, table: Driver, file: SceneTables) -> 
     known = [str(k) for k in range(1, ((file.positions and file.positions.count) or 0) + 1)]
     known += list(file.positions.also) if file.positions else []
     if i > 0:
-        yield Problem(f"{where}.position", "positions are those of the first driver", "give the angle")
+        yield Problem(f"{where}.position", Phrase("positions are those of the first driver"), Phrase("give the angle"))
     elif str(table.position) not in known:
-        wanted = did_you_mean(str(table.position), known) if known else "name it in [positions]"
-        yield Problem(f"{where}.position", f'there is no position "{table.position}"', wanted)
+        wanted = did_you_mean(str(table.position), known) if known else Phrase("name it in positions")
+        yield Problem(f"{where}.position", Phrase("there is no position", at=table.position), wanted)
     elif file.positions and file.positions.first is None and str(table.position) not in file.positions.also:
-        wanted = "write positions.first, or the angle"
-        yield Problem(f"{where}.position", "the numbered positions count from the driver's own value", wanted)
+        wanted = Phrase("write positions.first or the angle")
+        yield Problem(f"{where}.position", Phrase("the numbered positions count from the driver's own"), wanted)
     if table.angle is not None:
-        yield Problem(f"{where}.position", f"found angle = {table.angle:g} too", "write one of the two")
+        yield Problem(
+            f"{where}.position", Phrase("found angle too", angle=f"{table.angle:g}"), Phrase("write one of the two")
+        )
     if table.origin is not None or file.drawn:
-        yield Problem(f"{where}.position", "what gives the driver's value stands here twice", "leave one of them out")
+        yield Problem(
+            f"{where}.position",
+            Phrase("what gives the driver's value stands here twice"),
+            Phrase("leave one of them out"),
+        )
 
 
 def _slide_problems(
@@ -231,7 +259,9 @@ def _slide_problems(
 ) -> tuple[list[Problem], str]:
     problems: list[Problem] = []
     if table.velocity is None and table.law is None and not lost & {"velocity", "law"}:
-        problems.append(Problem(f"{where}.velocity", "is missing", "write velocity = ... per second; it may be 0"))
+        problems.append(
+            Problem(f"{where}.velocity", Phrase("is missing"), Phrase("write velocity per second it may be 0"))
+        )
     what, _, on = table.slide.partition("/")
     pairs = {p.key: p.on for p in slidings if p.link == what} or {p.key: p.on for p in pins if p.point == what}
     keys = [key for key, rail in pairs.items() if rail in (on or rail, ) and rail == (table.relative_to or rail)]
@@ -239,29 +269,49 @@ def _slide_problems(
     if "" in names.unsure or (what in file.links and file.links[what].on is not None and not pairs):
         return problems, keys[0] if len(keys) == 1 else table.slide  # its pair has a problem of its own
     if not pairs and what not in names.points:
-        problems.append(Problem(f"{where}.slide", f'there is no sliding link "{what}"', did_you_mean(what, known)))
+        problems.append(
+            Problem(f"{where}.slide", Phrase("there is no sliding link", what=what), did_you_mean(what, known))
+        )
     elif not pairs:
-        problems.append(Problem(f"{where}.slide", f"link {what} slides on nothing",
-                                "drive a sliding pair: " + ", ".join(known) if known else "there is no sliding pair"))
+        problems.append(
+            Problem(
+                f"{where}.slide",
+                Phrase("link slides on nothing", what=what),
+                Phrase("drive a sliding pair", pairs=", ".join(known)) if known else Phrase("there is no sliding pair"),
+            )
+        )
     elif not keys:
         key, name = ("slide", on) if on and on not in pairs.values() else ("relative_to", table.relative_to)
-        problems.append(Problem(f"{where}.{key}", f"{what} does not slide on link {name}",
-                                "it may be " + " or ".join(pairs)))
+        problems.append(Problem(f"{where}.{key}", Phrase("does not slide on link", what=what, name=name),
+                                Phrase("it may be", names=alternatives(pairs))))
     elif len(keys) > 1:
-        problems.append(Problem(f"{where}.slide", f"{what} slides on {len(keys)} links",
-                                "write " + " or ".join(f'"{key}"' for key in keys)))
+        problems.append(Problem(f"{where}.slide", Phrase("slides on links", what=what, count=len(keys)),
+                                Phrase("write a key", names=alternatives([f'"{key}"' for key in keys]))))
     if what in file.links and file.links[what].redundant:
-        problems.append(Problem(f"{where}.slide", f"link {what} is redundant", "drive by a link that counts"))
+        problems.append(
+            Problem(f"{where}.slide", Phrase("link is redundant", what=what), Phrase("drive by a link that counts"))
+        )
     return problems, keys[0] if len(keys) == 1 else table.slide
 
 
 def _driven_twice(where: str, key: str, base: str, found: list[DriverEntry]) -> list[Problem]:
     for other in found:
         if other.key == key:
-            what = f"link {key}" if base else key
-            hint = f'write the second as link = "{base}", relative_to = "{key}"' if base != other.base else ""
-            return [Problem(where, f"{what} is driven by {other.where} already", hint or "leave one of them out")]
+            what = Phrase("link of name", name=key) if base else key
+            hint = Phrase("write the second as link relative_to", base=base, key=key) if base != other.base else ""
+            return [
+                Problem(
+                    where,
+                    Phrase("is driven by already", what=what, where=other.where),
+                    hint or Phrase("leave one of them out"),
+                )
+            ]
         if base and {key, base} == {other.key, other.base}:
-            return [Problem(where, f"the angle between links {key} and {base} is driven by {other.where} already",
-                            "leave one of them out")]
+            return [
+                Problem(
+                    where,
+                    Phrase("the angle between links and is driven by", key=key, base=base, where=other.where),
+                    Phrase("leave one of them out"),
+                )
+            ]
     return []

@@ -22,6 +22,7 @@ from graphkin.plane import direction
 from graphkin.scene.model import CircularSlot
 from graphkin.scene.names import Flaws
 from graphkin.scene.tables import Guide, Link, Pin, SceneTables
+from graphkin.words import Phrase
 
 __all__ = ["with_bars", "with_carriages"]
 
@@ -83,17 +84,25 @@ class _Slots:
     def _slot(self, where: str, name: str, key: str, guide: Guide) -> None:
         both = [k for k in ("through", "angle", "toward") if getattr(guide, k) is not None]
         if both:
-            hint = "a straight guide has through and angle, a circular slot centre and r"
-            self.problems.append(Problem(f"{where}.{both[0]}", "stands in a slot along a circle", hint))
+            hint = Phrase("a straight guide has through and angle a")
+            self.problems.append(Problem(f"{where}.{both[0]}", Phrase("stands in a slot along a circle"), hint))
         if guide.centre is None or guide.r is None:
             missing = "centre" if guide.centre is None else "r"
-            wanted = 'write centre = "M" or [x, y], and r = ...' if guide.centre is None else "write the slot's radius"
-            self.problems.append(Problem(f"{where}.{missing}", "is missing", wanted))
+            wanted = (
+                Phrase("write centre m or x y and r") if guide.centre is None else Phrase("write the slot's radius")
+            )
+            self.problems.append(Problem(f"{where}.{missing}", Phrase("is missing"), wanted))
         centre = guide.centre
         if isinstance(centre, str):
             if centre not in self.points[name] and not self.flaws.under(*where.split(".")[:2]):
                 wanted = did_you_mean(centre, sorted(self.points[name]))
-                self.problems.append(Problem(f"{where}.centre", f"link {name} has no point {centre}", wanted))
+                self.problems.append(
+                    Problem(
+                        f"{where}.centre",
+                        Phrase("link has no point of name and centre", name=name, centre=centre),
+                        wanted,
+                    )
+                )
                 centre = None
         elif centre is not None:
             point = self._free("M", {p for own in self.points.values() for p in own})
@@ -142,13 +151,19 @@ def with_bars(
         for key in filter(None, map(slots.of, _refs(pin.slots))):
             where, (centre, r, _) = f"pins.{point}", slots.arcs[key]
             if pin.of not in slots.holders:
-                problems.append(Problem(f"{where}.of", f'there is no link "{pin.of}"', did_you_mean(pin.of, taken)))
+                problems.append(
+                    Problem(f"{where}.of", Phrase("there is no link", name=pin.of), did_you_mean(pin.of, taken))
+                )
             elif point not in slots.points[pin.of]:
                 wanted = did_you_mean(point, sorted(slots.points[pin.of]))
-                problems.append(Problem(f"{where}.of", f"link {pin.of} has no point {point}", wanted))
+                problems.append(
+                    Problem(
+                        f"{where}.of", Phrase("link has no point of name and centre", name=pin.of, centre=point), wanted
+                    )
+                )
             elif pin.of == key[0] or point in slots.points[key[0]]:
-                problems.append(Problem(f"{where}.in", f"{point} is a point of link {key[0]} itself",
-                                        "name the slot of another link"))  # fmt: skip
+                problems.append(Problem(f"{where}.in", Phrase("is a point of link itself", point=point, key=key[0]),
+                                        Phrase("name the slot of another link")))  # fmt: skip
             elif centre:
                 bar = slots._free(key[1], taken)
                 taken.add(bar)
@@ -187,10 +202,12 @@ def _centres(
     for key, angle in keys:
         centre, r, _ = slots.arcs[key]
         if key[0] == name:
-            slots.problems.append(Problem(f"links.{name}.on", f"link {name} slides on itself", "name another link"))
+            slots.problems.append(
+                Problem(f"links.{name}.on", Phrase("link slides on itself", name=name), Phrase("name another link"))
+            )
         elif not link.points:
             slots.problems.append(
-                Problem(f"links.{name}.points", "is missing", "name the point of the block that runs in the slot")
+                Problem(f"links.{name}.points", Phrase("is missing"), Phrase("name the point of the block that runs"))
             )
         elif centre:
             # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it

@@ -10,6 +10,7 @@ from typing import Literal
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
 
 __all__ = ["ForceJoint", "force_names", "joints", "no_force", "opposite"]
 
@@ -103,14 +104,14 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
     """What is wrong with a symbol of a force or a flywheel that the mechanism does not have; None for one that it
     has."""
     if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
-        return Problem(where, f"{symbol} belongs to a flywheel, but there is none", "give [flywheel]")
+        return Problem(where, Phrase("belongs to a flywheel but there is none", symbol=symbol), Phrase("give flywheel"))
     if symbol.scope != "force" or symbol.kind in ("h", "arm"):
         return None
     known = force_names(mechanism)
     if not known:
-        wanted = "give [masses.LINK] or [loads.NAME] or [springs.NAME]"
-        return Problem(where, f"{symbol} is a force, but nothing makes any", wanted)
+        wanted = Phrase("give masses.link or loads.name or springs.name")
+        return Problem(where, Phrase("is a force but nothing makes any", symbol=symbol), wanted)
     name = str(replace(symbol, at="", plus=False))
     if name in known or opposite(name) in known:
         return None
-    return Problem(where, f"there is no {symbol} here", did_you_mean(name, known))
+    return Problem(where, Phrase("there is no here", symbol=symbol), did_you_mean(name, known))

@@ -86,31 +86,32 @@ def _count(value: object) -> str:
 
 
 def _forms(wanted: str) -> Discriminator:
+    """Which form a value has; ``wanted`` is the key of the phrase that says which there are."""
     return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
 
 
 NameOrPlace = Annotated[
     Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")],
-    _forms('write the name of a point ("B") or a place [x, y]'),
+    _forms("write the name of a point b or"),
 ]
 GuideRefs = Annotated[
     Annotated[GuideRef, Tag("<name>")]
     | Annotated[list[GuideRef], Field(min_length=1, max_length=2), Tag("<list>")],
-    _forms('write a guide as "LINK" or "LINK.GUIDE", or a list of them'),
+    _forms("write a guide as link or link.guide or"),
 ]
 Numbers = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[list[Number], Field(min_length=1, max_length=2), Tag("<list>")],
-    _forms("write a number, or a list with one number for each guide"),
+    _forms("write a number or a list with one"),
 ]
 NumberOrPair = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[Place, Tag("<list>")],
-    _forms("write a number, or [x, y] for a vector by its components"),
+    _forms("write a number or x y for a"),
 ]
 Stated = Annotated[
     Annotated[Number, Tag("<number>")]
     | Annotated[Place, Tag("<list>")]
     | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
-    _forms('write a number, "1.0" for its digits as printed, "0.483 m/s", "2.82 cw", or [x, y] for components'),
+    _forms("write a number 1.0 for its digits as"),
 ]
 Range = Annotated[list[Number], Field(min_length=2, max_length=2)]
 Keys = list[Annotated[str, StringConstraints(strict=True, max_length=80)]]
@@ -121,34 +122,32 @@ Part = Annotated[Number, Field(gt=0, le=0.5)]
 StatedRow = dict[str, Stated]
 Start = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated["StrokeStart", Tag("<polar>")],
-    _forms('write a driver value, or { stroke = "5/6", at = 0, sense = 1 }'),
+    _forms("write a driver value or stroke 5 6"),
 ]
 FramePlace = Annotated[
     Annotated[Place, Tag("<list>")] | Annotated["Polar", Tag("<polar>")] | Annotated["Compass", Tag("<compass>")],
-    _forms('write [x, y], { from = "A", r = 400, angle = -30 } or '
-           '{ from = ["A", "D"], r = [60, 80], side = "left" }'),
+    _forms("write x y from a r 400 angle"),
 ]
 At = Annotated[
     Annotated[Place, Tag("<list>")]
     | Annotated["Polar", Tag("<polar>")]
     | Annotated["Compass", Tag("<compass>")]
     | Annotated[Literal["drawn"], Tag("<name>")],
-    _forms('write [x, y], { from = "C", r = 65, angle = -60 }, '
-           '{ from = ["B", "C"], r = [60, 80], side = "left" } or "drawn"'),
+    _forms("write x y from c r 65 angle"),
 ]
 TwoOutlines = Annotated[list[GuideRef], Field(min_length=2, max_length=2)]
 TwoTeeth = Annotated[
     list[
         Annotated[
             Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
-            _forms('write a number of teeth, or "rack"'),
+            _forms("write a number of teeth or rack"),
         ]
     ],
     Field(min_length=2, max_length=2),
 ]
 NumberOrSquare = Annotated[
     Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
-    _forms('write degrees, or "square" for square to the link\'s own axis'),
+    _forms("write degrees or square for square to the"),
 ]
 OneDriver = Annotated[
     Annotated["Driver", Tag("<angle>")] | Annotated["DrivenSlide", Tag("<slide>")], Discriminator(_driver_form)

@@ -12,6 +12,7 @@ from graphkin.plane import direction
 from graphkin.scene.load_tables import STANDARD_GRAVITY, Load, LoadPhase, Spring
 from graphkin.scene.names import Names
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase, Wording
 
 __all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "PlacedFlywheel", "SpringOn", "loading_of"]
 
@@ -138,11 +139,15 @@ def loading_of(
     if file.flywheel is not None and not reading.not_moving("flywheel.on", file.flywheel.on):
         flywheel = PlacedFlywheel(file.flywheel.on, file.flywheel.delta)
         if file.flywheel.delta >= 2.0:
-            reading.say("flywheel.delta", f"found {file.flywheel.delta:g}", "a part of the mean speed, below 2")
+            reading.say(
+                "flywheel.delta",
+                Phrase("found value", value=f"{file.flywheel.delta:g}"),
+                Phrase("a part of the mean speed below 2"),
+            )
     if (balance or flywheel) and not (file.masses or file.loads or file.springs):
         where = "balance" if balance else "flywheel"
-        wanted = "give [masses.LINK], [loads.NAME] or [springs.NAME]"
-        problems.append(Problem(where, "there is nothing to balance", wanted))
+        wanted = Phrase("give masses.link loads.name or springs.name")
+        problems.append(Problem(where, Phrase("there is nothing to balance"), wanted))
     return Loading(down, masses, loads, balance, flywheel, springs)
 
 
@@ -156,7 +161,7 @@ class _LoadReading:
     pairs: tuple[str, ...]
     problems: list[Problem]
 
-    def say(self, where: str, found: str, wanted: str) -> None:
+    def say(self, where: str, found: Wording, wanted: Wording) -> None:
         self.problems.append(Problem(where, found, wanted))
 
     def not_moving(self, where: str, link: str) -> bool:
@@ -165,9 +170,9 @@ class _LoadReading:
         if missing:
             self.problems.append(missing)
         elif link == self.names.frame:
-            self.say(where, f"link {link} is the frame", "what acts on the fixed link moves nothing")
+            self.say(where, Phrase("link is the frame", name=link), Phrase("what acts on the fixed link moves nothing"))
         elif link in self.file.links and self.file.links[link].redundant:
-            self.say(where, f"link {link} is redundant", "its share of the forces is not determined; use another link")
+            self.say(where, Phrase("link is redundant", what=link), Phrase("its share of the forces is not determined"))
         else:
             return False
         return True
@@ -186,7 +191,7 @@ class _LoadReading:
         near = [key for key in self.pairs if ref in (key, key.split("/")[0])]
         if len(near) == 1:
             return near[0]
-        found = f'"{ref}" is no sliding pair' if not near else f'"{ref}" may be {" or ".join(near)}'
+        found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
         self.say(where, found, did_you_mean(ref, self.pairs))
         return ""
 
@@ -195,8 +200,8 @@ class _LoadReading:
         if self.not_moving(where, link):
             return None
         if (table.mass is None) == (table.weight is None):
-            found = "has neither mass nor weight" if table.mass is None else "has both mass and weight"
-            self.say(where, found, "give one of them")
+            found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
+            self.say(where, found, Phrase("give one of them"))
             return None
         heavy = (table.mass or 0.0) * units.kilograms if table.weight is None else table.weight * units.newtons / g
         return LinkMass(link, self.place(f"{where}.at", link, table.at), heavy, table.inertia * units.inertias)
@@ -206,18 +211,24 @@ class _LoadReading:
         if self.not_moving(f"{where}.on", load.on):
             return None
         if (load.force is None) == (load.moment is None):
-            found = "has neither force nor moment" if load.force is None else "has both force and moment"
-            self.say(where, found, "give one of them")
+            found = (
+                Phrase("has neither force nor moment") if load.force is None else Phrase("has both force and moment")
+            )
+            self.say(where, found, Phrase("give one of them"))
             return None
         phase = self.phase(f"{where}.when", load.when) if load.when is not None else None
         if load.moment is not None:
             for key in ("at", "angle", "follows", "against"):
                 if getattr(load, key) is not None:
-                    self.say(f"{where}.{key}", "stands beside moment", "a moment has neither place nor direction")
+                    self.say(
+                        f"{where}.{key}",
+                        Phrase("stands beside moment"),
+                        Phrase("a moment has neither place nor direction"),
+                    )
             return LoadOn(name, load.on, load.moment * units.newtons, False, phase=phase)
         at = 0j
         if load.at is None:
-            self.say(f"{where}.at", "is missing", "a point of the link, or [x, y] in its own axes")
+            self.say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
         else:
             at = self.place(f"{where}.at", load.on, load.at)
         turn = direction(load.angle) if load.angle is not None else 1 + 0j
@@ -225,31 +236,43 @@ class _LoadReading:
         if load.against is not None:
             against = self.pair(f"{where}.against", load.against)
             if load.angle is not None or load.follows is not None:
-                self.say(f"{where}.against", "stands beside angle or follows", "a force has one direction")
+                self.say(
+                    f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction")
+                )
         elif load.follows is not None:
             missing = self.names.no_link(f"{where}.follows", load.follows)
             self.problems.extend([missing] if missing else [])
             follows = load.follows
         elif load.angle is None:
-            self.say(f"{where}.angle", "is missing", "write angle, follows or against: a force has a direction")
+            self.say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
         return LoadOn(name, load.on, (load.force or 0.0) * units.newtons, True, at, turn, follows, against, phase)
 
     def spring(self, name: str, table: Spring) -> SpringOn | None:
         where, units, known = f"springs.{name}", self.file.units, len(self.problems)
         if name in self.file.loads:
-            self.say(where, f"a load is called {name} too", f"another name: both would be P_{name}")
+            self.say(
+                where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name)
+            )
         if len(table.between) != 2 or table.between[0] == table.between[1]:
-            self.say(f"{where}.between", f"found {', '.join(table.between) or 'nothing'}", "two different points")
+            self.say(
+                f"{where}.between",
+                Phrase("found value", value=", ".join(table.between) or "nothing"),
+                Phrase("two different points"),
+            )
         elif table.links is not None and len(table.links) != 2:
-            self.say(f"{where}.links", f"found {', '.join(table.links) or 'nothing'}", "two links, one for each point")
+            self.say(
+                f"{where}.links",
+                Phrase("found value", value=", ".join(table.links) or "nothing"),
+                Phrase("two links one for each point"),
+            )
         if len(self.problems) > known:
             return None
         ends = [self.end(where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
         if len(self.problems) > known or "" in ends:
             return None
         if ends[0] == ends[1]:
-            found = f"both ends are on link {ends[0]}"
-            self.say(where, found, 'two links: where several have a point write links = ["2", "4"]')
+            found = Phrase("both ends are on link", ends=ends[0])
+            self.say(where, found, Phrase("two links where several have a point write"))
             return None
         (a, b), (p, q) = ends, table.between
         at = self.places.get(a, {}).get(p, 0j), self.places.get(b, {}).get(q, 0j)
@@ -265,7 +288,11 @@ class _LoadReading:
             order = [self.names.frame, *(n for n in self.file.links if not self.file.links[n].redundant)]
             having = [n for n in order if point in self.places.get(n, {})]
             if not having and not missing:
-                self.say(f"{where}.between", f"{point} is placed on no link", "a point of a link or the frame")
+                self.say(
+                    f"{where}.between",
+                    Phrase("is placed on no link", point=point),
+                    Phrase("a point of a link or the frame"),
+                )
             return having[0] if having else ""
         if link != self.names.frame and self.not_moving(f"{where}.links", link):
             return ""
@@ -275,30 +302,43 @@ class _LoadReading:
 
     def phase(self, where: str, when: LoadPhase) -> Phase | None:
         if (when.stroke is None) == (when.driver is None):
-            self.say(where, "has neither stroke nor driver" if when.stroke is None else "has both stroke and driver",
-                     "give one of them")  # fmt: skip
+            self.say(
+                where,
+                Phrase("has neither stroke nor driver")
+                if when.stroke is None
+                else Phrase("has both stroke and driver"),
+                Phrase("give one of them"),
+            )
             return None
         if when.stroke is not None:
             if not when.start < when.end <= 1.0:
-                self.say(where, f"from {when.start:g} to {when.end:g}", "parts of the stroke grow from 0 to 1")
+                self.say(
+                    where,
+                    Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
+                    Phrase("parts of the stroke grow from 0 to"),
+                )
             if when.sense not in (1, -1):
-                self.say(f"{where}.sense", f"found {when.sense:g}", "1 along the guide's sense, -1 against it")
+                self.say(
+                    f"{where}.sense",
+                    Phrase("found value", value=f"{when.sense:g}"),
+                    Phrase("1 along the guide's sense 1 against it"),
+                )
             return Phase(self.pair(f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
         assert when.driver is not None
         for key, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
             if said:
-                self.say(f"{where}.{key}", "stands beside driver", "it is of a stroke; the driver's two values say all")
+                self.say(f"{where}.{key}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
         drivers = self.file.drivers
         slides = bool(drivers) and hasattr(drivers[0], "slide")
         scale = self.file.units.metres if slides else math.pi / 180
         start, end = (value * scale for value in when.driver)
         if slides and start >= end:
-            found = f"found {when.driver[0]:g}, {when.driver[1]:g}"
-            self.say(f"{where}.driver", found, "the travel grows between them")
+            found = Phrase("found of bounds and fast", bounds=f'{when.driver[0]:g}', fast=f'{when.driver[1]:g}')
+            self.say(f"{where}.driver", found, Phrase("the travel grows between them"))
         elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
-            found = f"found {when.driver[0]:g}, {when.driver[1]:g}"
-            wanted = "two different values" if span <= 0.0 else "at most a turn lies between them"
-            self.say(f"{where}.driver", found, f"{wanted}; a load that acts always has no when")
+            found = Phrase("found of bounds and fast", bounds=f'{when.driver[0]:g}', fast=f'{when.driver[1]:g}')
+            wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
+            self.say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
         return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
 
     def balance(self) -> BalanceAt | None:
@@ -306,14 +346,18 @@ class _LoadReading:
         if table is None or self.not_moving("balance.on", table.on):
             return None
         if len(self.file.drivers) > 1:
-            self.say("balance", "one balance cannot stand for several drivers", "leave it out: each driver has its own")
+            self.say(
+                "balance",
+                Phrase("one balance cannot stand for several drivers"),
+                Phrase("leave it out each driver has its own"),
+            )
         if table.at is None:
             if table.angle is not None:
-                self.say("balance.angle", "stands without at", "a force has a place; a moment has no direction")
+                self.say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
             return BalanceAt(table.on, "moment")
         at = self.place("balance.at", table.on, table.at)
         if table.angle is None:
-            self.say("balance.angle", "is missing", 'degrees in the frame, or "square" to the link\'s own axis')
+            self.say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
         square = table.angle == "square"
         turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
         return BalanceAt(table.on, "force", at, turn, square)

@@ -14,6 +14,7 @@ from itertools import pairwise
 from graphkin.errors import Problem
 from graphkin.scene.contact_tables import DriverLaw
 from graphkin.scene.follower_law import Lift, LiftPiece, SmoothPart, form_of
+from graphkin.words import Phrase
 
 __all__ = ["CubicPart", "MotionLaw", "law_of"]
 
@@ -141,16 +142,15 @@ def law_of(where: str, table: DriverLaw, unit: float, problems: list[Problem]) -
     }
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
-        found = f"says its motion by {' and '.join(given)}" if given else "says nothing"
-        wanted = '{ from = 20, to = 110, duration = 0.5, by = "cycloidal" }, or from and pieces, or a table'
-        problems.append(Problem(where, found, f"write {wanted}"))
+        found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
+        problems.append(Problem(where, found, Phrase("write from and to or pieces or a table")))
         return None
     if given == ["table"]:
         return _by_table(where, table, unit, problems)
     wrong: list[Problem] = []
     start = (table.origin or 0.0) * unit
     if table.origin is None:
-        wrong.append(Problem(f"{where}.from", "is missing", "write the driver's value at 0 s"))
+        wrong.append(Problem(f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s")))
     pieces = _one(where, table, unit, wrong) if given == ["by"] else _several(where, table, unit, start, wrong)
     problems += wrong
     return None if wrong else MotionLaw(tuple(pieces))
@@ -158,12 +158,14 @@ def law_of(where: str, table: DriverLaw, unit: float, problems: list[Problem]) -
 
 def _one(where: str, table: DriverLaw, unit: float, wrong: list[Problem]) -> list[LiftPiece]:
     if (table.to is None) == (table.rise is None):
-        both = "stands beside rise" if table.to is not None else "is missing"
-        wrong.append(Problem(f"{where}.to", both, "write to (the value at the end), or rise"))
+        both = Phrase("stands beside rise") if table.to is not None else Phrase("is missing")
+        wrong.append(Problem(f"{where}.to", both, Phrase("write to the value at the end or")))
     if table.duration is None:
-        wrong.append(Problem(f"{where}.duration", "is missing", "write the seconds that it takes"))
+        wrong.append(Problem(f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes")))
     if table.by is None:
-        wrong.append(Problem(f"{where}.by", "is missing", 'write by = "cycloidal", "harmonic", "345" or another law'))
+        wrong.append(
+            Problem(f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
+        )
     start = table.origin or 0.0
     end = table.to if table.to is not None else start + (table.rise or 0.0)
     return [LiftPiece(0.0, table.duration or 1.0, start * unit, end * unit, form_of(table.by))]
@@ -176,12 +178,18 @@ def _several(where: str, table: DriverLaw, unit: float, start: float, wrong: lis
         here = f"{where}.pieces.{i}"
         moves = piece.rise is not None or piece.fall is not None
         if piece.rise is not None and piece.fall is not None:
-            wrong.append(Problem(here, "has both rise and fall", "give one of them, or none for a dwell"))
+            wrong.append(Problem(here, Phrase("has both rise and fall"), Phrase("give one of them or none for a")))
         if moves != (piece.by is not None):
-            said = "does not say its law" if moves else f'has by = "{piece.by}" without rise or fall'
-            wrong.append(Problem(here, said, "a rise or fall has by, a dwell has none"))
+            said = Phrase("does not say its law") if moves else Phrase("has by without rise or fall", by=piece.by)
+            wrong.append(Problem(here, said, Phrase("a rise or fall has by a dwell")))
         if not piece.to > time:
-            wrong.append(Problem(here, f"ends at {piece.to:g} s, where it begins at {time:g}", "seconds grow"))
+            wrong.append(
+                Problem(
+                    here,
+                    Phrase("ends at s where it begins at", to=f"{piece.to:g}", time=f"{time:g}"),
+                    Phrase("seconds grow"),
+                )
+            )
         high = low + ((piece.rise or 0.0) - (piece.fall or 0.0)) * unit
         pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
         time, low = piece.to, high
@@ -191,15 +199,23 @@ def _several(where: str, table: DriverLaw, unit: float, start: float, wrong: lis
 def _by_table(where: str, table: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
     here = f"{where}.table"
     if table.origin is not None:
-        problems.append(Problem(f"{where}.from", "stands beside a table", "the table says where it begins"))
+        problems.append(
+            Problem(f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
+        )
         return None
     times, values = [t for t, _ in table.table], [v * unit for _, v in table.table]
     if len(times) < 2:
-        problems.append(Problem(here, "has one row", "write [[time, value], ...], two rows or more"))
+        problems.append(Problem(here, Phrase("has one row"), Phrase("write time value two rows or more")))
         return None
     for i, (a, b) in enumerate(pairwise(times), 2):
         if not b > a:
-            problems.append(Problem(f"{here}.{i}", f"is at {b:g} s, after one at {a:g} s", "seconds grow"))
+            problems.append(
+                Problem(
+                    f"{here}.{i}",
+                    Phrase("is at s after one at s", other=f"{b:g}", name=f"{a:g}"),
+                    Phrase("seconds grow"),
+                )
+            )
             return None
     rates = _spline(times, values)
     rows = zip(times, times[1:], values, values[1:], rates, rates[1:], strict=False)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.file_keys import KeyPath
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase
 
 __all__ = ["Flaws", "Names"]
 
@@ -69,21 +70,21 @@ class Names:
         if name in self.points or ("" in self.unsure and self.frame in self.unsure):
             return None
         known = [link for link in self.points if not (moving and link == self.frame)]
-        return Problem(where, f'there is no link "{name}"', did_you_mean(name, known))
+        return Problem(where, Phrase("there is no link", name=name), did_you_mean(name, known))
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
         everywhere = {p for own in self.points.values() for p in own} | self.contacts
         if point in everywhere or "" in self.unsure:
             return None
-        return Problem(where, f"no link has a point {point}", did_you_mean(point, everywhere))
+        return Problem(where, Phrase("no link has a point", point=point), did_you_mean(point, everywhere))
 
     def no_point_of(self, where: str, link: str, point: str) -> Problem | None:
         """The problem of a point that this link does not have."""
         own = self.points.get(link, ())
         if point in own or link in self.unsure:
             return None
-        return Problem(where, f"{point} is nowhere placed on link {link}", did_you_mean(point, own))
+        return Problem(where, Phrase("is nowhere placed on link", point=point, link=link), did_you_mean(point, own))
 
     def no_guide(self, where: str, ref: str) -> Problem | None:
         """The problem of a guide LINK or LINK.GUIDE that does not exist."""
@@ -92,5 +93,5 @@ class Names:
         if missing or not guide or link in self.unsure or guide in self.guides.get(link, ()):
             return missing
         own = self.guides.get(link, frozenset())
-        hint = did_you_mean(guide, own) if own else f'its own axis is the guide "{link}"'
-        return Problem(where, f'link {link} has no guide "{guide}"', hint)
+        hint = did_you_mean(guide, own) if own else Phrase("its own axis is the guide", link=link)
+        return Problem(where, Phrase("link has no guide", link=link, guide=guide), hint)

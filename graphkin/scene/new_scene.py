@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.words import Phrase
 
 __all__ = ["NEW", "NewScene", "new_scene"]
 
@@ -134,12 +135,18 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
     if kind not in NEW:
         raise CallError(Problem("--new", f'"{kind}"', did_you_mean(kind, NEW)))
     made = NEW[kind]
-    problems = [Problem(f"--new {kind}", f'asks for no "{n}"', did_you_mean(n, made.asks)) for n in given
+    problems = [Problem(f"--new {kind}", Phrase("asks for no", number=n), did_you_mean(n, made.asks)) for n in given
                 if n not in made.asks]  # fmt: skip
     for name, value in given.items():
         signed = name in ("offset", "angle", "rpm")
         if not math.isfinite(value) or abs(value) > 1e9 or (not signed and value <= 0):
-            problems.append(Problem(name, f"found {value:g}", "a finite number" if signed else "a length is positive"))
+            problems.append(
+                Problem(
+                    name,
+                    Phrase("found value", value=f"{value:g}"),
+                    Phrase("a finite number") if signed else Phrase("a length is positive"),
+                )
+            )
     if problems:
         raise CallError(*problems)
     return made.text.format(title=kind.replace("-", " ").capitalize(), **{**made.asks, **given})

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.words import Phrase
 
 __all__ = ["asked_time", "at_time", "moments", "moves_by_law", "time_span"]
 
@@ -43,7 +44,13 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
     """
     low, high = time_span(scene)
     if not low <= time <= high:
-        raise CallError(Problem("at time", f"found {time:g} s", f"the law goes from {low:g} to {high:g} s"))
+        raise CallError(
+            Problem(
+                "at time",
+                Phrase("found s", time=f"{time:g}"),
+                Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}"),
+            )
+        )
     drivers: list[AnyDriver] = []
     values: dict[str, float] = {}
     since = time - asked_time(scene)

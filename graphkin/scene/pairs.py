@@ -11,6 +11,7 @@ from graphkin.scene.model import PinInSlot, SlidingPair
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import Link, SceneTables
 from graphkin.scene.touching import touching_links
+from graphkin.words import Phrase
 
 __all__ = ["islands", "pins_in_slots", "sliding_pairs"]
 
@@ -25,7 +26,11 @@ def sliding_pairs(file: SceneTables, names: Names, flaws: Flaws, problems: list[
     for name, link in file.links.items():
         if link.on is None:
             if link.angle_on is not None and name not in names.unsure and not flaws.under("links", name, "on"):
-                problems.append(Problem(f"links.{name}.angle_on", "stands without on", "say what the link slides on"))
+                problems.append(
+                    Problem(
+                        f"links.{name}.angle_on", Phrase("stands without on"), Phrase("say what the link slides on")
+                    )
+                )
             continue
         refs = _as_list(link.on)
         angles = _angles(name, link, len(refs), problems)
@@ -46,7 +51,9 @@ def _angles(name: str, link: Link, guides: int, problems: list[Problem]) -> list
     if len(angles) != guides:
         problems.append(
             Problem(
-                f"links.{name}.angle_on", f"found {len(angles)} for {guides} guides", "write one number for each guide"
+                f"links.{name}.angle_on",
+                Phrase("found for guides", count=len(angles), guides=guides),
+                Phrase("write one number for each guide"),
             )
         )
         return [0.0] * guides
@@ -56,16 +63,18 @@ def _angles(name: str, link: Link, guides: int, problems: list[Problem]) -> list
 def _sliding_problem(name: str, on: str, link: Link, names: Names, pairs: list[SlidingPair]) -> Problem | None:
     where = f"links.{name}.on"
     if on == name:
-        return Problem(where, f"link {name} slides on itself", "name the link that guides it")
+        return Problem(where, Phrase("link slides on itself", name=name), Phrase("name the link that guides it"))
     if any({p.link, p.on} == {name, on} for p in pairs):
         return Problem(
-            where, f"link {name} already has a sliding pair with link {on}", "two links have one sliding pair at most"
+            where,
+            Phrase("link already has a sliding pair with link", name=name, on=on),
+            Phrase("two links have one sliding pair at most"),
         )
     if link.points and link.points[0] in names.points.get(on, ()):
         return Problem(
             where,
-            f"{link.points[0]} is a point of link {on} too, which pins the two together",
-            f"take {link.points[0]} away from one of them, or do not let link {name} slide",
+            Phrase("is a point of link too which pins", points=link.points[0], on=on),
+            Phrase("take away from one of them or do", points=link.points[0], name=name),
         )
     return None
 
@@ -85,20 +94,28 @@ def pins_in_slots(
             found = names.no_guide(f"{where}.in", ref)
             if not found and on == pin.of:
                 found = Problem(
-                    f"{where}.in", f"{ref} is a guide of link {on} itself", "name the guide of another link"
+                    f"{where}.in",
+                    Phrase("is a guide of link itself", ref=ref, on=on),
+                    Phrase("name the guide of another link"),
                 )
             if not found and any(p.point == point and p.on == on for p in pins):
                 found = Problem(
-                    f"{where}.in", f"{point} runs twice in link {on}", f"one slot of link {on}, or a turning pair"
+                    f"{where}.in",
+                    Phrase("runs twice in link", point=point, on=on),
+                    Phrase("one slot of link or a turning pair", on=on),
                 )
             if not found and point in names.points.get(on, ()):
                 found = Problem(
                     f"{where}.in",
-                    f"{point} is also a point of link {on}, which is a turning pair",
-                    f"take {point} away from link {on}, or the pin away",
+                    Phrase("is also a point of link which is", point=point, on=on),
+                    Phrase("take away from link or the pin away", point=point, on=on),
                 )
             if not found and any(s.key == f"{point}/{on}" for s in slidings):
-                found = Problem(where, f"{point}/{on} is also the name of a sliding pair", f"rename link {point}")
+                found = Problem(
+                    where,
+                    Phrase("is also the name of a sliding pair", point=point, on=on),
+                    Phrase("rename link", point=point),
+                )
             if found:
                 problems.append(found)
             elif not problem:

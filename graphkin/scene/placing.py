@@ -14,6 +14,7 @@ from graphkin.errors import Problem
 from graphkin.plane import cross_arcs, degrees, direction
 from graphkin.scene.model import PlacedGuide
 from graphkin.scene.tables import Compass, Guide, Link, Polar
+from graphkin.words import Phrase
 
 __all__ = ["Placement", "circle_of_references", "guide_of", "origins_of", "place_of"]
 
@@ -63,7 +64,9 @@ def place_polar(where: str, entry: Polar, metres: float, local: Places) -> compl
         way = local[entry.toward] - start
         if way == 0:
             return Problem(
-                f"{where}.toward", f"{entry.toward} lies at {entry.origin} itself", "name a point that lies elsewhere"
+                f"{where}.toward",
+                Phrase("lies at itself", toward=entry.toward, origin=entry.origin),
+                Phrase("name a point that lies elsewhere"),
             )
         sense = way / abs(way)
     return start + entry.r * metres * sense * direction(entry.angle)
@@ -78,7 +81,11 @@ def place_compass(where: str, entry: Compass, metres: float, local: Places) -> c
     r, s = entry.r[0] * metres, entry.r[1] * metres
     c = abs(q - p)
     if c == 0:
-        return Problem(f"{where}.from", f"{first} and {second} lie at the same place", "name two points apart")
+        return Problem(
+            f"{where}.from",
+            Phrase("and lie at the same place", point=first, other=second),
+            Phrase("name two points apart"),
+        )
     both = cross_arcs(p, r, q, s)
     if both is None and min(abs(r + s - c), abs(abs(r - s) - c)) <= 1e-12 * max(r, s, c):
         both = (p + (q - p) / c * math.copysign(r, c * c + r * r - s * s),) * 2  # the arcs touch
@@ -86,8 +93,21 @@ def place_compass(where: str, entry: Compass, metres: float, local: Places) -> c
         least, most = abs(c - r) / metres, (c + r) / metres
         return Problem(
             where,
-            f"arcs of {entry.r[0]:g} about {first} and {entry.r[1]:g} about {second} do not meet",
-            f"with {first}{second} = {c / metres:.6g} the second may be from {least:.6g} to {most:.6g}",
+            Phrase(
+                "arcs of about and about do not meet",
+                r=f"{entry.r[0]:g}",
+                first=first,
+                other=f"{entry.r[1]:g}",
+                second=second,
+            ),
+            Phrase(
+                "with the second may be from to",
+                first=first,
+                second=second,
+                name=f"{c / metres:.6g}",
+                least=f"{least:.6g}",
+                most=f"{most:.6g}",
+            ),
         )
     return both[0 if entry.side == "left" else 1]
 
@@ -127,7 +147,9 @@ def guide_of(
     way = aim - through
     if abs(way) <= tolerance:
         return Problem(
-            f"{where}.toward", f"{entry.toward} lies where the guide goes through", "name a point that lies elsewhere"
+            f"{where}.toward",
+            Phrase("lies where the guide goes through", toward=entry.toward),
+            Phrase("name a point that lies elsewhere"),
         )
     sense = way / abs(way)
     if entry.angle is None:
@@ -136,8 +158,13 @@ def guide_of(
     if abs(given - sense) * abs(way) > tolerance:
         return Problem(
             f"{where}.angle",
-            f"found {entry.angle:g} deg, but toward {entry.toward} it is {degrees(sense):.8g} deg",
-            "leave one of the two out, or correct it",
+            Phrase(
+                "found deg but toward it is deg",
+                angle=f"{entry.angle:g}",
+                toward=entry.toward,
+                degrees=f"{degrees(sense):.8g}",
+            ),
+            Phrase("leave one of the two out or correct"),
         )
     return PlacedGuide(name, through, given)
 

@@ -26,6 +26,7 @@ from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
 from graphkin.scene.form import SCENE
 from graphkin.scene.names import Flaws
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase, Wording, from_others
 
 __all__ = ["checked", "clause_of", "keys_at", "path_name", "plain", "shown"]
 
@@ -47,10 +48,20 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
         left -= 1
         if len(path) > DEEPEST:
             raise SceneError(
-                Problem(path_name(path[:4]), f"is nested more than {DEEPEST} levels deep", "a scene needs at most four")
+                Problem(
+                    path_name(path[:4]),
+                    Phrase("is nested more than levels deep", most=DEEPEST),
+                    Phrase("a scene needs at most four"),
+                )
             )
         if left < 0:
-            raise SceneError(Problem("the file", f"holds more than {MOST_VALUES} values", "a scene is one mechanism"))
+            raise SceneError(
+                Problem(
+                    Phrase("the file"),
+                    Phrase("holds more than values", most=MOST_VALUES),
+                    Phrase("a scene is one mechanism"),
+                )
+            )
         if isinstance(value, FileTable):
             value = entries(value)
         elif hasattr(value, "tolist"):  # arrays and numbers of NumPy
@@ -58,7 +69,9 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
         if isinstance(value, Mapping):
             for key in value:
                 if not isinstance(key, str | int) or str(key).startswith(("<", "[")):  # signs that pydantic's paths use
-                    raise SceneError(Problem(path_name(path), f"has the key {key!a:.60}", "keys are words"))
+                    raise SceneError(
+                        Problem(path_name(path), Phrase("has the key", key=f"{key!a:.60}"), Phrase("keys are words"))
+                    )
             return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
         if isinstance(value, list | tuple):
             return [copy(item, (*path, i)) for i, item in enumerate(value)]
@@ -208,16 +221,16 @@ _TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
 _NOUNS = {"g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
 """What must be positive, where it is no length."""
 _KINDS = {
-    "string_type": "a text is wanted",
-    "float_type": "a number is wanted",
-    "bool_type": "true or false is wanted",
-    "list_type": "a list is wanted",
-    "dict_type": "a table is wanted",
-    "dataclass_type": "a table is wanted",
+    "string_type": Phrase("a text is wanted"),
+    "float_type": Phrase("a number is wanted"),
+    "bool_type": Phrase("true or false is wanted"),
+    "list_type": Phrase("a list is wanted"),
+    "dict_type": Phrase("a table is wanted"),
+    "dataclass_type": Phrase("a table is wanted"),
 }
 
 
-def shown(value: object) -> str:
+def shown(value: object) -> Wording:
     """A value as it would be written in the file, shortened.
 
     >>> shown(True), shown("AB"), shown([1, 2.5])
@@ -231,13 +244,13 @@ def shown(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.15g}"
     if isinstance(value, int):
-        return str(value) if abs(value) < 10**20 else "a number of too many digits"
+        return str(value) if abs(value) < 10**20 else Phrase("a number of too many digits")
     if isinstance(value, list):
-        inner = ", ".join(shown(v) for v in value[:4]) + (", ..." if len(value) > 4 else "")
+        inner = ", ".join(str(shown(v)) for v in value[:4]) + (", ..." if len(value) > 4 else "")
         return f"[{inner}]"
     if isinstance(value, dict):
-        return "a table" if value else "an empty table"
-    return str(value)[:60] if value is not None else "nothing"
+        return Phrase("a table" if value else "an empty table")
+    return str(value)[:60] if value is not None else Phrase("nothing")
 
 
 def path_name(path: Iterable[str | int]) -> str:
@@ -247,7 +260,7 @@ def path_name(path: Iterable[str | int]) -> str:
         if isinstance(part, int):
             parts.append(str(part + 1))
         else:
-            parts.append(part if _BARE.fullmatch(part) and len(part) <= 60 else shown(part))
+            parts.append(part if _BARE.fullmatch(part) and len(part) <= 60 else str(shown(part)))
     return ".".join(parts) or "the file"
 
 
@@ -271,88 +284,104 @@ def clause_of(description: str) -> str:
 def sentence(loc: KeyPath, path: KeyPath, item: OwnTables) -> Problem:
     where, kind, value, ctx = path_name(path), item["type"], item["input"], item.get("ctx", {})
     if kind == "missing":
-        text = keys_at(loc[:-1]).get(str(loc[-1]), "")
+        wanted = from_others(clause_of(keys_at(loc[:-1]).get(str(loc[-1]), "")))
         if loc == ("links",):
-            text = "a scene has moving links, [links.1] and so on"
+            wanted = Phrase("a scene has moving links links.1 and so")
         elif loc[0] == "driver" and loc[-1] == "link":
-            text = 'write link = "1" for a driven angle or slide = "2" for a driven sliding pair'
-        return Problem(where, "is missing", clause_of(text))
+            wanted = Phrase("write link 1 for a driven angle or slide")
+        return Problem(where, Phrase("is missing"), wanted)
     if kind == UNKNOWN:
-        return Problem(where, "unknown table" if isinstance(value, dict) else "unknown key", _about_key(loc))
+        return Problem(
+            where, Phrase("unknown table") if isinstance(value, dict) else Phrase("unknown key"), _about_key(loc)
+        )
     if "[key]" in loc:
-        return Problem(where, f"{shown(path[-1])} is no name here", _name_rule(ctx))
+        return Problem(where, Phrase("is no name here", value=shown(path[-1])), _name_rule(ctx))
     if kind == "form":
-        return Problem(where, f"found {shown(value)}", item["msg"])
+        return Problem(where, Phrase("found value", value=shown(value)), Phrase(item["msg"]))
     if kind in _KINDS:
         wanted = _KINDS[kind]
         if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
-            wanted = f'a text stands in quotation marks: "{shown(value)}"'
+            wanted = Phrase("a text stands in quotation marks", value=shown(value))
         elif kind == "float_type" and isinstance(value, str):
-            wanted = "a number is written without quotation marks"
-        return Problem(where, f"found {shown(value)}", wanted)
+            wanted = Phrase("a number is written without quotation marks")
+        return Problem(where, Phrase("found value", value=shown(value)), wanted)
     if kind == "literal_error":
         choices = re.findall(r"'([^']*)'", ctx["expected"])
-        near = did_you_mean(value[:60], choices) if isinstance(value, str) else ""
-        tail = f", {near}" if near.startswith("did") else ""
-        words = ("one of " if len(choices) > 1 else "") + ", ".join(f'"{c}"' for c in choices) or str(ctx["expected"])
-        return Problem(where, f"found {shown(value)}", f"{words} is possible{tail}")
+        names = ", ".join(f'"{c}"' for c in choices) or str(ctx["expected"])
+        wanted = Phrase("one of is possible" if len(choices) > 1 else "is possible", names=names)
+        near = did_you_mean(value[:60], choices) if isinstance(value, str) else wanted
+        if near.key == "did you mean":
+            wanted = Phrase("list comma of two", first=wanted, second=near)
+        return Problem(where, Phrase("found value", value=shown(value)), wanted)
     if kind == "finite_number":
-        return Problem(where, f"found {shown(value)}", "a finite number is wanted")
+        return Problem(where, Phrase("found value", value=shown(value)), Phrase("a finite number is wanted"))
     if kind == "greater_than_equal":
         if ctx["ge"] > 0:
-            what = "a negative" if value < 0 else "a zero" if value == 0 else "far too small a"
+            key = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
             last = str(path[-1])
-            noun = "scale" if last.endswith("scale") else _NOUNS.get(last, "length")
-            return Problem(where, f"found {shown(value)}, {what} {noun}", f"a {noun} must be positive")
-        return Problem(where, f"found {shown(value)}", f"no number of a scene may be below {ctx['ge']:g}")
+            noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
+            return Problem(where, Phrase(key, value=shown(value), noun=noun), Phrase("a must be positive", noun=noun))
+        return Problem(
+            where,
+            Phrase("found value", value=shown(value)),
+            Phrase("no number of a scene may be below", limit=f"{ctx['ge']:g}"),
+        )
     if kind == "less_than_equal":
-        return Problem(where, f"found {shown(value)}", f"no number of a scene may exceed {ctx['le']:g}")
+        return Problem(
+            where,
+            Phrase("found value", value=shown(value)),
+            Phrase("no number of a scene may exceed", limit=f"{ctx['le']:g}"),
+        )
     if kind in ("too_short", "too_long"):
         return Problem(where, *_about_size(loc, value))
     if kind == "string_too_long":
-        return Problem(where, f"is {len(value)} characters long", f"at most {ctx['max_length']} are possible")
+        return Problem(
+            where,
+            Phrase("is characters long", count=len(value)),
+            Phrase("at most are possible", limit=ctx["max_length"]),
+        )
     if kind == "string_pattern_mismatch":
-        return Problem(where, f"{shown(value)} is no name here", _name_rule(ctx))
-    return Problem(where, f"found {shown(value)}", str(item["msg"]))
+        return Problem(where, Phrase("is no name here", value=shown(value)), _name_rule(ctx))
+    return Problem(where, Phrase("found value", value=shown(value)), from_others(str(item["msg"])))
 
 
-def _about_key(loc: KeyPath) -> str:
+def _about_key(loc: KeyPath) -> Wording:
     key, here, top = str(loc[-1])[:60], keys_at(loc[:-1]), keys_at(())
     if key in top and len(loc) > 1:
         return (
-            f"{key} belongs at the top of the file, before the first table"
+            Phrase("belongs at the top of the file before", key=key)
             if key in ("title", "title_zh", "source", "source_zh", "find")
-            else f"[{key}] is a table of its own"
+            else Phrase("is a table of its own", key=key)
         )
     if loc[0] == "driver" and key == "slide":
-        return "a driver has either link (a driven angle) or slide (a driven sliding pair)"
+        return Phrase("a driver has either link a driven angle")
     return did_you_mean(key, here)
 
 
-def _about_size(loc: KeyPath, value: object) -> tuple[str, str]:
+def _about_size(loc: KeyPath, value: object) -> tuple[Wording, Wording]:
     if loc == ("links",):
-        return "there is none", "a scene has moving links, [links.1] and so on"
+        return Phrase("there is none"), Phrase("a scene has moving links links.1 and so")
     wanted = {
-        "on": "one guide or two are possible",
-        "in": "one guide or two are possible",
-        "angle_on": "one number for each guide is wanted",
-        "from": "two points of the link are wanted",
-        "r": "two lengths are wanted, one for each point",
-        "driver": "two values of the driver are wanted",
-        "between": 'two outlines or wheels are wanted: ["1.k", "2.f"]',
-        "teeth": 'two are wanted, one for each wheel: [20, 40], [20, "rack"]',
+        "on": Phrase("one guide or two are possible"),
+        "in": Phrase("one guide or two are possible"),
+        "angle_on": Phrase("one number for each guide is wanted"),
+        "from": Phrase("two points of the link are wanted"),
+        "r": Phrase("two lengths are wanted one for each point"),
+        "driver": Phrase("two values of the driver are wanted"),
+        "between": Phrase("two outlines or wheels are wanted 1.k 2.f"),
+        "teeth": Phrase("two are wanted one for each wheel 20"),
     }
-    return f"found {shown(value)}", wanted.get(str(written_path(loc)[-1]), "a place is [x, y]")
+    return Phrase("found value", value=shown(value)), wanted.get(str(written_path(loc)[-1]), Phrase("a place is x y"))
 
 
-def _name_rule(ctx: Tables) -> str:
+def _name_rule(ctx: Tables) -> Wording:
     pattern = str(ctx.get("pattern", ""))
     if "max_length" in ctx:
-        return f"a name has at most {ctx['max_length']} letters and digits"
+        return Phrase("a name has at most letters and digits", limit=ctx["max_length"])
     if r"\." in pattern:
-        return 'a guide is written "LINK" for the link\'s own axis or "LINK.GUIDE"'
+        return Phrase("a guide is written link for the link's")
     if "/" in pattern:
-        return 'a sliding pair is written "LINK", or "SLIDING/GUIDING"'
+        return Phrase("a sliding pair is written link or sliding")
     if "A-Z][" in pattern:
-        return "a point is named by a capital letter, then letters or digits"
-    return "a link or guide is named by letters and digits"
+        return Phrase("a point is named by a capital letter")
+    return Phrase("a link or guide is named by letters")

@@ -38,6 +38,7 @@ from graphkin.scene.rules import (
 from graphkin.scene.stating import asked, loops_named, positions_named, stated_values
 from graphkin.scene.tables import Link, SceneTables
 from graphkin.scene.touching import contacts_of, discs_of, drawn_apart, gears_of, wrong_distances
+from graphkin.words import Phrase
 
 __all__ = ["resolve", "unknown_places"]
 
@@ -69,8 +70,17 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     problems = list(problems)
     many = [n for n, link in file.links.items() if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS]
     if len(file.links) > MOST_LINKS:
-        problems.append(Problem("links", f"found {len(file.links)} moving links", f"at most {MOST_LINKS} are possible"))
-    problems += [Problem(f"links.{n}", "has too many points and guides", f"at most {MOST_POINTS}") for n in many]
+        problems.append(
+            Problem(
+                "links",
+                Phrase("found moving links", count=len(file.links)),
+                Phrase("at most are possible", limit=MOST_LINKS),
+            )
+        )
+    problems += [
+        Problem(f"links.{n}", Phrase("has too many points and guides"), Phrase("at most", most=MOST_POINTS))
+        for n in many
+    ]
     if many or len(file.links) > MOST_LINKS:
         raise SceneError(*problems)
 
@@ -218,8 +228,8 @@ def _bodies(
                     problems.append(
                         Problem(
                             f"links.{name}",
-                            f"{own[0]} and {own[1]} are given at the same place",
-                            "a bar has two points apart",
+                            Phrase("and are given at the same place", name=own[0], other=own[1]),
+                            Phrase("a bar has two points apart"),
                         )
                     )
             if body.length is not None:
@@ -245,8 +255,16 @@ def _fixed(file: SceneTables, metres: float, problems: list[Problem]) -> dict[st
         if not placed:
             for point, entry in left.items():
                 missing = next(p for p in origins_of(entry) if p not in found)
-                known = "the points are placed from one another" if missing in given else did_you_mean(missing, given)
-                said = f"{missing} has no place yet" if missing in given else f"the frame has no point {missing}"
+                known = (
+                    Phrase("the points are placed from one another")
+                    if missing in given
+                    else did_you_mean(missing, given)
+                )
+                said = (
+                    Phrase("has no place yet", missing=missing)
+                    if missing in given
+                    else Phrase("the frame has no point", missing=missing)
+                )
                 problems.append(Problem(f"frame.points.{point}", said, known))
             placed = dict.fromkeys(left, 0j)
         found |= {p: 0j if isinstance(z, Problem) else z for p, z in placed.items()}
@@ -256,7 +274,9 @@ def _fixed(file: SceneTables, metres: float, problems: list[Problem]) -> dict[st
 
 def _no_length(name: str, own: tuple[str, ...], given: Mapping[str, complex]) -> Problem:
     undrawn = " and ".join(p for p in own if p not in given)
-    return Problem(f"links.{name}.length", "is missing", f"write length = ..., or give {undrawn} in [drawn]")
+    return Problem(
+        f"links.{name}.length", Phrase("is missing"), Phrase("write length or give in drawn", undrawn=undrawn)
+    )
 
 
 def _size(bodies: Mapping[str, Placement], drawn: Mapping[str, complex], metres: float) -> float:
@@ -272,8 +292,8 @@ def _not_found(position: DrawnPosition) -> list[Problem]:
     """Points, guides that need the position of their link, where it does not follow from what is drawn."""
     found = []
     for body in position.bodies.values():
-        hint = f"draw two points of link {body.name}, or give it in the link's own axes"
-        why = f"where link {body.name} lies does not follow from what is drawn"
+        hint = Phrase("draw two points of link or give it", body=body.name)
+        why = Phrase("where link lies does not follow from what", body=body.name)
         open_ = [f"at.{point}" for point in body.at if point not in body.local]
         open_ += [f"guides.{guide}" for guide in body.rails if guide not in body.guides]
         found += [Problem(f"{body.where}.{key}", why, hint) for key in open_]
@@ -290,10 +310,10 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
         problems.append(
             Problem(
                 f"{drive.where}.travel",
-                "is missing",
-                "write time = ... in s, or the travel"
+                Phrase("is missing"),
+                Phrase("write time in s or the travel")
                 if drive.law is not None
-                else "write travel = ..., or draw the points that give it in [drawn]",
+                else Phrase("write travel or draw the points that give"),
             )
         )
         return None
@@ -313,10 +333,10 @@ def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]
     problems.append(
         Problem(
             f"{drive.where}.angle",
-            "is missing",
-            "write time = ... in s, or the angle"
+            Phrase("is missing"),
+            Phrase("write time in s or the angle")
             if drive.law is not None
-            else f"write angle = ... in degrees, or draw two points of link {drive.key} in [drawn]",
+            else Phrase("write angle in degrees or draw two points", key=drive.key),
         )
     )
     return None
@@ -337,8 +357,8 @@ def _by_law(
             problems.append(
                 Problem(
                     f"{drive.where}.{what}",
-                    f"found {driver.values[0] / unit:.6g}",
-                    f"the law goes from {low} to {high}{' deg' * turns}",
+                    Phrase("found value", value=f'{driver.values[0] / unit:.6g}'),
+                    Phrase("the law goes from to", least=low, greatest=high, turns=' deg' * turns),
                 )
             )
             return driver

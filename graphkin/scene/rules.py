@@ -13,6 +13,7 @@ from graphkin.scene.drawn_position import DrawnPosition, running_points, travel_
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.placing import Placement, circle_of_references, place_of
 from graphkin.scene.tables import Compass, Polar, SceneTables
+from graphkin.words import Phrase, Wording
 
 __all__ = [
     "disagreements",
@@ -31,7 +32,11 @@ def unwritable_texts(file: SceneTables) -> list[Problem]:
     for key in ("title", "title_zh", "source", "source_zh"):
         text = getattr(file, key)
         if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in text):
-            found.append(Problem(key, "holds a control character or a line break", "write one line of plain text"))
+            found.append(
+                Problem(
+                    key, Phrase("holds a control character or a line break"), Phrase("write one line of plain text")
+                )
+            )
     return found
 
 
@@ -42,8 +47,8 @@ def wrong_own_points(file: SceneTables, names: Names, flaws: Flaws) -> list[Prob
         found.append(
             Problem(
                 "frame.name",
-                f'the frame is named "{names.frame}" as a moving link is',
-                "give the frame a name of its own",
+                Phrase("the frame is named as a moving link", frame=names.frame),
+                Phrase("give the frame a name of its own"),
             )
         )
     for name, link in file.links.items():
@@ -52,27 +57,37 @@ def wrong_own_points(file: SceneTables, names: Names, flaws: Flaws) -> list[Prob
             found.append(
                 Problem(
                     f"{where}.points",
-                    f"found {len(own)} names ({', '.join(own[:6])})",
-                    f"two at most; place {own[2]} in at = {{ {own[2]} = [x, y] }}",
+                    Phrase("found names", count=len(own), name=', '.join(own[:6])),
+                    Phrase("two at most place in at x y", name=own[2], other=own[2]),
                 )
             )
         twice = sorted({p for p in own if own.count(p) > 1})
         if twice:
-            found.append(Problem(f"{where}.points", f"{twice[0]} stands there twice", "a bar has two different points"))
+            found.append(
+                Problem(
+                    f"{where}.points",
+                    Phrase("stands there twice", name=twice[0]),
+                    Phrase("a bar has two different points"),
+                )
+            )
         if link.length is not None and len(own) < 2 and name not in names.unsure:
             found.append(
                 Problem(
                     f"{where}.length",
-                    f"found {link.length:g} with {len(own)} own point{'' if len(own) == 1 else 's'}",
-                    "a length needs two names in points",
+                    Phrase(
+                        "found with own points" if len(own) != 1 else "found with own point",
+                        length=f"{link.length:g}",
+                        count=len(own),
+                    ),
+                    Phrase("a length needs two names in points"),
                 )
             )
         if not own and link.on is None and name not in names.unsure and not flaws.under("links", name, "on"):
             found.append(
                 Problem(
                     where,
-                    "has neither points nor on, so nothing places or holds it",
-                    'write points = ["A", "B"], or on = "..." for a link that slides',
+                    Phrase("has neither points nor on so nothing places"),
+                    Phrase("write points a b or on for a"),
                 )
             )
     return found
@@ -92,15 +107,19 @@ def nowhere_placed(file: SceneTables, names: Names, flaws: Flaws) -> list[Proble
                 found += [names.no_point_of(f"{where}.from", name, ref) for ref in entry.origins]
             elif entry == "drawn" and point not in file.drawn and point not in file.frame.points and not drawn_lost:
                 found.append(
-                    Problem(where, f'is "drawn", but {point} is not in [drawn]', f"write {point} = [x, y] in [drawn]")
+                    Problem(
+                        where,
+                        Phrase("is drawn but is not in drawn", point=point),
+                        Phrase("write x y in drawn", point=point),
+                    )
                 )
         circle = circle_of_references(link)
         if circle:
             found.append(
                 Problem(
                     f"links.{name}.at",
-                    f"{', '.join(circle)} are placed from one another",
-                    "place one of them by [x, y] or from an own point of the link",
+                    Phrase("are placed from one another", points=', '.join(circle)),
+                    Phrase("place one of them by x y or"),
                 )
             )
     tables = [(f"links.{n}", n, link.guides) for n, link in file.links.items()]
@@ -108,29 +127,31 @@ def nowhere_placed(file: SceneTables, names: Names, flaws: Flaws) -> list[Proble
         for guide, rail in guides.items():
             here, aim = f"{where}.guides.{guide}", rail.toward
             if rail.through is None:
-                hint = "write a point of the guide; a circular slot has centre and r"
-                found.append(Problem(f"{here}.through", "is missing", hint))
+                hint = Phrase("write a point of the guide a circular")
+                found.append(Problem(f"{here}.through", Phrase("is missing"), hint))
             if isinstance(rail.through, str):
                 found.append(names.no_point_of(f"{here}.through", name, rail.through))
             if rail.angle is None and aim is None:
-                found.append(Problem(here, "has no direction", "write angle = ... in degrees, or toward = a point"))
+                found.append(
+                    Problem(here, Phrase("has no direction"), Phrase("write angle in degrees or toward a point"))
+                )
             world = {*file.drawn, *file.frame.points}
             if aim and aim not in world and not drawn_lost and names.no_point_of("", name, aim):
                 found.append(
                     Problem(
                         f"{here}.toward",
-                        f"{aim} is no point of link {name}, nor fixed or drawn",
-                        f"write {aim} = [x, y] in [drawn], or the direction as angle",
+                        Phrase("is no point of link nor fixed or", point=aim, name=name),
+                        Phrase("write x y in drawn or the direction", point=aim),
                     )
                 )
     return [p for p in found if p]
 
 
 def not_held(group: tuple[str, ...], names: Names) -> Problem:
-    hint = f"share a point with another link, or slide; the frame is link {names.frame}"
+    hint = Phrase("share a point with another link or slide", frame=names.frame)
     if len(group) == 1:
-        return Problem(f"links.{group[0]}", "nothing holds this link", hint)
-    return Problem("links " + ", ".join(group), "nothing joins these links to the frame", hint)
+        return Problem(f"links.{group[0]}", Phrase("nothing holds this link"), hint)
+    return Problem(Phrase("links", links=", ".join(group)), Phrase("nothing joins these links to the frame"), hint)
 
 
 def placed_twice(position: DrawnPosition) -> list[Problem]:
@@ -145,9 +166,12 @@ def placed_twice(position: DrawnPosition) -> list[Problem]:
                     found.append(
                         Problem(
                             f"{body.where}.at.{point}",
-                            f"puts it at {_pair(local, position.metres)}, "
-                            f"but as an own point it is at {_pair(own, position.metres)}",
-                            "leave one of the two out, or correct it",
+                            Phrase(
+                                "puts it at but as an own point",
+                                pair=_pair(local, position.metres),
+                                other=_pair(own, position.metres),
+                            ),
+                            Phrase("leave one of the two out or correct"),
                         )
                     )
         for point, place in body.local.items() if body.where == "frame" else ():
@@ -156,9 +180,12 @@ def placed_twice(position: DrawnPosition) -> list[Problem]:
                 found.append(
                     Problem(
                         f"drawn.{point}",
-                        f"found {_pair(drawn, position.metres)}, but it is a fixed "
-                        f"point at {_pair(place, position.metres)}",
-                        "leave it out, or correct it",
+                        Phrase(
+                            "found but it is a fixed point at",
+                            pair=_pair(drawn, position.metres),
+                            other=_pair(place, position.metres),
+                        ),
+                        Phrase("leave it out or correct it"),
                     )
                 )
     return found
@@ -183,8 +210,10 @@ def too_far_apart(position: DrawnPosition) -> list[Problem]:
     if far <= FARTHEST * short:
         return []
     metres = position.metres
-    said = f"lies {far / metres:.3g} away, beside a bar of {short / metres:.3g} (link {body.name})"
-    return [Problem(where, said, f"too far apart: sixteen digits hold at most {FARTHEST:.0e} times the shortest bar")]
+    said = Phrase(
+        "lies away beside a bar of link", distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}", body=body.name
+    )
+    return [Problem(where, said, Phrase("too far apart sixteen digits hold at most", farthest=f'{FARTHEST:.0e}'))]
 
 
 def disagreements(position: DrawnPosition) -> list[Problem]:
@@ -209,8 +238,12 @@ def disagreements(position: DrawnPosition) -> list[Problem]:
                 found.append(
                     Problem(
                         where,
-                        f"the given places put it {beside / position.metres:.6g} beside the guide {ref}",
-                        "correct a coordinate, or the guide",
+                        Phrase(
+                            "the given places put it beside the guide",
+                            beside=f"{beside / position.metres:.6g}",
+                            ref=ref,
+                        ),
+                        Phrase("correct a coordinate or the guide"),
                     )
                 )
     for link, base, turn in position.angles:
@@ -218,16 +251,19 @@ def disagreements(position: DrawnPosition) -> list[Problem]:
         if driven.turn is not None and from_body.turn is not None:
             seen = driven.turn / from_body.turn
             if _apart(position, seen, turn, driven, from_body):
-                found.append(_angle_problem(f"driver.angle of link {link}", turn, seen))
+                found.append(_angle_problem(Phrase("driver.angle of link", link=link), turn, seen))
     for key, travel in position.travels.items():
         seen_travel = travel_of(position, key)
         if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
             found.append(
                 Problem(
-                    f"driver.travel of {key}",
-                    f"found {travel / position.metres:.10g}, but the given "
-                    f"places make it {seen_travel / position.metres:.10g}",
-                    "one of the two is wrong",
+                    Phrase("driver.travel of", key=key),
+                    Phrase(
+                        "found but the given places make it",
+                        start=f"{travel / position.metres:.10g}",
+                        value=f"{seen_travel / position.metres:.10g}",
+                    ),
+                    Phrase("one of the two is wrong"),
                 )
             )
     return found
@@ -242,11 +278,13 @@ def _reach(body: Placement, local: complex) -> float:
     return max(1.0, abs(local) / body.arm)
 
 
-def _angle_problem(where: str, given: complex, seen: complex) -> Problem:
+def _angle_problem(where: Wording, given: complex, seen: complex) -> Problem:
     return Problem(
         where,
-        f"found {degrees(given):.10g} deg, but the given places make it {degrees(seen):.10g} deg",
-        "one of the two is wrong",
+        Phrase(
+            "found deg but the given places make it", degrees=f"{degrees(given):.10g}", other=f"{degrees(seen):.10g}"
+        ),
+        Phrase("one of the two is wrong"),
     )
 
 
@@ -259,8 +297,14 @@ def _points_apart(position: DrawnPosition, body: Placement) -> list[Problem]:
             return [
                 Problem(
                     f"links.{body.name}.length",
-                    f"found {body.length / m:.10g}, but {own[0]} and {own[1]} are given {drawn / m:.10g} apart",
-                    "one of the two is wrong",
+                    Phrase(
+                        "found but and are given apart",
+                        length=f"{body.length / m:.10g}",
+                        name=own[0],
+                        other=own[1],
+                        value=f"{drawn / m:.10g}",
+                    ),
+                    Phrase("one of the two is wrong"),
                 )
             ]
     found = []
@@ -272,9 +316,14 @@ def _points_apart(position: DrawnPosition, body: Placement) -> list[Problem]:
         if abs(drawn_at - place) > position.tolerance * _reach(body, local):
             found.append(
                 Problem(
-                    f"point {point}",
-                    f"link {body.name} puts it at {_pair(place, m)}, but it is given at {_pair(drawn_at, m)}",
-                    "one of the two is wrong",
+                    Phrase("point", point=point),
+                    Phrase(
+                        "link puts it at but it is given",
+                        body=body.name,
+                        pair=_pair(place, m),
+                        other=_pair(drawn_at, m),
+                    ),
+                    Phrase("one of the two is wrong"),
                 )
             )
     return found

@@ -15,6 +15,7 @@ from graphkin.files import OwnTables, Tables, opened
 from graphkin.scene.mapping import as_mapping
 from graphkin.scene.model import Mechanism
 from graphkin.scene.written import Scene, resolved
+from graphkin.words import Phrase, Wording, from_others
 
 __all__ = [
     "SceneLike",
@@ -116,13 +117,13 @@ def written(source: SceneLike) -> tuple[OwnTables, str]:
         text = os.fspath(source)
         if isinstance(text, str):
             if "\n" in text and "=" in text:
-                raise SceneError(Problem("the scene", "found the text of a scene file instead of its name",
-                                         "save it as a file, or give tomllib.loads(text)"))
+                raise SceneError(Problem(Phrase("the scene"), Phrase("found the text of a scene file instead"),
+                                         Phrase("save it as a file or give tomllib.loads")))
             if isinstance(source, str) and text in library() and not _is_file(text):
                 return parsed(library_text(text)), text
             return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
-    raise SceneError(Problem("the scene", f"found a {type(source).__name__}",
-                             "give a file, the name of a scene that comes along, or a mapping"))
+    raise SceneError(Problem(Phrase("the scene"), Phrase("found a", name=type(source).__name__),
+                             Phrase("give a file the name of a scene")))
 
 
 def _beside(made: OwnTables, path: Path) -> OwnTables:
@@ -140,7 +141,7 @@ def parsed(text: str) -> OwnTables:
     """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
         raise SceneError(_too_large())
-    deep = Problem("the file", "is nested too deeply", "a scene needs at most four levels")
+    deep = Problem(Phrase("the file"), Phrase("is nested too deeply"), Phrase("a scene needs at most four levels"))
     if _depth(text) > DEEPEST:
         raise SceneError(deep)
     try:
@@ -151,9 +152,11 @@ def parsed(text: str) -> OwnTables:
         raise SceneError(deep) from None
     except ValueError as error:
         if "int_max_str_digits" in str(error):
-            raise SceneError(Problem("the file", "is not TOML: a number of thousands of digits",
-                                     "no number of a scene may exceed 1e+15")) from None
-        raise SceneError(Problem("the file", f"is not TOML: {error}", "see https://toml.io")) from None
+            raise SceneError(Problem(Phrase("the file"), Phrase("is not toml a number of thousands of"),
+                                     Phrase("no number of a scene may exceed 1e"))) from None
+        raise SceneError(
+            Problem(Phrase("the file"), Phrase("is not toml of message", message=error), Phrase("see https toml.io"))
+        ) from None
 
 
 def _depth(text: str) -> int:
@@ -185,32 +188,42 @@ def file_text(path: str) -> str:
     shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
     try:
         if os.path.isdir(path):
-            raise SceneError(Problem(shown, "is a directory", "name a scene file in it"))
+            raise SceneError(Problem(shown, Phrase("is a directory"), Phrase("name a scene file in it")))
         with opened(path) as stream:
             data = stream.read(LARGEST_FILE + 1)
     except FileNotFoundError:
         raise SceneError(_no_scene(path, shown)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise SceneError(Problem(shown or "the scene", f"cannot be read: {reason}")) from None
+        raise SceneError(
+            Problem(shown or Phrase("the scene"), Phrase("cannot be read", reason=from_others(reason)))
+        ) from None
     if len(data) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise SceneError(Problem(f"line {line}", "is not UTF-8 text", "a scene file is TOML, saved as UTF-8")) from None
+        raise SceneError(
+            Problem(
+                Phrase("line", line=line), Phrase("is not utf-8 text"), Phrase("a scene file is toml saved as utf-8")
+            )
+        ) from None
 
 
 def _too_large() -> Problem:
-    return Problem("the file", f"is larger than {LARGEST_FILE // 1000} kB", "a scene file is one mechanism as TOML")
+    return Problem(
+        Phrase("the file"),
+        Phrase("is larger than kb", largest=LARGEST_FILE // 1000),
+        Phrase("a scene file is one mechanism as toml"),
+    )
 
 
 def _no_scene(name: str, shown: str = "") -> Problem:
     shown = shown or name
     if name.endswith(".toml") or "/" in name or os.sep in name:
-        return Problem(shown, "there is no such file", "name a scene file, or a scene that comes along")
-    return Problem(shown or "the scene", "there is no such file, and no scene of this name comes along",
+        return Problem(shown, Phrase("there is no such file"), Phrase("name a scene file or a scene that"))
+    return Problem(shown or Phrase("the scene"), Phrase("there is no such file and no scene"),
                    did_you_mean(name[:60], library()))
 
 
@@ -218,22 +231,25 @@ def _syntax(message: str, text: str) -> Problem:
     """What the TOML parser says, with the line it happened in."""
     match = _AT_LINE.match(message)
     if not match:
-        return Problem("the file", f"is not TOML: {message}")
+        return Problem(Phrase("the file"), Phrase("is not toml of message", message=message))
     line = int(match[2]) if match[2] else text.count("\n") + 1
     lines = text.splitlines()
     here = lines[line - 1].strip() if line <= len(lines) else ""
-    said = f"{match[1]}: {here[:80]}" if here and here.isprintable() else match[1]
-    return Problem(f"line {line}", f"is not TOML, {said[:1].lower() + said[1:]}", _toml_hint(match[1], here))
+    said = from_others(match[1][:1].lower() + match[1][1:])
+    if here and here.isprintable():
+        said = Phrase("where and what", where=said, found=here[:80])
+    hint = _toml_hint(match[1], here)
+    return Problem(Phrase("line", line=line), Phrase("is not toml", text=said), hint)
 
 
-def _toml_hint(message: str, line: str) -> str:
+def _toml_hint(message: str, line: str) -> Wording:
     wide = re.search("[\u2018-\u201f\u3000-\u3002\uff01-\uff5e]", re.sub(r'"[^"]*"|#.*', "", line))
     if wide:
-        return f"outside of texts only ASCII signs are possible, not {wide[0]}"
+        return Phrase("outside of texts only ascii signs are possible", sign=wide[0])
     if "key part" in message or "inline table" in message:
-        return "a table in braces { ... } stands on one line; a key is a word"
+        return Phrase("a table in braces stands on one line")
     if "overwrite" in message or "twice" in message or "Cannot declare" in message:
-        return "a key or table may stand only once"
+        return Phrase("a key or table may stand only once")
     if "Invalid value" in message:
-        return "texts and names stand in quotation marks, numbers do not"
-    return "write key = value, numbers with a point, texts in quotation marks, tables as [name]"
+        return Phrase("texts and names stand in quotation marks numbers")
+    return Phrase("write key value numbers with a point texts")

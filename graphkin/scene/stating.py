@@ -17,6 +17,7 @@ from graphkin.scene.reading import path_name
 from graphkin.scene.spelling import Spelling, unit_factor
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import DrivenSlide, SceneTables, Units
+from graphkin.words import Phrase
 
 __all__ = ["asked", "loops_named", "position_name", "positions_named", "stated_values"]
 
@@ -34,24 +35,24 @@ def _symbol(where: str, text: str, names: Names, known: Sequence[str]) -> Symbol
     try:
         symbol = Symbol.parse(text[:120])
     except ValueError as error:
-        return Problem(where, str(error))
+        return Problem(where, error.args[0])
     missing = missing_names(
         symbol, lambda link: names.no_link(where, link), lambda point: names.no_point(where, point), names.points
     )
     if missing:
         return missing[0]
     if symbol.at and symbol.at not in known:
-        wanted = did_you_mean(symbol.at, known) if known else "name positions in [positions]"
-        return Problem(where, f'there is no position "{symbol.at}"', wanted)
+        wanted = did_you_mean(symbol.at, known) if known else Phrase("name positions in positions")
+        return Problem(where, Phrase("there is no position", at=symbol.at), wanted)
     if symbol.of is None:
         return symbol
     if symbol.to == symbol.of:
-        return Problem(where, f'"{text}" is relative to itself', "name two different points")
+        return Problem(where, Phrase("is relative to itself", text=text), Phrase("name two different points"))
     if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
         return Problem(
             where,
-            f'"{text}" names two different points',
-            f"it is between coincident points of two links, for example {symbol.kind}_B@3/B@2",
+            Phrase("names two different points", text=text),
+            Phrase("it is between coincident points of two links", kind=symbol.kind),
         )
     return symbol
 
@@ -70,7 +71,13 @@ def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> t
     spelling = Spelling.by_link(names.points, file.units, names.contacts)
     by = file.printed.get("by", "drawing")
     if by not in BY:
-        problems.append(Problem("printed.by", f"found {by!r:.40}", 'one of "drawing", "computation" is possible'))
+        problems.append(
+            Problem(
+                "printed.by",
+                Phrase("found value", value=f"{by!r:.40}"),
+                Phrase("one of drawing computation is possible"),
+            )
+        )
         by = "drawing"
     found = []
     own = _texts("printed", file.printed, names, known, spelling, problems)
@@ -80,15 +87,21 @@ def stated_values(file: SceneTables, names: Names, problems: list[Problem]) -> t
         where = f"printed_rows.{number}"
         at, how = row.get("at"), row.get("by", by)
         if not isinstance(at, int | float | str):
-            problems.append(Problem(f"{where}.at", "is missing" if at is None else "is two numbers",
-                                    "write the driver's value, or the name of a position"))  # fmt: skip
+            problems.append(Problem(f"{where}.at", Phrase("is missing") if at is None else Phrase("is two numbers"),
+                                    Phrase("write the driver's value or the name of")))  # fmt: skip
             continue
         if isinstance(at, str) and at not in known:
-            wanted = did_you_mean(at, known) if known else "name positions in [positions], or write a driver value"
-            problems.append(Problem(f"{where}.at", f'there is no position "{at}"', wanted))
+            wanted = did_you_mean(at, known) if known else Phrase("name positions in positions or write a driver")
+            problems.append(Problem(f"{where}.at", Phrase("there is no position", at=at), wanted))
             continue
         if how not in BY:
-            problems.append(Problem(f"{where}.by", f"found {how!r:.40}", 'one of "drawing", "computation" is possible'))
+            problems.append(
+                Problem(
+                    f"{where}.by",
+                    Phrase("found value", value=f"{how!r:.40}"),
+                    Phrase("one of drawing computation is possible"),
+                )
+            )
             continue
         found.append(StatedValues(at, _texts(where, row, names, known, spelling, problems), _how(how)))
     if file.printed_table is not None:
@@ -121,16 +134,16 @@ def _texts(
         if isinstance(symbol, Problem):
             problems.append(symbol)
         elif symbol in found:
-            problems.append(Problem(where, f"{symbol} is given twice", "give it once"))
+            problems.append(Problem(where, Phrase("is given twice", symbol=symbol), Phrase("give it once")))
         elif not isinstance(value, int | float | str) and not symbol.is_vector:
-            problems.append(Problem(where, "found two numbers", "it is one number, no vector"))
+            problems.append(Problem(where, Phrase("found two numbers"), Phrase("it is one number no vector")))
         else:
             try:
                 found[symbol] = _printed(symbol, value, unit, spelling.units)
             except ValueError as error:
                 like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
-                wanted = f'write a number, its digits as printed "1.0", or with unit and sense, for example "{like}"'
-                problems.append(Problem(where, str(error), wanted))
+                wanted = Phrase("write a number its digits as printed 1.0", example=like)
+                problems.append(Problem(where, error.args[0], wanted))
     return found
 
 
@@ -175,21 +188,25 @@ def positions_named(
     first_driver = file.drivers[0] if file.drivers else None
     slides = isinstance(first_driver, DrivenSlide)
     if any(driver.law is not None for driver in file.drivers):
-        problems.append(Problem("positions", "stand beside a driver with a law", "name a moment: --at time=0.25"))
+        problems.append(
+            Problem("positions", Phrase("stand beside a driver with a law"), Phrase("name a moment at time 0.25"))
+        )
     pairs = [*(p.key for p in slidings), *(p.key for p in pins)]
     if slides and (table.count or table.first is not None):
         key = "count" if table.count else "first"
-        problems.append(Problem(f"positions.{key}", "the driver slides, it makes no turn",
-                                "name its positions in positions.also, by travel"))  # fmt: skip
+        problems.append(Problem(f"positions.{key}", Phrase("the driver slides it makes no turn"),
+                                Phrase("name its positions in positions.also by travel")))  # fmt: skip
 
     def place(where: str, value: float | StrokeStart) -> float | OnStroke:
         if not isinstance(value, StrokeStart):
             return value * metres if slides else math.radians(value)
         if value.stroke not in pairs:
             wanted = did_you_mean(value.stroke, pairs)
-            problems.append(Problem(f"{where}.stroke", f'there is no sliding pair "{value.stroke}"', wanted))
+            problems.append(
+                Problem(f"{where}.stroke", Phrase("there is no sliding pair of stroke", stroke=value.stroke), wanted)
+            )
         if slides:
-            problems.append(Problem(where, "the driver slides, there is no stroke of a whole turn", "give a travel"))
+            problems.append(Problem(where, Phrase("the driver slides there is no stroke of"), Phrase("give a travel")))
         return OnStroke(value.stroke, value.at, value.sense)
 
     count = table.count or 0
@@ -198,12 +215,12 @@ def positions_named(
     names = _names_of(table)
     for name in table.also:
         if name in names[:count]:
-            problems.append(Problem(f"positions.also.{name}", f"is one of the {count} numbered ones",
-                                    "give it another name"))  # fmt: skip
+            problems.append(Problem(f"positions.also.{name}", Phrase("is one of the numbered ones", count=count),
+                                    Phrase("give it another name")))  # fmt: skip
     show = tuple(map(position_name, table.show))
     for name in show:
         if name not in ("limits", "all", *names):
-            problems.append(Problem("positions.show", f'there is no position "{name}"',
+            problems.append(Problem("positions.show", Phrase("there is no position", at=name),
                                     did_you_mean(name, ("limits", "all", *names))))  # fmt: skip
     return NamedPositions(count, first, also, show, tuple(table.marks))
 
@@ -214,7 +231,13 @@ def loops_named(file: SceneTables, names: Names, problems: list[Problem]) -> dic
         where = f"loops.{name}"
         problems += [p for point in points if (p := names.no_point(where, point))]
         if len(points) < 3:
-            problems.append(Problem(where, f"has {len(points)} points", "a loop goes through three points or more"))
+            problems.append(
+                Problem(
+                    where, Phrase("has points", count=len(points)), Phrase("a loop goes through three points or more")
+                )
+            )
         elif len(set(points)) < len(points):
-            problems.append(Problem(where, "comes twice to one point", "name each point once; it closes by itself"))
+            problems.append(
+                Problem(where, Phrase("comes twice to one point"), Phrase("name each point once it closes by itself"))
+            )
     return {name: tuple(points) for name, points in file.loops.items()}

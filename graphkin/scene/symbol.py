@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 
 from graphkin.errors import Problem
 from graphkin.scene.tables import Measure, Unit, Units
+from graphkin.words import Phrase
 
 __all__ = ["KINDS", "VECTORS", "Kind", "Measure", "PointRef", "Symbol", "Value", "centre_links", "missing_names"]
 
@@ -155,11 +156,11 @@ class Symbol:
         name = next((kind for kind in _LONGEST_FIRST if text.startswith(f"{kind}_")), None)
         if name is None:
             known = ", ".join(re.sub(" or .*|,.*", "", kind.example) for kind in KINDS.values())
-            raise ValueError(f'"{text}" is no quantity; known are {known}')
+            raise ValueError(Phrase("is no quantity known are", text=text, names=known))
         kind = KINDS[name]
         match = re.fullmatch(_FORMS[kind.form], text[len(name) + 1 :])
         if match is None:
-            raise ValueError(f'"{text}" {_MISSING[kind.form]}; write for example {kind.example}')
+            raise ValueError(Phrase("write for example", text=text, missing=_MISSING[kind.form], example=kind.example))
         found = {part: given for part, given in match.groupdict().items() if given}
         points = {part: PointRef(*found[part].split("@")) for part in ("of", "to") if part in found}
         words = {part: found.get(part, "") for part in ("link", "other", "name")}
@@ -215,20 +216,20 @@ class Symbol:
 
 
 _MISSING = {
-    "point": "names no point",
-    "points": "names no point",
-    "coincident": "needs two coincident points",
-    "two points": "needs two points",
-    "link": "names no link",
-    "link of link": "names no link",
-    "pair": "names no sliding pair",
-    "links": "needs two links",
-    "link or joint": "names no link and no joint of two",
-    "of link": "names no link",
-    "load": "names no load",
-    "force": "names no force",
-    "excess work": "is no quantity",
-    "flywheel": "is no quantity",
+    "point": Phrase("names no point"),
+    "points": Phrase("names no point"),
+    "coincident": Phrase("needs two coincident points"),
+    "two points": Phrase("needs two points"),
+    "link": Phrase("names no link"),
+    "link of link": Phrase("names no link"),
+    "pair": Phrase("names no sliding pair"),
+    "links": Phrase("needs two links"),
+    "link or joint": Phrase("names no link and no joint of two"),
+    "of link": Phrase("names no link"),
+    "load": Phrase("names no load"),
+    "force": Phrase("names no force"),
+    "excess work": Phrase("is no quantity"),
+    "flywheel": Phrase("is no quantity"),
 }
 
 

@@ -13,6 +13,7 @@ from graphkin.scene.model import PlacedGuide, SlidingPair
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.placing import Placement
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase
 
 __all__ = ["contacts_of", "discs_of", "drawn_apart", "gears_of", "rack_place", "touching_links", "wrong_distances"]
 
@@ -27,11 +28,17 @@ def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[t
         for name, table in discs.items():
             here = f"{where}.discs.{name}"
             if name in names.guides.get(link, ()):
-                problems.append(Problem(here, f"{link}.{name} is the name of a guide too", "give one of them another"))
+                problems.append(
+                    Problem(
+                        here,
+                        Phrase("is the name of a guide too", link=link, name=name),
+                        Phrase("give one of them another"),
+                    )
+                )
             if missing := names.no_point_of(f"{here}.centre", link, table.centre):
                 problems.append(missing)
             elif table.r == 0:
-                problems.append(Problem(f"{here}.r", "found 0", "write a radius; a negative one is a hollow outline"))
+                problems.append(Problem(f"{here}.r", Phrase("found 0"), Phrase("write a radius a negative one is a")))
             else:
                 found[link, name] = PlacedDisc(link, name, table.centre, table.r * metres)
     return found
@@ -63,8 +70,8 @@ def contacts_of(
     for name, table in file.contacts.items():
         where = f"contacts.{name}"
         if any(name in own for own in names.points.values()):
-            wanted = "give the contact a letter of its own"
-            problems.append(Problem(where, f"{name} is a point of a link already", wanted))
+            wanted = Phrase("give the contact a letter of its own")
+            problems.append(Problem(where, Phrase("is a point of a link already", name=name), wanted))
         sides = [_side(f"{where}.between", ref, file, names, discs, lost) for ref in table.between]
         wrong = [s for s in sides if isinstance(s, Problem)]
         problems += wrong
@@ -98,41 +105,59 @@ def _side(
     if not part or part in names.guides.get(link, ()):
         return _Side(link, None, part)
     known = [*outlines, *names.guides.get(link, ())]
-    wanted = did_you_mean(part, known) if known else f"write it in links.{link}.discs or links.{link}.guides"
-    return Problem(where, f'link {link} has no disc and no guide "{part}"', wanted)
+    wanted = (
+        did_you_mean(part, known)
+        if known
+        else Phrase("write it in links. discs or links. guides", link=link, other=link)
+    )
+    return Problem(where, Phrase("link has no disc and no guide", link=link, part=part), wanted)
 
 
 def _contact_problems(where: str, table: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
     refs = " and ".join(table.between)
     if one.link == two.link:
-        yield Problem(f"{where}.between", f"{refs} are outlines of the same link {one.link}", "name two links")
+        yield Problem(
+            f"{where}.between",
+            Phrase("are outlines of the same link", refs=refs, link=one.link),
+            Phrase("name two links"),
+        )
         return
     if one.disc is None and two.disc is None:
-        yield Problem(f"{where}.between", f"{refs} are two guides", "one of them at least is a disc")
+        yield Problem(f"{where}.between", Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
         return
     if one.disc is None or two.disc is None:
         disc = one.disc or two.disc
         assert disc is not None
         if table.side in ("outside", "inside"):
-            wanted = 'a face has a "left" and a "right" side'
-            yield Problem(f"{where}.side", f'found "{table.side}" with a flat face', wanted)
+            wanted = Phrase("a face has a left and a right")
+            yield Problem(f"{where}.side", Phrase("found with a flat face", side=table.side), wanted)
         if disc.radius < 0:
-            wanted = "no flat face touches a hollow outline"
-            yield Problem(f"{where}.between", f"{disc.link}.{disc.name} is hollow", wanted)
+            wanted = Phrase("no flat face touches a hollow outline")
+            yield Problem(f"{where}.between", Phrase("is hollow", link=disc.link, disc=disc.name), wanted)
         return
     if table.side in ("left", "right"):
-        yield Problem(f"{where}.side", f'found "{table.side}" with two discs', 'two discs touch "outside" or "inside"')
+        yield Problem(
+            f"{where}.side",
+            Phrase("found with two discs", side=table.side),
+            Phrase("two discs touch outside or inside"),
+        )
     r1, r2 = one.disc.radius, two.disc.radius
     hollow = [d for d in (one.disc, two.disc) if d.radius < 0]
     if len(hollow) == 2:
-        yield Problem(f"{where}.between", f"{refs} are both hollow", "one of them has a positive radius")
+        yield Problem(
+            f"{where}.between", Phrase("are both hollow", refs=refs), Phrase("one of them has a positive radius")
+        )
     elif table.side == "outside" and hollow:
-        yield Problem(f"{where}.side", 'found "outside" with a hollow outline', 'leave side out, or write "inside"')
+        yield Problem(
+            f"{where}.side", Phrase("found outside with a hollow outline"), Phrase("leave side out or write inside")
+        )
     elif hollow and r1 + r2 >= 0:
-        found = f"the hollow outline {hollow[0].link}.{hollow[0].name} is no larger than what is in it"
-        yield Problem(f"{where}.between", found, "its radius must be the larger one")
+        found = Phrase("the hollow outline is no larger than what", link=hollow[0].link, hollow=hollow[0].name)
+        yield Problem(f"{where}.between", found, Phrase("its radius must be the larger one"))
     elif table.side == "inside" and abs(r1) == abs(r2):
-        yield Problem(f"{where}.side", "both radii are equal", "inside, one must be smaller than the other")
+        yield Problem(
+            f"{where}.side", Phrase("both radii are equal"), Phrase("inside one must be smaller than the other")
+        )
 
 
 def _contact(name: str, table: Contact, one: _Side, two: _Side, names: Names) -> PlacedContact:
@@ -176,33 +201,41 @@ def _gear(
     rack = isinstance(z2, str)
     problems = [p for link in (first, second) if (p := names.no_link(f"{where}.between", link))]
     if isinstance(z1, str):
-        problems.append(Problem(f"{where}.teeth", 'the first is "rack"', "the rack is the second one of between"))
+        problems.append(
+            Problem(f"{where}.teeth", Phrase("the first is rack"), Phrase("the rack is the second one of between"))
+        )
         return problems
     if part or (guide and not rack):
         ref = table.between[0] if part else table.between[1]
-        problems.append(Problem(f"{where}.between", f'found "{ref}"', "a wheel is named by its link alone"))
+        problems.append(
+            Problem(f"{where}.between", Phrase("found of name", name=ref), Phrase("a wheel is named by its link alone"))
+        )
     elif guide and not problems:
         problems += [p for p in [names.no_guide(f"{where}.between", table.between[1])] if p]
     for z in (z1, z2):
         if not isinstance(z, str) and (z == 0 or not float(z).is_integer()):
-            wanted = "write a number of teeth, negative for internal ones"
-            problems.append(Problem(f"{where}.teeth", f"found {z:g}", wanted))
+            wanted = Phrase("write a number of teeth negative for internal")
+            problems.append(Problem(f"{where}.teeth", Phrase("found value", value=f'{z:g}'), wanted))
     if rack and z1 < 0:
-        wanted = "the wheel of a rack has external teeth"
-        problems.append(Problem(f"{where}.teeth", f"found {z1:g} with a rack", wanted))
+        wanted = Phrase("the wheel of a rack has external teeth")
+        problems.append(Problem(f"{where}.teeth", Phrase("found with a rack", teeth=f'{z1:g}'), wanted))
     if not isinstance(z2, str):
         if z1 < 0 and z2 < 0:
-            problems.append(Problem(f"{where}.teeth", "both have internal teeth", "one of them has external teeth"))
+            problems.append(
+                Problem(f"{where}.teeth", Phrase("both have internal teeth"), Phrase("one of them has external teeth"))
+            )
         elif min(z1, z2) < 0 <= z1 + z2:
-            wanted = "a ring has more teeth than what runs in it"
-            problems.append(Problem(f"{where}.teeth", f"found {z1:g} and {z2:g}", wanted))
+            wanted = Phrase("a ring has more teeth than what runs")
+            problems.append(Problem(f"{where}.teeth", Phrase("found and", teeth=f'{z1:g}', other=f'{z2:g}'), wanted))
     if first == second:
-        problems.append(Problem(f"{where}.between", f"link {first} meshes with itself", "name two links"))
+        problems.append(
+            Problem(f"{where}.between", Phrase("link meshes with itself", first=first), Phrase("name two links"))
+        )
     if table.carrier is not None and (missing := names.no_link(f"{where}.carrier", table.carrier)):
         problems.append(missing)
     elif table.carrier in (first, second):
-        wanted = "name the link that holds both axes"
-        problems.append(Problem(f"{where}.carrier", f"link {table.carrier} is one of the wheels", wanted))
+        wanted = Phrase("name the link that holds both axes")
+        problems.append(Problem(f"{where}.carrier", Phrase("link is one of the wheels", carrier=table.carrier), wanted))
     if problems:
         return problems
     if "" in names.unsure or any(n not in names.points for n in (first, second)):
@@ -219,13 +252,13 @@ def _gear(
         two = _axis(names, second, carrier)
         if one and two and one != two:
             return PlacedGear(name, (first, second), (z1, float(z2)), carrier, (one, two))
-    held = "the wheel's axis and the rack's slide" if rack else "both axes"
+    held = Phrase("the wheel's axis and the rack's slide") if rack else Phrase("both axes")
     if table.carrier:
-        wanted = f"it shares a point with link {first}" + ("" if rack else f" and another with link {second}")
-        return [Problem(f"{where}.carrier", f"link {table.carrier} does not hold {held}",
-                        wanted + (f", and link {second} slides on it or it on link {second}" if rack else ""))]
-    return [Problem(where, f"no link holds {held} of wheels {first} and {second}",
-                    "pin both wheels to one carrier, and name it: carrier = ...")]
+        key = "it shares a point with a link and slides" if rack else "it shares a point with each of two links"
+        return [Problem(f"{where}.carrier", Phrase("link does not hold", carrier=table.carrier, held=held),
+                        Phrase(key, first=first, second=second))]
+    return [Problem(where, Phrase("no link holds of wheels and", held=held, first=first, second=second),
+                    Phrase("pin both wheels to one carrier and name"))]
 
 
 def _axis(names: Names, wheel: str, carrier: str) -> str:
@@ -246,23 +279,35 @@ def wrong_distances(
             held = abs(points[c.carrier][two.centre] - points[c.carrier][one.centre])
             wanted = abs(one.radius + two.radius)
             if abs(held - wanted) > AGREE * max(abs(one.radius), abs(two.radius)):
-                yield Problem(f"contacts.{c.name}", f"link {c.carrier} holds the centres {held / metres:.10g} apart, "
-                              f"the radii make it {wanted / metres:.10g}", "correct a radius, or the distance")
+                yield Problem(
+                    f"contacts.{c.name}",
+                    Phrase(
+                        "link holds the centres apart the radii make",
+                        carrier=c.carrier,
+                        held=f"{held / metres:.10g}",
+                        wanted=f"{wanted / metres:.10g}",
+                    ),
+                    Phrase("correct a radius or the distance"),
+                )
         if not c.flat and c.round[0].centre == c.round[1].centre:
-            yield Problem(f"contacts.{c.name}", "both outlines have the same centre", "two centres lie apart")
+            yield Problem(
+                f"contacts.{c.name}", Phrase("both outlines have the same centre"), Phrase("two centres lie apart")
+            )
     for g in gears:
         own = points[g.carrier]
         if not g.is_rack:
             if abs(own[g.axes[1]] - own[g.axes[0]]) == 0:
-                yield Problem(f"gears.{g.name}", "both axes lie at the same place", "two wheels have axes apart")
+                yield Problem(
+                    f"gears.{g.name}", Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart")
+                )
             continue
         height, tilt, far = rack_place(g, slidings, points, guides)
         if abs(tilt) > AGREE:
-            yield Problem(f"gears.{g.name}", f"the pitch line is not parallel to the slide {g.slide}",
-                          f"name a guide of link {g.wheels[1]} along which it slides")
+            yield Problem(f"gears.{g.name}", Phrase("the pitch line is not parallel to the", slide=g.slide),
+                          Phrase("name a guide of link along which it", wheels=g.wheels[1]))
         elif abs(height) <= AGREE * max(far, 1e-300):
-            yield Problem(f"gears.{g.name}", "the wheel's axis lies on the pitch line of the rack",
-                          "the distance of the two is the radius of the wheel")
+            yield Problem(f"gears.{g.name}", Phrase("the wheel's axis lies on the pitch line"),
+                          Phrase("the distance of the two is the radius"))
 
 
 def drawn_apart(
@@ -278,17 +323,21 @@ def drawn_apart(
             continue
         if not c.flat:
             found, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
-            what = "puts the centres {} apart, the radii make it {}"
+            key = "puts the centres apart"
         else:
             body, guide = bodies[c.face], bodies[c.face].guides.get(c.guide)
             local = body.in_own_axes(known[0])
             if guide is None or local is None:
                 continue
             found, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
-            what = f"puts the centre {{}} to the {'left' if c.left else 'right'} of the face, the radius is {{}}"
+            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
         if abs(found - wanted) > tolerance:
-            told = what.format(f"{found / metres:.10g}", f"{wanted / metres:.10g}")
-            yield Problem(f"contacts.{c.name}", f"what is drawn {told}", "correct a place, a radius, or the side")
+            drawn = Phrase(key, distance=f"{found / metres:.10g}", given=f"{wanted / metres:.10g}")
+            yield Problem(
+                f"contacts.{c.name}",
+                Phrase("what is drawn", value=drawn),
+                Phrase("correct a place a radius or the side"),
+            )
 
 
 def rack_place(

@@ -18,6 +18,7 @@ from graphkin.scene.file_keys import item_of
 from graphkin.scene.mapping import as_mapping, toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.tables import SceneTables
+from graphkin.words import Phrase, from_others
 
 __all__ = ["Scene", "put", "resolved", "safe_name"]
 
@@ -141,7 +142,9 @@ class Scene(SceneTables):
             with whole_file(target) as out:
                 out.write(toml_text(self.to_dict()).encode())
         except OSError as error:
-            raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
+            raise CallError(
+                Problem(str(path), Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
+            ) from None
         return target
 
     def __hash__(self) -> int:
@@ -165,30 +168,34 @@ def put(made: OwnTables, key: str, value: object) -> Problem | None:
     place: object = made
     for depth, part in enumerate(parts):
         last = depth == len(parts) - 1
-        before = ".".join(parts[:depth]) or "the scene"
+        before = ".".join(parts[:depth]) or Phrase("the scene as a whole")
         if isinstance(place, list):
             index = item_of(part, len(place))
             if index is None:
-                return Problem(key, f"{before} has no item {part}", f"it has {len(place)}, counted from 1")
+                return Problem(
+                    key,
+                    Phrase("has no item", before=before, part=part),
+                    Phrase("it has counted from 1", count=len(place)),
+                )
             if last:
                 place[index] = value
                 return None
             place = place[index]
             continue
         if not isinstance(place, dict):
-            return Problem(key, f"{before} is {place!r:.40} and has nothing inside")
+            return Problem(key, Phrase("is and has nothing inside", before=before, place=f'{place!r:.40}'))
         if part not in place:
             drivers = {k for kind in ("<angle>", "<slide>") for k in keys_at(("driver", "<one>", kind))}
             known = drivers if parts[:1] == ["driver"] and depth else set(keys_at(tuple(parts[:depth])))
             if last and part in known:
                 place[part] = value
                 return None
-            return Problem(key, f'{before} has no "{part}"', did_you_mean(part, map(str, place)))
+            return Problem(key, Phrase("has no", before=before, part=part), did_you_mean(part, map(str, place)))
         if last:
             if isinstance(place[part], dict | list) and not whole:
                 inside = place[part] if isinstance(place[part], dict) else ["x", "y"]
-                return Problem(key, "is a table or a list, not a number",
-                               f"add one of: {', '.join(map(str, inside))}")
+                return Problem(key, Phrase("is a table or a list not a"),
+                               Phrase("add one of", inside=', '.join(map(str, inside))))
             place[part] = value
             return None
         place = place[part]

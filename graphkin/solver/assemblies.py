@@ -29,6 +29,7 @@ from graphkin.structure import (
 )
 from graphkin.structure.assembly import TOUCH, last_true
 from graphkin.structure.model import Coordinate
+from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import ClusterSolved, System
@@ -114,8 +115,10 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
         if dead:
             names = ", ".join(links_of(there.elements[i]))
-            wanted = "let what rolls start a little beside it"
-            raise Unsolvable("dead point", Problem(f"links {names}", "they start in a dead point", wanted))
+            wanted = Phrase("let what rolls start a little beside it")
+            raise Unsolvable(
+                "dead point", Problem(Phrase("links", links=names), Phrase("they start in a dead point"), wanted)
+            )
     return state.poses
 
 
@@ -142,7 +145,7 @@ def _choose_sign(
             "not assembled",
             Problem(
                 named_with_contact(structure, dyad),
-                "they do not reach each other in the scene's own position",
+                Phrase("they do not reach each other in the"),
                 _other_way(structure, i, drive, forms) or _nearest(structure, i, drive, forms),
             ),
         )
@@ -153,7 +156,7 @@ def _choose_sign(
     return np.array((1.0, -1.0)[index]), both[index]
 
 
-def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
+def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> Wording:
     """How an earlier dyad must lie for everything up to group ``i`` to be assembled; "" where none tells it alone."""
     for k in reversed(range(i)):
         dyad = structure.elements[k]
@@ -169,12 +172,13 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
         if all(met) and places:
             point = max(places, key=lambda p: abs(places[p] - now[p]))
             z = places[point] / structure.scene.units.metres
-            which = f"with {named_with_contact(structure, dyad)} in their other assembly they do"
-            return f"{which}: write {point} = [{z.real:.6g}, {z.imag:.6g}] in [sketch]"
+            sketched = f"{point} = [{z.real:.6g}, {z.imag:.6g}]"
+            links = named_with_contact(structure, dyad)
+            return Phrase("with links in their other assembly they do", links=links, sketched=sketched)
     return ""
 
 
-def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> str:
+def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Array]) -> Wording:
     """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
     scene = structure.scene
     first = scene.drivers[0]
@@ -192,11 +196,11 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     offset = np.linspace(-1, 1, 721)
     good = np.flatnonzero(open_(offset))
     if not len(good):
-        return "no value of the driver assembles them with these lengths"
+        return Phrase("no value of the driver assembles them with")
     near = offset[good[np.argmin(np.abs(offset[good]))]]
     limit = last_true(open_, float(near), float(near - np.copysign(1 / 360, near)))
     value = float(drive.value[0, 0] + wide * limit)
-    return f"the nearest position where they do is at {first.key} = {driver_text(scene, first, value)}"
+    return Phrase("the nearest position where they do is at", key=first.key, driver=driver_text(scene, first, value))
 
 
 def new_places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:
@@ -224,7 +228,7 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
         raise Unsolvable(
             "not assembled",
             Problem(
-                f"links {', '.join(group.links)}", "no assembly of this group was found in the scene's own position"
+                Phrase("links", links=', '.join(group.links)), Phrase("no assembly of this group was found in")
             ),
         )
     states = [State({**known, **System(structure, group, known, drive).poses(place[None])}) for place in found]

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError, Problem
 from graphkin.solver.code import Code, defined
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, operands
+from graphkin.words import Phrase
 
 __all__ = ["LONG", "Kernel", "kernel_text"]
 
@@ -173,7 +174,7 @@ def _library() -> dict[str, Any]:
         import numba  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
         raise CallError(
-            Problem("compiled", "needs numba, which is not installed", 'pip install "graphkin[fast]"')
+            Problem("compiled", Phrase("needs numba which is not installed"), 'pip install "graphkin[fast]"')
         ) from None
 
     def njit(function: Function, inside: bool = False) -> Function:

@@ -21,6 +21,7 @@ from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, analyse, in_stages
 from graphkin.structure.assembly import last_true
+from graphkin.words import Phrase, clauses, listed
 
 __all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
 
@@ -59,11 +60,11 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     """
     for element in structure.elements:
         if isinstance(element, Cluster):
-            where = f"links {', '.join(element.links)}"
-            raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two links only"))
+            where = Phrase("links", links=", ".join(element.links))
+            raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
     if in_stages(structure.elements):
-        where = "cams " + ", ".join(cam.link for cam in structure.scene.cams)
-        raise Unsolvable("dead point", Problem(where, "dead points are found for mechanisms without cams only"))
+        where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
+        raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     found: list[DeadPoint] = []
     dyads = [i for i, e in enumerate(structure.elements) if isinstance(e, Dyad)][:MOST_GROUPS]
     for k, i in enumerate(dyads):
@@ -204,19 +205,18 @@ def from_dead_point(structure: Structure) -> Structure:
             if all(float(forms[j]) == s for j, s in point.signs.items()):
                 known.append((point, way))
                 found += [(point, here)] if way == side else []
-    what = f'driver "{driver.key}"'
+    what = Phrase("driver of key", key=driver.key)
     listed = _listed(scene, known)
     if not found:
-        how = "begins" if side > 0 else "ends"
-        wanted = "change the sign of the distance, or give the value itself" + listed
-        missing = not_searched(structure)
-        if missing:
-            wanted += f"; links {', '.join(missing)} were not looked at, they stand behind {MOST_GROUPS} other groups"
-        raise Unsolvable("dead point", Problem(what, f"there is no dead point at which the motion {how}", wanted))
+        key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
+        wanted = [Phrase("change the sign of the distance or give"), *listed]
+        if missing := not_searched(structure):
+            wanted.append(Phrase("links were not looked at", links=", ".join(missing), most=MOST_GROUPS))
+        raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
     if dead.near is None and len(found) > 1:
         names = ", ".join(driver_text(scene, driver, float(p.value)) for p, _ in found)
-        raise Unsolvable("dead point", Problem(what, f"there are dead points at {names}",
-                                               "write near = ... to tell which one"))
+        raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
+                                               Phrase("write near to tell which one")))
     turn = float(2 * PI) if isinstance(driver, AngleDriver) else math.inf
 
     def away(point: DeadPoint) -> float:
@@ -227,23 +227,24 @@ def from_dead_point(structure: Structure) -> Structure:
     nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
     if dead.near is not None and away(nearest) < away(taken[0]) - SAME:
         wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
-        how = "begins" if way > 0 else "ends"
+        key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
         raise Unsolvable("dead point", Problem(
-            what, f"the dead point nearest to near = {wish} is at {at}, where the motion {how}: there is nothing on "
-            "this side of it", "change the sign of the distance, or near" + listed))
+            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *listed])))
     return taken[1]
 
 
-def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> str:
+def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
     """The dead points of a scene in words, and what the motion does there."""
     ends: dict[str, list[int]] = {}
     for point, way in known:
         ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
     said = [
-        f"{at} (the motion passes)" if len(set(ways)) > 1 else f"{at} (it {'begins' if ways[0] > 0 else 'ends'} there)"
+        Phrase(
+            "the motion passes" if len(set(ways)) > 1 else "it begins there" if ways[0] > 0 else "it ends there", at=at
+        )
         for at, ways in ends.items()
     ]
-    return f"; dead points: {', '.join(said)}" if said else ""
+    return [Phrase("dead points", points=listed(said))] if said else []
 
 
 def _at(structure: Structure, value: Decimal) -> Structure:

@@ -23,7 +23,7 @@ from graphkin.structure import (
     in_stages,
     named_with_contact,
 )
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
@@ -64,8 +64,8 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
 
 
 def without_singular(
-    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[str]
-) -> tuple[Array, list[str]]:
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[Wording]
+) -> tuple[Array, list[Wording]]:
     """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
 
     Parameters
@@ -85,7 +85,7 @@ def without_singular(
 
 
 def _beyond_limits(
-    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, reasons: list[str]
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, reasons: list[Wording]
 ) -> None:
     """Positions so near to a limit of the motion that sixteen digits do not tell on which side: refused where fifty
     digits say that the links do not reach each other, put on the limit where the file leaves it open.
@@ -112,15 +112,15 @@ def _beyond_limits(
         for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
             here = {j: f[k : k + 1] for j, f in forms.items() if j <= i}
             if s < 0:
-                names = ", ".join(group.links)
-                said = f"links {names} do not reach each other here, just beyond the end of their motion"
-                status[k], reasons[k] = "not assembled", said + _where(structure, i, values[k], here)
+                links, place = Phrase("links", links=", ".join(group.links)), _where(structure, i, values[k], here)
+                status[k] = "not assembled"
+                reasons[k] = Phrase("just beyond the end of their motion", links=links, place=place)
             elif either:
-                said = ", as far as the digits of the file tell"
-                status[k], reasons[k] = "dead point", _dead_why(structure, i, values[k], here) + said
+                why = _dead_why(structure, i, values[k], here)
+                status[k], reasons[k] = "dead point", Phrase("as far as the digits of the file tell", why=why)
 
 
-def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
     """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
     a hair further on it would lie far away."""
     group = structure.elements[i]
@@ -134,11 +134,12 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
         solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
-            return f"links {', '.join(group.links)} have parallel guides that lie apart: they meet nowhere"
+            links = Phrase("links", links=", ".join(group.links))
+            return Phrase("have parallel guides that lie apart", links=links)
     return ""
 
 
-def limit_why(structure: Structure, path: Path, between: tuple[float, float] | None = None) -> str:
+def limit_why(structure: Structure, path: Path, between: tuple[float, float] | None = None) -> Phrase:
     """Why a path ends, at which driver value, and between which values the motion runs; None where more than one driver
     moves."""
     scene = structure.scene
@@ -148,21 +149,21 @@ def limit_why(structure: Structure, path: Path, between: tuple[float, float] | N
     column = int(moved[0]) if len(moved) else 0
     driver = scene.drivers[column]
     end = float(path.values(np.array([path.reach]))[0][column])
-    names = named_with_contact(structure, by) if isinstance(by, Dyad) else f"links {', '.join(by.links)}"
-    said = f"{names} {_ending(by)} at {driver.key} = {driver_text(scene, driver, end)}"
+    links = named_with_contact(structure, by) if isinstance(by, Dyad) else Phrase("links", links=", ".join(by.links))
+    where = {"links": links, "ending": _ending(by), "driver": driver.key, "value": driver_text(scene, driver, end)}
     if between is None:
-        return said + " on the straight way there"
+        return Phrase("end on the straight way there", **where)
     low, high = (driver_text(scene, driver, value) for value in between)
-    return f"{said}; the motion reaches from {low} to {high}"
+    return Phrase("end between which the motion reaches", **where, low=low, high=high)
 
 
-def _ending(group: Dyad | Cluster) -> str:
+def _ending(group: Dyad | Cluster) -> Phrase:
     if isinstance(group, Dyad) and group.is_two_lines:
         return _dyad_words(group).dead
-    return "reach the end of their motion"
+    return Phrase("reach the end of their motion")
 
 
-def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Phrase:
     """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
     from graphkin.solver.larger_groups import ClusterSolved
 
@@ -171,17 +172,21 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     assert isinstance(group, Dyad | Cluster)
     one = np.ones((1, len(scene.drivers)))
     solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
-    names = ", ".join(group.links) if isinstance(group, Cluster) else named_with_contact(structure, group)
+    links = (
+        named_with_contact(structure, group)
+        if isinstance(group, Dyad)
+        else Phrase("links", links=", ".join(group.links))
+    )
     if isinstance(solved, ClusterSolved):
         if not solved.missed[0] < OPEN:
-            return f"links {names}: no position was found here in which they hold together"
+            return Phrase("no position was found here", links=links)
         u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
         branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
         where = "" if branch else _fold_where(structure, solved, values)
         if not solved.certificate[0] < CERTIFIED and solved.condition[0] * SINGULAR <= 1:
-            near = "a place where two of their assemblies meet" if branch else "their dead point"
-            return f"links {names} are so near to {near} that sixteen digits do not tell where they stand{where}"
-        how = "have a singular position"
+            key = "so near to where two assemblies meet" if branch else "so near to their dead point"
+            return Phrase(key, links=links, place=where)
+        ending = Phrase("have a singular position")
     else:
         e1, e2, load = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.load))
         along = e1 if abs(e1) > abs(e2) or not np.isfinite(abs(e2)) else e2
@@ -189,17 +194,17 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         branch = not across > 1e-5 * abs(load)
         assert isinstance(group, Dyad)
         if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
-            outer = " and ".join(getattr(p, "point", "") for p in group.outer)
-            how, branch = f"have no direction of their own: {outer} fall together", True
+            first, second = (getattr(p, "point", "") for p in group.outer)
+            ending, branch = Phrase("have no direction of their own", first=first, second=second), True
         else:
-            how = _dyad_words(group).dead
-    end = "the velocity is not unique here, the motion can branch" if branch else "a rate is infinite here"
-    if isinstance(solved, ClusterSolved):
-        return f"links {names} {how}: dead point, {end}{where}"
-    return f"{names} {how}: dead point, {end}{_where(structure, i, values, forms)}"
+            ending = _dyad_words(group).dead
+    end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
+    if not isinstance(solved, ClusterSolved):
+        where = _where(structure, i, values, forms)
+    return Phrase("stand at a dead point", links=links, ending=ending, end=end, place=where)
 
 
-def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> str:
+def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> Wording:
     """Where the dead point of a larger group lies by the bend of its constraints, as they are beside it: along the
     motion that would be free there they open as sigma s + a s2, against the b t of the driver (Seydel, Practical
     Bifurcation and Stability Analysis, ch. 2).  Nothing of several drivers, and where rounding has moved it as far."""
@@ -211,10 +216,10 @@ def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> s
     ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
     bend = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
     off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.load[0])))
-    return _lies_at(structure, float(values[0]) + off, abs(off), "about {:.2g}")
+    return _lies_at(structure, float(values[0]) + off, abs(off), about=True)
 
 
-def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> str:
+def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
     """Where the dead point lies, and how far away."""
     from graphkin.solver.dead_points import nearest_dead_point
 
@@ -227,14 +232,16 @@ def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
     return _lies_at(structure, float(point.value), away if away > 1e-30 else 0.0)
 
 
-def _lies_at(structure: Structure, value: float, away: float, digits: str = "{:.3g}") -> str:
+def _lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:
     scene, driver = structure.scene, structure.scene.drivers[0]
     unit = (
         ("deg", np.degrees(away))
         if isinstance(driver, AngleDriver)
         else (scene.units.length, away / scene.units.metres)
     )
-    return f"; it lies at {driver.key} = {driver_text(scene, driver, value)}, {digits.format(unit[1])} {unit[0]} away"
+    key, figures = ("it lies at about", 2) if about else ("it lies at", 3)
+    distance = f"{unit[1]:.{figures}g} {unit[0]}"
+    return Phrase(key, driver=driver.key, value=driver_text(scene, driver, value), distance=distance)
 
 
 def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Phrase, ...]:
@@ -296,7 +303,7 @@ class _DyadWords(NamedTuple):
 
     positive: Phrase
     negative: Phrase
-    dead: str
+    dead: Phrase
 
 
 def _dyad_words(dyad: Dyad) -> _DyadWords:
@@ -306,17 +313,17 @@ def _dyad_words(dyad: Dyad) -> _DyadWords:
     return {
         "RRR": _DyadWords(
             _beside(True, inner, first, second), _beside(False, inner, first, second),
-            f"have {first}{inner} and {inner}{second} in line",
+            Phrase("have in line", first=f"{first}{inner}", second=f"{inner}{second}"),
         ),
         "RRP": _DyadWords(
             Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)),
-            f"have {first}{inner} square to the guide",
+            Phrase("have square to the guide", bar=f"{first}{inner}"),
         ),
         "RPR": _DyadWords(
             Phrase("assembled on the positive side", (guide,)), Phrase("assembled on the negative side", (guide,)),
-            f"have {second}{first} square to the guide",
+            Phrase("have square to the guide", bar=f"{second}{first}"),
         ),
-    }.get(dyad.kind, _DyadWords(only, only, "have parallel guides"))  # fmt: skip
+    }.get(dyad.kind, _DyadWords(only, only, Phrase("have parallel guides")))  # fmt: skip
 
 
 def _guide(pair: Slide) -> str:

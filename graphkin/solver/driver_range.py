@@ -24,7 +24,7 @@ from graphkin.solver.motion_at import BLOCK, joined, motion_of
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
@@ -81,7 +81,7 @@ class DriverRange:
         return (not self.full and self.behind.limit is not None), self.ahead.limit is not None
 
     @cached_property
-    def limit_why(self) -> str:
+    def limit_why(self) -> Wording:
         """Why the motion ends."""
         path = self.ahead if self.ahead.limit is not None else self.behind
         low, high = sorted(self.value(np.array(self.ends)).tolist())

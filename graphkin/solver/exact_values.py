@@ -18,6 +18,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.reach import driver_range
 from graphkin.solver.solve import solve
+from graphkin.words import Phrase
 
 __all__ = ["exact_values", "senses_along", "value_of"]
 
@@ -44,7 +45,7 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
 
     found = forces_of(motion).value(str(symbol.here))
     if found is None:
-        raise CallError(Problem(str(symbol), "is read off the drawing alone", "ask `check` for it"))
+        raise CallError(Problem(str(symbol), Phrase("is read off the drawing alone"), Phrase("ask check for it")))
     return found
 
 

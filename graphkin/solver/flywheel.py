@@ -21,6 +21,7 @@ from graphkin.solver.forces import forces_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pair_forces import balances
 from graphkin.solver.pose import Array
+from graphkin.words import Phrase, Wording
 
 __all__ = ["FlywheelStudy", "MomentArea", "flywheel_of", "needed_moment"]
 
@@ -101,16 +102,16 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
     if not isinstance(reach.driver, AngleDriver) or not reach.full or len(reach.scene.drivers) > 1:
-        raise _without("the mechanism runs through no cycle: one driver must turn fully", "leave [flywheel] out")
+        raise _without(Phrase("the mechanism runs through no cycle one driver"), "leave [flywheel] out")
     speed = _mean_speed(reach, wanted.link)
     if not speed:
         rests = not reach.driver.omega
-        found = "the driver rests" if rests else f"link {wanted.link} does not turn on and on"
-        raise _without(found, "give it a speed" if rests else "put the flywheel on one that does")
+        found = Phrase("the driver rests") if rests else Phrase("link does not turn on and on", link=wanted.link)
+        raise _without(found, Phrase("give it a speed") if rests else Phrase("put the flywheel on one that does"))
     edges = _panels(reach)
     work = _work(reach, edges[:-1], edges[1:])
     if not np.isfinite(work).all():
-        raise _without("the balance does no work in some position of the turn", "balance at the driver")
+        raise _without(Phrase("the balance does no work in some position"), Phrase("balance at the driver"))
     cycle = float(edges[-1] - edges[0])
     driving = float(work.sum()) / cycle
     crossings = _crossings(reach, edges, driving)
@@ -128,7 +129,7 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     )  # fmt: skip
 
 
-def _without(found: str, wanted: str) -> Unsolvable:
+def _without(found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("no flywheel", Problem("flywheel", found, wanted))
 
 

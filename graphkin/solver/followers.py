@@ -13,6 +13,7 @@ from graphkin.scene.tables import Units
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
+from graphkin.words import Phrase, Wording
 
 __all__ = ["beginning", "cam_angle", "follower_inputs", "greatest_jerk", "lifts", "meeting_followers"]
 
@@ -60,18 +61,20 @@ def beginning(cam: LawCam, units: Units | None = None) -> float:
     raise Unsolvable("not assembled", Problem(f"cams.{cam.link}", *_apart(cam, units or Units())))
 
 
-def _apart(cam: LawCam, units: Units) -> tuple[str, str]:
+def _apart(cam: LawCam, units: Units) -> tuple[Wording, Wording]:
     motion = cam.motion
 
     def length(metres: float) -> str:
         return f"{metres / units.metres:.6g} {units.length}"
 
     if isinstance(motion, SlidingFollower):
-        said = f"the line of follower {cam.follower} passes outside the base circle of the pitch curve"
-        return said, f"its radius is at least the offset, {length(abs(motion.offset))}"
+        said = Phrase("the line of follower passes outside the base", follower=cam.follower)
+        return said, Phrase("its radius is at least the offset", length=length(abs(motion.offset)))
     far = abs(cam.axis - motion.centre)
-    said = f"follower {cam.follower} does not reach the base circle of the pitch curve"
-    return said, f"its radius lies between {length(abs(far - motion.arm))} and {length(far + motion.arm)}"
+    said = Phrase("follower does not reach the base circle of", follower=cam.follower)
+    return said, Phrase(
+        "its radius lies between and", length=length(abs(far - motion.arm)), other=length(far + motion.arm)
+    )
 
 
 def meeting_followers(structure: Structure) -> Structure:

@@ -21,6 +21,7 @@ from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.redundant import all_slides
 from graphkin.solver.solve import solve
+from graphkin.words import Phrase
 
 __all__ = ["force_heads", "force_rows", "force_values"]
 
@@ -40,11 +41,19 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
     forces = forces_of(motion)
     for name, where in without_line(motion).items():
         if where[0]:
-            found = "its two points coincide in this position, so that its force has no line"
-            raise Unsolvable("dead point", Problem(f"springs.{name}", found, "move the driver off this position"))
+            found = Phrase("its two points coincide in this position so")
+            raise Unsolvable(
+                "dead point", Problem(f"springs.{name}", found, Phrase("move the driver off this position"))
+            )
     if not forces.ok[0]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)
-        raise Unsolvable("dead point", Problem(f"driver {drivers}", "the balance does no work in this position"))
+        raise Unsolvable(
+            "dead point",
+            Problem(
+                Phrase("driver of driver", driver=drivers),
+                Phrase("the balance does no work in this position of nothing"),
+            ),
+        )
     moving = motion if any(d.values[1] for d in motion.scene.drivers) else _growing(motion)
 
     def value(symbol: Symbol) -> Value:

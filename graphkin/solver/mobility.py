@@ -39,6 +39,7 @@ from graphkin.structure import (
 )
 from graphkin.structure.assembly import TOUCH
 from graphkin.structure.replacement import with_cams
+from graphkin.words import Phrase
 
 __all__ = ["structure_of"]
 
@@ -114,23 +115,23 @@ def _verdict(tried: list[tuple[str, Fit, bool]]) -> Problem | None:
     mobile = [name for name, _, moves in tried if moves]
     if mobile:
         return Problem(
-            f"link {mobile[0]}",
-            "it only repeats what the other links already hold: the mechanism is redundant but mobile",
-            f"write redundant = true in [links.{mobile[0]}]",
+            Phrase("link of name", name=mobile[0]),
+            Phrase("it only repeats what the other links already"),
+            Phrase("write redundant true in links", link=mobile[0]),
         )
     here = [name for name, laid, _ in tried if laid.position[0] < 1e-9]
     if here:
         return Problem(
-            f"link {here[0]}",
-            "it fits in this position, but locks the others: the mechanism is over-constrained",
-            f"leave link {here[0]} out, or one of its joints",
+            Phrase("link of name", name=here[0]),
+            Phrase("it fits in this position but locks the"),
+            Phrase("leave link out or one of its joints", value=here[0]),
         )
     if tried:
         name, laid, _ = min(tried, key=lambda x: float(x[1].position[0]))
         return Problem(
-            f"link {name}",
-            f"it does not fit between the others here (by {100 * float(laid.position[0]):.3g} % of the size)",
-            f"leave link {name} out, or one of its joints",
+            Phrase("link of name", name=name),
+            Phrase("it does not fit between the others here", position=f'{100 * float(laid.position[0]):.3g}'),
+            Phrase("leave link out or one of its joints", value=name),
         )
     return None
 
@@ -242,6 +243,15 @@ def at_given_speed(structure: Structure) -> Structure:
     arm = pose.u * structure.links[holder].points[name]
     once = abs(complex(np.ravel(pose.v + 1j * pose.omega * arm)[0]))
     if not np.isfinite(once) or once <= STANDS * scene.size or once >= scene.size / SINGULAR:
-        said = "has no finite speed here" if once > STANDS * scene.size else "stands still here, however fast it turns"
-        raise Unsolvable("dead point", Problem(f'driver "{driver.key}": {name}', said, "give omega, or another place"))
+        said = (
+            Phrase("has no finite speed here")
+            if once > STANDS * scene.size
+            else Phrase("stands still here however fast it turns")
+        )
+        raise Unsolvable(
+            "dead point",
+            Problem(
+                Phrase("driver of key and name", key=driver.key, name=name), said, Phrase("give omega or another place")
+            ),
+        )
     return analyse(replace(scene, drivers=(replace(driver, omega=speed / once, given_speed=None),)))

@@ -19,7 +19,7 @@ from graphkin.solver.pose import Array, Pose
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Cluster, Slide, Structure, links_of
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 __all__ = ["SLIGHT", "Motion", "Sliding", "evaluate"]
 
@@ -33,7 +33,7 @@ def evaluate(motion: Motion, symbol: Symbol) -> Array:
     if symbol.kind == "alpha":
         return motion.alpha(symbol.link)
     if symbol.scope == "force":
-        raise CallError(Problem(str(symbol), "is no motion", "forces stand in `solve` of a scene with masses or loads"))
+        raise CallError(Problem(str(symbol), Phrase("is no motion"), Phrase("forces stand in solve of a scene with")))
     if symbol.scope != "motion":
         from graphkin.solver.position_values import position
 
@@ -152,11 +152,11 @@ def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
             arm = at.z - motion.point(pivot, name).z
         return np.asarray(-(pose.omega**2) * arm if symbol.kind == "an" else 1j * pose.alpha * arm)
     wanted = (
-        "both points must be on one link"
+        Phrase("both points must be on one link")
         if symbol.to
-        else f"{of} turns about no fixed point; write {symbol}/A with A on its link"
+        else Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
     )
-    raise CallError(Problem(str(symbol), "no link makes this part", wanted))
+    raise CallError(Problem(str(symbol), Phrase("no link makes this part"), wanted))
 
 
 def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
@@ -180,12 +180,18 @@ def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Arra
         return _apart(motion, symbol, of, to, to.link)
     pairs = [s for s in motion.slides if s.pin]
     example = (
-        f"write for example {symbol.kind}_{pairs[0].pin}@{pairs[0].b}/{pairs[0].pin}"
+        Phrase(
+            "write for example of kind and pin and other and pin_2",
+            kind=symbol.kind,
+            pin=pairs[0].pin,
+            other=pairs[0].b,
+            pin_2=pairs[0].pin,
+        )
         if pairs
-        else "nothing slides here"
+        else Phrase("nothing slides here")
     )
     raise CallError(
-        Problem(str(symbol), "these are not coincident points of two links that slide on each other", example)
+        Problem(str(symbol), Phrase("these are not coincident points of two links"), example)
     )
 
 
@@ -227,7 +233,7 @@ class Motion:
     structure: Structure
     values: Array
     status: Array
-    why: tuple[str, ...]
+    why: tuple[Wording, ...]
     poses: Mapping[str, Pose]
     slides: tuple[Slide, ...]
     assembly: tuple[Phrase, ...]
@@ -275,6 +281,10 @@ class Motion:
         ends = {link.name: float(before.angle(link.name)[last]) for link in self.scene.links}
         return replace(self, onward={name: end - turned.get(name, 0.0) for name, end in ends.items()})
 
+    def said(self, position: int) -> Phrase:
+        """The status of a position, and why it is not "ok"."""
+        return Phrase("status and why", status=Phrase(f"status {self.status[position]}"), why=self.why[position])
+
     def require(self) -> Motion:
         """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""
         if not self.ok.any():
@@ -287,7 +297,9 @@ class Motion:
             return self.structure.links[name]
         if name in self.scene.by_name:
             return self.scene.by_name[name]
-        raise CallError(Problem(f'link "{name}"', "there is no such link", did_you_mean(name, self.scene.by_name)))
+        raise CallError(
+            Problem(Phrase("link", name=name), Phrase("there is no such link"), did_you_mean(name, self.scene.by_name))
+        )
 
     def point(self, point: str, link: str = "") -> Pose:
         """Axes that move with ``link``, their origin at ``point`` of it, or at its point that lies at that pin now.
@@ -312,7 +324,7 @@ class Motion:
         held = next((name for name, link in self.structure.links.items() if point in link.points), None)
         if held is None:
             known = did_you_mean(point, [*self.scene.holders, *(c.name for c in self.scene.contacts)])
-            raise CallError(Problem(f'point "{point}"', "there is no such point", known))
+            raise CallError(Problem(Phrase("point of point", point=point), Phrase("there is no such point"), known))
         return held
 
     def position(self, point: str, link: str = "") -> Array:
@@ -359,7 +371,9 @@ class Motion:
         if pair is None:
             raise CallError(
                 Problem(
-                    f'slide "{key}"', "there is no such sliding pair", did_you_mean(key, [s.key for s in self.slides])
+                    Phrase("slide", key=key),
+                    Phrase("there is no such sliding pair"),
+                    did_you_mean(key, [s.key for s in self.slides]),
                 )
             )
         guide = self.poses[pair.b].fixed(pair.guide.through, pair.guide.direction)

@@ -21,7 +21,7 @@ from graphkin.solver.pose import FIELDS, Array, Pose, rest
 from graphkin.solver.redundant import all_slides, place_redundant
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Structure
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 __all__ = ["BLOCK", "goal_values", "joined", "motion_of"]
 
@@ -40,9 +40,9 @@ def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
     keys = [d.key for d in scene.drivers]
     for key, value in (at or {}).items():
         if key not in keys:
-            raise CallError(Problem(f'at "{key}"', "there is no such driver", did_you_mean(key, keys)))
+            raise CallError(Problem(f'at "{key}"', Phrase("there is no such driver"), did_you_mean(key, keys)))
         if not np.isfinite(value):
-            raise CallError(Problem(f'at "{key}"', f"{value} is no driver value"))
+            raise CallError(Problem(f'at "{key}"', Phrase("is no driver value of value", value=value)))
         goal[keys.index(key)] = value
     return goal
 
@@ -53,7 +53,7 @@ def motion_of(
     forms: Mapping[int, Array],
     assembly: tuple[Phrase, ...],
     good: Array,
-    why: str = "",
+    why: Wording = "",
     fine: bool = True,
 ) -> Motion:
     """Positions in one pass over all driver values, their status, redundant links placed and checked.
@@ -72,7 +72,7 @@ def motion_of(
         return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
     state = positions(structure, drive, forms, fine=fine, each=not fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
-    reasons = ["" if g else why for g in good]
+    reasons: list[Wording] = ["" if g else why for g in good]
     if fine:
         status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
     else:
@@ -98,7 +98,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
     a block on its guide), is kept once: fields may be read-only, or be the memory of another.
     """
     columns: dict[tuple[str, str], _Column] = {}
-    reasons = [""] * n
+    reasons = list[Wording]([""] * n)
     first, some = 0, None
     for some in blocks:
         rows = slice(first, first + len(some))

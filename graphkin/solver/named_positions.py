@@ -17,6 +17,7 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
 from graphkin.solver.reach import driver_range
 from graphkin.solver.whole_turn import Extremes, extremes, where_true
+from graphkin.words import Phrase
 
 __all__ = ["PlacesByName", "named_positions", "standing"]
 
@@ -129,7 +130,9 @@ def standing(scene: Mechanism) -> Mechanism:
             guess = value
         else:
             return _at(scene, first, guess)
-    raise stop or Unsolvable("not assembled", Problem("driver.position", f'"{first.position}" is not found'))
+    raise stop or Unsolvable(
+        "not assembled", Problem("driver.position", Phrase("is not found", position=first.position))
+    )
 
 
 def _at(scene: Mechanism, driver: AngleDriver, value: float) -> Mechanism:

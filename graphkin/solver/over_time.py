@@ -25,6 +25,7 @@ from graphkin.solver.pose import Array, Pose
 from graphkin.solver.reach import driver_range, way_to
 from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Structure
+from graphkin.words import Wording
 
 __all__ = ["over_time"]
 
@@ -77,7 +78,7 @@ def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     assembly = assembly_words(structure, forms)
     here, found = own_values(structure.scene), []
     sums: list[dict[str, float]] = []
-    good, why = np.ones(len(value), dtype=bool), [""] * len(value)
+    good, why = np.ones(len(value), dtype=bool), list[Wording]([""] * len(value))
     for k, goal in enumerate(value):
         if not np.array_equal(here, goal):
             path = follow_path(structure, forms, here, goal) if k else way_to(structure, forms, goal)

@@ -19,6 +19,7 @@ from graphkin.structure.transmission import (
     joint_of_follower,
     sliding_pair,
 )
+from graphkin.words import Phrase
 
 __all__ = ["Crossing", "pole", "position", "transmission"]
 
@@ -54,12 +55,14 @@ def position(structure: Structure, poses: Poses, symbol: Symbol) -> Array:
         if cam is not None:
             return cam_at(cam, cam.sense * np.angle(_pose(poses, symbol, cam.link).u)).pressure
         return np.asarray(np.pi / 2 - _crossing(poses, joint_of_follower(structure, symbol.link, symbol)).angle)
-    raise CallError(Problem(str(symbol), "belongs to the whole turn, not to one position", "ask check, audit or sweep"))
+    raise CallError(
+        Problem(str(symbol), Phrase("belongs to the whole turn not to one"), Phrase("ask check audit or sweep"))
+    )
 
 
 def _pose(poses: Poses, symbol: Symbol, link: str) -> Pose:
     if link not in poses:
-        raise CallError(Problem(str(symbol), f'there is no link "{link}"', did_you_mean(link, poses)))
+        raise CallError(Problem(str(symbol), Phrase("there is no link", name=link), did_you_mean(link, poses)))
     return poses[link]
 
 
@@ -75,7 +78,7 @@ def _place(structure: Structure, poses: Poses, symbol: Symbol, name: str) -> Arr
         return np.asarray(poses[held].fixed(structure.links[held].points[name]).z)
     pair = centre_links(name, scene.by_name)
     if pair is None:
-        raise CallError(Problem(str(symbol), f'there is no point "{name}"', did_you_mean(name, scene.holders)))
+        raise CallError(Problem(str(symbol), Phrase("there is no point", name=name), did_you_mean(name, scene.holders)))
     shared = next((p for p in scene.by_name[pair[0]].points if p in scene.by_name[pair[1]].points), None)
     if shared is not None:  # a joint, whether the two turn or not
         return _place(structure, poses, symbol, shared)

@@ -12,6 +12,7 @@ from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax
 from graphkin.solver.frame_errors import FrameError
 from graphkin.solver.program import Program
 from graphkin.structure import Structure, in_stages
+from graphkin.words import Phrase
 
 __all__ = ["Units", "bounds", "formulas"]
 
@@ -72,7 +73,7 @@ class _Quantity:
         elif kind == "s":
             keys = [s.key for s in structure.slides]
             if rest not in keys:
-                raise CallError(Problem(f'"{name}"', "there is no such sliding pair", did_you_mean(rest, keys)))
+                raise CallError(Problem(f'"{name}"', Phrase("there is no such sliding pair"), did_you_mean(rest, keys)))
         elif kind != "theta":
             self._parse()
 
@@ -80,14 +81,14 @@ class _Quantity:
         try:
             symbol = Symbol.parse(self.name)
         except ValueError as error:
-            raise CallError(Problem(f'"{self.name}"', str(error))) from None
+            raise CallError(Problem(f'"{self.name}"', error.args[0])) from None
         if symbol.kind in ("omega", "alpha"):
             self.link = symbol.link
         elif symbol.kind in ("v", "a") and symbol.of is not None:
             self.refs = [symbol.of, *([symbol.to] if symbol.to else [])]
         else:
-            hint = "ask for places, v_, a_, theta_, omega_, alpha_ or s_"
-            raise CallError(Problem(f'"{self.name}"', "is no column", hint))
+            hint = Phrase("ask for places v_ a_ theta_ omega_ alpha_")
+            raise CallError(Problem(f'"{self.name}"', Phrase("is no column"), hint))
 
     def scale(self, units: Units) -> Real | float:
         """What the formula in SI is to be multiplied by."""
@@ -142,7 +143,9 @@ class _Quantity:
     def _pose(self, name: str) -> PoseFormula:
         if name not in self.program.poses:
             raise CallError(
-                Problem(f'link "{name}"', "there is no such link", did_you_mean(name, self.structure.links))
+                Problem(
+                    Phrase("link", name=name), Phrase("there is no such link"), did_you_mean(name, self.structure.links)
+                )
             )
         return self.program.poses[name]
 
@@ -151,7 +154,13 @@ class _Quantity:
         holders = [n for n, link in links.items() if ref.point in link.points]
         if not holders:
             known = [p for link in links.values() for p in link.points]
-            raise CallError(Problem(f'point "{ref.point}"', "there is no such point", did_you_mean(ref.point, known)))
+            raise CallError(
+                Problem(
+                    Phrase("point of point", point=ref.point),
+                    Phrase("there is no such point"),
+                    did_you_mean(ref.point, known),
+                )
+            )
         return holders
 
     def _point(self, ref: PointRef) -> PoseFormula:

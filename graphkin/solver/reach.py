@@ -20,6 +20,7 @@ from graphkin.solver.motion_at import goal_values
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ways
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
@@ -135,7 +136,7 @@ def _closes(path: Path) -> bool:
     return True
 
 
-def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, path: Path) -> str:
+def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, path: Path) -> Phrase:
     """Why a way from the values of ``start`` ends, and between which values the motion runs."""
     moved = np.flatnonzero(path.end != path.start)
     if len(moved) > 1:

@@ -14,6 +14,7 @@ from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Slide, Structure
+from graphkin.words import Phrase
 
 __all__ = ["Fit", "all_slides", "fit", "place_redundant"]
 
@@ -66,18 +67,21 @@ def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bou
                 break
         else:
             names = ", ".join(link.name for link in waiting)
-            raise Unsolvable("mobility", Problem(f"links {names}", "redundant, but nothing holds both ends of them"))
+            raise Unsolvable(
+                "mobility",
+                Problem(Phrase("links", links=names), Phrase("redundant but nothing holds both ends of them")),
+            )
         waiting.remove(link)
         bad = ok & ~found.fits_within(bound)
         if bad.any():
             k = int(np.argmax(bad))
             missed = float(found.position[k]) * scene.size / scene.units.metres
             how = (
-                f"it misses its joints by {missed:.4g} {scene.units.length}"
+                Phrase("it misses its joints by", missed=f'{missed:.4g}', length=scene.units.length)
                 if found.position[k] >= FITS
-                else "it fits here, but would stop the motion"
+                else Phrase("it fits here but would stop the motion")
             )
-            wanted = "a redundant link must repeat what the others hold"
+            wanted = Phrase("a redundant link must repeat what the others")
             raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how, wanted))
         poses[link.name] = found.pose
 

@@ -23,7 +23,7 @@ from graphkin.solver.redundant import all_slides
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Structure
 from graphkin.structure.assembly import ChangePoint
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 __all__ = ["as_drawn", "solve", "sweep_in_blocks"]
 
@@ -57,7 +57,7 @@ def solve(
     structure = structure_of(scene)
     goal = goal_values(structure.scene, at)
     if sweep is not None and sweep < 1:
-        raise CallError(Problem("sweep", f"{sweep} positions", "give 1 or more"))
+        raise CallError(Problem("sweep", Phrase("positions of number", number=sweep), Phrase("give 1 or more")))
     start = _start(structure, goal)
     if isinstance(start, _Refused):
         return _nowhere(structure, goal, sweep, *start)
@@ -84,7 +84,7 @@ class _Refused(NamedTuple):
     """Why driver values are not reached."""
 
     status: str
-    why: str
+    why: Wording
 
 
 def _start(structure: Structure, goal: Array) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | _Refused:
@@ -92,7 +92,7 @@ def _start(structure: Structure, goal: Array) -> tuple[Mapping[int, Array], tupl
     try:
         forms = choose_forms(structure)
     except Unsolvable as stop:
-        return _Refused(stop.status, stop.why)
+        return _Refused(stop.status, stop.reason)
     own = own_values(structure.scene)
     if np.array_equal(own, goal):
         return forms, ()
@@ -102,7 +102,7 @@ def _start(structure: Structure, goal: Array) -> tuple[Mapping[int, Array], tupl
     return path.last_forms, path.change_points
 
 
-def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: str) -> Motion:
+def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, why: Wording) -> Motion:
     """No position at all; the driver values are those that were asked for, but of a slide driver, whose range is not
     known, all alike."""
     n = sweep or 1

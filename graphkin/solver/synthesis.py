@@ -24,6 +24,7 @@ from graphkin.scene.synthesis import (
     LimitsTask,
     SliderCrankTask,
 )
+from graphkin.words import Phrase, Wording
 
 __all__ = ["FreeDatum", "Synthesis", "choice", "crank_angle", "synthesise"]
 
@@ -67,22 +68,24 @@ def crank_angle(K: float) -> float:
     return math.pi * (K - 1.0) / (K + 1.0)
 
 
-def _refused(where: str, found: str, wanted: str) -> Unsolvable:
+def _refused(where: str, found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("not assembled", Problem(f"design.{where}", found, wanted))
 
 
 def _quick_return(K: float, most: float | None = None) -> float:
     if K <= 1.0:
-        raise _refused("K", f"{K:.6g} is no quick return", "K must be above 1")
+        raise _refused("K", Phrase("is no quick return", key=f'{K:.6g}'), Phrase("k must be above 1"))
     return _lag(K, most)
 
 
 def _lag(K: float, most: float | None = None) -> float:
     """The acute angle of the crank between its limit positions (rad), 0 for K = 1."""
     if K < 1.0:
-        raise _refused("K", f"{K:.6g} is below 1", "K is the longer of two ways over the shorter: 1 or more")
+        raise _refused("K", Phrase("is below 1", key=f'{K:.6g}'), Phrase("k is the longer of two ways over"))
     if most is not None and most <= K:
-        raise _refused("K", f"{K:.6g} cannot be reached", f"K must be below {most:.6g} here")
+        raise _refused(
+            "K", Phrase("cannot be reached", key=f"{K:.6g}"), Phrase("k must be below here", most=f"{most:.6g}")
+        )
     return crank_angle(K)
 
 
@@ -101,14 +104,18 @@ def synthesise(task: DesignTask) -> Synthesis:
 def _(task: SliderCrankTask) -> Synthesis:
     H, e = task.stroke, task.offset
     if task.K == 1.0:
-        said = "1 leaves the rod free: offset 0, a crank of half the stroke and any longer rod"
-        raise _refused("K", said, "K must be above 1")
+        said = Phrase("1 leaves the rod free offset 0 a")
+        raise _refused("K", said, Phrase("k must be above 1"))
     theta = _quick_return(task.K, 3.0)
     if e == 0.0:
-        raise _refused("offset", f"0 gives K = 1, not {task.K:.6g}", "an offset greater than 0")
+        raise _refused("offset", Phrase("offset zero gives k 1", K=f"{task.K:.6g}"), Phrase("an offset greater than 0"))
     greatest = H / math.tan(theta)
     if e >= greatest:
-        raise _refused("offset", f"{e:.6g} is too large for K = {task.K:.6g}", f"it must be below {greatest:.6g}")
+        raise _refused(
+            "offset",
+            Phrase("is too large for k", value=f"{e:.6g}", key=f"{task.K:.6g}"),
+            Phrase("it must be below", greatest=f"{greatest:.6g}"),
+        )
     half = math.tan(theta / 2.0)
     # AC1 = BC + AB and AC2 = BC - AB enclose theta over the chord H, at the height e over it
     crank = math.sqrt(H * (H - 2.0 * e * half)) / 2.0
@@ -124,22 +131,26 @@ def _(task: SliderCrankTask) -> Synthesis:
 def _(task: CrankRockerTask) -> Synthesis:
     c, d = task.rocker, task.frame
     if task.swing >= 180.0:
-        raise _refused("swing", f"{task.swing:.6g} is too wide for a rocker", "it must be below 180 degrees")
+        raise _refused(
+            "swing",
+            Phrase("is too wide for a rocker", swing=f"{task.swing:.6g}"),
+            Phrase("it must be below 180 degrees"),
+        )
     psi = math.radians(task.swing)
     # beyond it the circle over the chord lies between the arms of the rocker
     widest = math.pi / 2 + psi / 2
     theta = _lag(task.K, (math.pi + widest) / (math.pi - widest))
     low, high = sorted((c, c * abs(math.sin(psi - theta)) / math.sin(theta) if theta else math.inf))
     if high - low <= 1e-9 * c:
-        said = f"{task.swing:.6g} is twice 180 (K - 1) / (K + 1): the circle over C1C2 is that about D"
-        raise _refused("swing", said, "another swing or another K")
+        said = Phrase("is twice 180 k 1 k 1 the", swing=f'{task.swing:.6g}')
+        raise _refused("swing", said, Phrase("another swing or another k"))
     if not theta and d <= c:
-        said = f"with {d:.6g} A lies between C1 and C2, on the line of both"
-        raise _refused("frame", said, f"it must be greater than {c:.6g}, the rocker")
+        said = Phrase("with a lies between c1 and c2 on", name=f'{d:.6g}')
+        raise _refused("frame", said, Phrase("it must be greater than the rocker", name=f'{c:.6g}'))
     if not low < d < high:
         raise _refused(
-            "frame", f"the circle about D with {d:.6g} does not cut the circle over C1C2 where A may lie",
-            f"it must lie between {low:.6g} and {high:.6g}",
+            "frame", Phrase("the circle about d with does not cut", name=f'{d:.6g}'),
+            Phrase("it must lie between and", least=f'{low:.6g}', greatest=f'{high:.6g}'),
         )
     first, second = c * direction(90.0 + task.swing / 2), c * direction(90.0 - task.swing / 2)
     # A lies so far from D along the middle of the swing, where the circle over the chord and that about D cross; the
@@ -153,9 +164,9 @@ def _(task: CrankRockerTask) -> Synthesis:
 def _(task: LimitsTask) -> Synthesis:
     first, second = (task.D + task.rocker * direction(angle) for angle in task.angles)
     if abs(task.A - task.D) < 1e-12 * task.rocker:
-        raise _refused("A", "lies where D lies", "two pivots apart from each other")
+        raise _refused("A", Phrase("lies where d lies"), Phrase("two pivots apart from each other"))
     if abs(first - second) < 1e-12 * task.rocker:
-        raise _refused("angles", "the two limit positions are one", "two different angles")
+        raise _refused("angles", Phrase("the two limit positions are one"), Phrase("two different angles"))
     return _crank_rocker(task, task.A, task.D, first, second, standing=True)
 
 
@@ -167,10 +178,10 @@ def _crank_rocker(
     AB, BC, CD, AD = (far - near) / 2, (far + near) / 2, abs(first - D), abs(A - D)
     sides = cross(D - A, first - A), cross(D - A, second - A)
     if AB < 1e-12 * BC:
-        raise _refused("A", "lies as far from C1 as from C2, so that no crank is left", "move A off the line midway")
+        raise _refused("A", Phrase("lies as far from c1 as from c2"), Phrase("move a off the line midway"))
     if sides[0] * sides[1] <= 0.0:
-        raise _refused("A", "lies between the lines C1D and C2D, so that the rocker would have to pass through AD",
-                       "move A to one side of both lines")
+        raise _refused("A", Phrase("lies between the lines c1d and c2d so"),
+                       Phrase("move a to one side of both lines"))
     side = 1.0 if sides[0] > 0 else -1.0
     if not standing:
         A, D = 0j, complex(AD, 0.0)
@@ -210,8 +221,8 @@ def _(task: GuideBarTask) -> Synthesis:
     shortest = sagitta / (2.0 * math.cos(half))
     rod = task.rod_length
     if rod <= shortest:
-        raise _refused("rod", f"{rod:.6g} is too short to let the ram rest where the bar does",
-                       f"it must exceed {shortest:.6g}")
+        raise _refused("rod", Phrase("is too short to let the ram rest", rod=f'{rod:.6g}'),
+                       Phrase("it must exceed", shortest=f'{shortest:.6g}'))
     C = complex(0.0, -task.centres)
     B = AB * direction(30.0)
     D = C + CD * unit(B - C)
@@ -239,7 +250,11 @@ def _(task: BarPositionsTask) -> Synthesis:
     points = {"A": A, "D": D, "M": M, "N": N}
     for key, length in lengths.items():
         if length < IN_LINE * max(lengths.values()):
-            raise _refused("positions", f"{key[0]} and {key[1]} fall together", "other pivots or other positions")
+            raise _refused(
+                "positions",
+                Phrase("and fall together", key=key[0], other=key[1]),
+                Phrase("other pivots or other positions"),
+            )
     return Synthesis(task, lengths, points, {**points, "B": bars[0].B, "C": bars[0].C})
 
 
@@ -248,12 +263,12 @@ def _centre(points: tuple[complex, ...], letter: str) -> complex:
     a, b, c = points
     size = max(abs(b - a), abs(c - b), abs(a - c))
     if min(abs(b - a), abs(c - b), abs(a - c)) <= IN_LINE * size:
-        raise _refused("positions", f"two of the places of {letter} are one, so that no circle is fixed",
-                       "three different places")
+        raise _refused("positions", Phrase("two of the places of are one so", letter=letter),
+                       Phrase("three different places"))
     area = cross(b - a, c - a)
     if abs(area) <= IN_LINE * size**2:
-        raise _refused("positions", f"the three places of {letter} lie in one line: no circle goes through them",
-                       "a slide along that line, or another point of the bar")
+        raise _refused("positions", Phrase("the three places of lie in one line", letter=letter),
+                       Phrase("a slide along that line or another point"))
     u, v = b - a, c - a
     return a + 1j * (v * abs(u) ** 2 - u * abs(v) ** 2) / (-2.0 * area)
 
@@ -264,17 +279,19 @@ def _(task: FunctionTask) -> Synthesis:
     phi, psi = (np.radians([pair[i] for pair in task.pairs]) for i in (0, 1))
     lines = np.column_stack([np.cos(psi), -np.cos(phi), np.ones(3)])
     if np.linalg.cond(lines) > 1e12:
-        raise _refused("pairs", "the three pairs fix no four-bar", "three pairs that differ in both angles")
+        raise _refused(
+            "pairs", Phrase("the three pairs fix no four-bar"), Phrase("three pairs that differ in both angles")
+        )
     k = np.linalg.solve(lines, np.cos(phi - psi))
     if min(abs(k[0]), abs(k[1])) < 1e-9:
-        raise _refused("pairs", "they ask for a bar without end", "change one of the angles")
+        raise _refused("pairs", Phrase("they ask for a bar without end"), Phrase("change one of the angles"))
     AB, CD = (float(task.frame / k[i]) for i in (0, 1))
     A, D = 0j, complex(task.frame, 0.0)
     B, C = A + AB * direction(task.pairs[0][0]), D + CD * direction(task.pairs[0][1])
     turned = tuple(name for name, length in (("AB", AB), ("CD", CD)) if length < 0)
     lengths = {"AB": abs(AB), "BC": abs(C - B), "CD": abs(CD), "AD": task.frame}
     if lengths["BC"] < IN_LINE * max(lengths.values()):
-        raise _refused("pairs", "B and C fall together", "change one of the angles")
+        raise _refused("pairs", Phrase("b and c fall together"), Phrase("change one of the angles"))
     return Synthesis(task, lengths, {"A": A, "D": D}, {"A": A, "B": B, "C": C, "D": D}, turned)
 
 

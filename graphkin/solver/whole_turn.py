@@ -16,6 +16,7 @@ from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.followers import beginning
 from graphkin.solver.pose import Array
 from graphkin.structure.transmission import sliding_pair
+from graphkin.words import Phrase, Wording
 
 __all__ = ["Extremes", "extremes", "where_true"]
 
@@ -29,7 +30,7 @@ NEAR = 1e-14
 """Within this (rad) of what Newton's method gives a rate's sign is looked for digit by digit."""
 ROUNDED = 1e-11
 """An angle (rad) between limit positions that is nothing but rounding."""
-WHERE_ELSE = "ask for s_, theta_ or d_ at single positions"
+WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
 
 
 @dataclass(frozen=True)
@@ -69,10 +70,10 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     CallError : there is no such sliding pair
     """
     if not isinstance(reach.driver, AngleDriver):
-        raise _without(symbol, "belongs to a whole turn, but the driver slides", WHERE_ELSE)
+        raise _without(symbol, Phrase("belongs to a whole turn but the driver"), WHERE_ELSE)
     if reach.turns != 1:
-        why = reach.limit_why or "the motion does not repeat after one turn of the driver"
-        raise _without(symbol, f"belongs to a whole turn, which the driver does not make: {why}", WHERE_ELSE)
+        why = reach.limit_why or Phrase("the motion does not repeat after one turn")
+        raise _without(symbol, Phrase("belongs to a whole turn which the driver", why=why), WHERE_ELSE)
     if symbol.other:
         sliding_pair(reach.structure, symbol)
     cam = next((c for c in reach.scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
@@ -91,10 +92,12 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     values, rates, _ = course(grid)
     pair = symbol.pair
     if not symbol.other and abs(values[-1] - values[0]) > 1.0:
-        raise _without(symbol, f"link {pair} turns on and on, it has no limit positions", "ask for one that swings")
+        raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
     size = reach.scene.size if symbol.other else 1.0
     if np.ptp(values) < 1e-12 * size:
-        raise _without(symbol, f"{pair} does not move, it has no limit positions", "ask for an output that moves")
+        raise _without(
+            symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
+        )
     (low_at, low), (high_at, high) = (
         _best(course, grid, values, rates, sign, lambda offset: float(reach.value(np.array(offset))))
         for sign in (-1.0, 1.0)
@@ -106,7 +109,11 @@ def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
     """The extremes of a follower by its law; where it stands still, the end of the dwell."""
     law, motion = cam.law, cam.motion
     if law.least == law.greatest:
-        raise _without(Symbol("stroke"), f"{cam.follower} does not move", "ask for an output that moves")
+        raise _without(
+            Symbol("stroke"),
+            Phrase("does not move of follower", follower=cam.follower),
+            Phrase("ask for an output that moves"),
+        )
     ends = []
     for lift in (law.least, law.greatest):
         offset = reach.sense * (cam.leaves(lift, int(reach.sense)) - float(reach.start[0])) % math.tau
@@ -149,7 +156,7 @@ def _turning_point(course: Course, sign: float, places: Array, rates: Array) -> 
     return found if abs(found - at) < 0.9 * NEAR else where_true(turned, low, high)
 
 
-def _without(symbol: Symbol, found: str, wanted: str) -> Unsolvable:
+def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
 
 

@@ -16,6 +16,7 @@ from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure, links_of
 from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
+from graphkin.words import Phrase, Wording, about, clauses
 
 __all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]
 
@@ -28,26 +29,24 @@ def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
         if mobility.higher
         else f"F = 3*{mobility.links} - 2*{mobility.lower} = {mobility.value}"
     )
-    wanted = f"a mechanism of mobility {mobility.value} needs as many drivers"
+    wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
     if found > mobility.value > 0:
         names = ", ".join(d.key for d in scene.drivers)
-        wanted = f"too many drivers ({names}): a mechanism of mobility {mobility.value} takes {mobility.value} of them"
+        wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
     idle = [link.name for link in scene.links if link.redundant]
     if idle and mobility.value > found:
-        named = f"links {', '.join(idle)}, marked" if len(idle) > 1 else f"link {idle[0]}, marked"
-        wanted += f"; {named} redundant, is not counted: only a link that repeats what others hold may be marked so"
+        wanted.append(Phrase(about("marked redundant is not counted", idle), links=", ".join(idle)))
     if found == 0:
-        wanted += ": write in the file [driver] with link, angle and omega, or with slide, travel and velocity"
+        wanted.append(Phrase("write in the file driver with"))
     if mobility.value <= 0:
-        wanted = "it is a structure, no driver can move it"
+        wanted = [Phrase("it is a structure no driver can move")]
         loop = _sliding_loop(system)
         if loop:
-            wanted = (
-                f"Gruebler's count fails here, links {', '.join(loop)} slide on each other in a closed loop and "
-                "move all the same; leave one sliding pair of the loop out or give it a turning pair"
-            )
-    drivers = "no driver" if found == 0 else f"{found} driver{'s' if found > 1 else ''}"
-    return Problem("mobility", f"{count}, but {drivers} given", wanted)
+            wanted = [Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop))]
+    drivers = (
+        Phrase("no driver") if found == 0 else Phrase("drivers counted" if found > 1 else "driver counted", count=found)
+    )
+    return Problem(Phrase("status mobility"), Phrase("but given", count=count, drivers=drivers), clauses(wanted))
 
 
 def _sliding_loop(system: Constraints) -> list[str]:
@@ -96,10 +95,12 @@ def _wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[
         return ", ".join(sorted(found, key=lambda n: system.place(("link", n)))) or "none"
 
     loop = _sliding_loop(system)
-    wanted = "each part of the mechanism needs as many constraints as it has coordinates"
+    wanted = Phrase("each part of the mechanism needs as many")
     if loop:
-        wanted = f"links {', '.join(loop)} slide on each other in a closed loop, where one pair only repeats the others"
-    return Problem("mobility", f"links held too much: {names(over)}; links left free: {names(free)}", wanted)
+        wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
+    return Problem(
+        "mobility", Phrase("links held too much links left free", names=names(over), other=names(free)), wanted
+    )
 
 
 def analyse(scene: Mechanism | Structure) -> Structure:
@@ -199,8 +200,8 @@ def _with_starts(structure: Structure) -> Structure:
             continue
         return whole
     names = ", ".join(dict.fromkeys(r.name for g in groups for r in g.rolling))
-    wanted = "write the start of a link that rolls"
-    raise Unsolvable("mobility", Problem(names, "nothing tells where what rolls here stands", wanted))
+    wanted = Phrase("write the start of a link that rolls")
+    raise Unsolvable("mobility", Problem(names, Phrase("nothing tells where what rolls here stands"), wanted))
 
 
 def started(structure: Structure) -> Structure:
@@ -274,16 +275,20 @@ def _found(system: Constraints) -> Iterator[Problem]:
             continue
         for point in ends:
             like = _like(point, unused) or _like(point, [p for p in lonely if p not in link.points])
-            wanted = f"did you mean {like}?" if like else "write the same name in the link that it shall be joined to"
+            wanted = (
+                Phrase("did you mean a point", name=like) if like else Phrase("write the same name in the link that")
+            )
             if like in unused:
-                wanted = f"did you mean {like}, a point of the frame that no link has?"
-            yield Problem(f"links.{link.name}", f"no other link has its point {point}{_hangs(joints)}", wanted)
+                wanted = Phrase("did you mean a point of the frame", name=like)
+            yield Problem(
+                f"links.{link.name}", Phrase("no other link has its point", point=point, link=_hangs(joints)), wanted
+            )
         if not ends and len(joints) == 1 and system.mobility().value > len(scene.drivers):
-            found = f"it hangs on {joints[0]} alone and turns there freely"
-            wanted = "join it to another link too; or leave it out, as a roller whose own turning moves nothing else"
+            found = Phrase("it hangs on alone and turns there freely", joints=joints[0])
+            wanted = Phrase("join it to another link too or leave")
             yield Problem(f"links.{link.name}", found, wanted)
         if not ends and not joints:
-            yield Problem(f"links.{link.name}", "nothing holds it", "name a point of another link, or a guide")
+            yield Problem(f"links.{link.name}", Phrase("nothing holds it"), Phrase("name a point of another link or a"))
 
 
 def _held(system: Constraints, point: str) -> bool:
@@ -299,8 +304,8 @@ def _joints(system: Constraints, link: PlacedLink) -> list[str]:
     return hinges + slides + [cam.key for cam in system.cams if link.name in (cam.link, cam.follower)]
 
 
-def _hangs(joints: Sequence[str]) -> str:
-    return f", so that it hangs on {joints[0]} alone" if joints else ""
+def _hangs(joints: Sequence[str]) -> Wording:
+    return Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
 
 
 def _like(point: str, names: Sequence[str]) -> str:
@@ -320,10 +325,18 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     known = [one.name for one in scene.links]
     slide = next((s.key for s in scene.slidings if s.link == link and s.on == scene.frame.name), None)
     if link not in known:
-        raise CallError(Problem(f"driver {link}", f'there is no link "{link}"', did_you_mean(link, known)))
+        raise CallError(
+            Problem(
+                Phrase("driver of driver", driver=link),
+                Phrase("there is no link", name=link),
+                did_you_mean(link, known),
+            )
+        )
     driver: AnyDriver = AngleDriver(link, scene.frame.name, 0.0, 0.0, 0.0)
     if slide is not None:
         driver = SlideDriver(slide, 0.0, 0.0, 0.0)
     elif not any(p in scene.frame.points for p in scene.by_name[link].points):
-        raise CallError(Problem(f"driver {link}", "neither turns about the frame nor slides on it"))
+        raise CallError(
+            Problem(Phrase("driver of driver", driver=link), Phrase("neither turns about the frame nor slides on"))
+        )
     return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from graphkin.errors import Problem, SceneError
 from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.words import Phrase
 
 __all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "out_of_reach", "pick",
            "ways"]
@@ -78,9 +79,13 @@ def _agree(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[
         raise SceneError(
             Problem(
                 f"drawn.{point}",
-                f"drawn at {_place(scene, scene.drawn[point])}, but what is given for links {', '.join(links)} puts it "
-                f"at {_place(scene, nearest[point])}",
-                "what is given twice must agree to 1e-6 of the size",
+                Phrase(
+                    "drawn at but what is given for links",
+                    place=_place(scene, scene.drawn[point]),
+                    links=", ".join(links),
+                    other=_place(scene, nearest[point]),
+                ),
+                Phrase("what is given twice must agree to 1e-6"),
             )
         )
 
@@ -91,9 +96,9 @@ def _several(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mappin
         places = ", ".join(f"{p} = {_place(scene, z)}" for p, z in candidate.items())
         rows.append(f"  sketch = {{ {places} }}")
     return Problem(
-        f"links {', '.join(links)}",
-        f"this group has {len(candidates)} assemblies here and no sketch says which is meant",
-        "paste one of these at the head of the file:\n" + "\n".join(rows),
+        Phrase("links", links=', '.join(links)),
+        Phrase("this group has assemblies here and no sketch", count=len(candidates)),
+        Phrase("paste one of these at the head of the file", rows="\n".join(rows)),
     )
 
 
@@ -118,9 +123,13 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
     key = scene.drivers[0].key
     ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
     asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
-    reach = " and ".join(shown(key, v) for v in ends)
-    word = "between" if len(ends) > 1 else "up to"
-    return Problem(f"driver {asked}", "the motion does not reach it", f"driver {key} moves {word} {reach}")
+    reach = (
+        shown(key, ends[0])
+        if len(ends) == 1
+        else Phrase("one and other", first=shown(key, ends[0]), second=shown(key, ends[1]))
+    )
+    range_ = Phrase("driver moves between" if len(ends) > 1 else "driver moves up to", driver=key, reach=reach)
+    return Problem(Phrase("driver of driver", driver=asked), Phrase("the motion does not reach it"), range_)
 
 
 def ways(

@@ -28,6 +28,7 @@ from graphkin.structure.model import (
     driver_pair,
 )
 from graphkin.structure.rolling import rolled_by
+from graphkin.words import Phrase
 
 __all__ = ["components", "element_of", "match"]
 
@@ -135,8 +136,8 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
             return Driven(cam.follower, pairs[0], cam)
         if cam.follower in inside or (cam.link in inside and cam.follower in known):
             raise Unsolvable("mobility", Problem(
-                f"cams.{cam.link}", f"link {cam.follower} is not moved by the cam alone",
-                f"drive cam {cam.link}; what else moves hangs on the cam or on its follower"))  # fmt: skip
+                f"cams.{cam.link}", Phrase("link is not moved by the cam alone", follower=cam.follower),
+                Phrase("drive cam what else moves hangs on the", link=cam.link)))  # fmt: skip
     rolling = tuple(r for r in system.relations if _touches(system, r, inside, known))
     real = tuple(m for m in members if m in scene.by_name)
     if rolling:

@@ -15,6 +15,7 @@ from functools import cached_property
 from graphkin.errors import CallError, Problem
 from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn
+from graphkin.words import Phrase
 
 __all__ = ["Arrow", "Loop", "Unknown", "angle_of", "loops_of"]
 
@@ -269,8 +270,8 @@ def _between(structure: Structure, name: str, one: str, two: str) -> list[Arrow]
                 made.append(Arrow(travel.link, travel.vector, ("" if made else start, end) if sign > 0 else
                                   (end, "" if made else start), travel.slide))  # fmt: skip
                 return made if sign > 0 else made[::-1]
-    raise CallError(Problem(f"loops.{name}", f"no link and no guide joins {one} and {two}",
-                            "name the points in the order in which the links follow each other"))  # fmt: skip
+    raise CallError(Problem(f"loops.{name}", Phrase("no link and no guide joins and", name=one, other=two),
+                            Phrase("name the points in the order in which")))  # fmt: skip
 
 
 # -- what they give ----------------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure, links_of
+from graphkin.words import Phrase
 
 __all__ = ["by_drivers_alone", "in_stages", "links_for", "needed", "part_of"]
 
@@ -110,7 +111,7 @@ def links_for(structure: Structure, symbol: Symbol) -> set[str]:
         holders = [n for n, link in structure.links.items() if ref.point in link.points]
         if not holders or (ref.link and ref.link not in structure.links):
             wanted = did_you_mean(ref.point, structure.scene.holders)
-            raise CallError(Problem(str(symbol), f'"{ref}" names no point of a link here', wanted))
+            raise CallError(Problem(str(symbol), Phrase("names no point of a link here", ref=ref), wanted))
         if ref.link:
             found.add(ref.link)
         if not ref.link or ref.point not in structure.links[ref.link].points:

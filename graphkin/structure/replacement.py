@@ -77,13 +77,13 @@ def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex
     )  # fmt: skip
 
 
-def named_with_contact(structure: Structure, dyad: Dyad) -> str:
+def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     """The links of a group, and the contact that one of them stands for: ``contact K of links 1, 2``."""
     inside = {n for body in dyad.bodies for n in body.links}
     contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
     if contact is not None:
-        return f"contact {contact.name} of links {', '.join(contact.links)}"
-    return f"links {', '.join(dyad.links)}"
+        return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
+    return Phrase("links", links=", ".join(dyad.links))
 
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
@@ -151,7 +151,7 @@ def cams_replaced(
     for cam in scene.cams:
         start, turn = cam.beginning, cmath.rect(1.0, turns[cam.link])
         if start is None:
-            said = "the follower does not reach the base circle"
+            said = Phrase("the follower does not reach the base circle")
             raise Unsolvable("not assembled", Problem(f"cams.{cam.link}", said))
         lift = cam.law.at(cam.sense * turns[cam.link])
         course = cam.course(start, lift)
@@ -174,7 +174,7 @@ def cams_replaced(
             continue
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
-            raise Unsolvable("dead point", Problem(f"cams.{cam.link}", "the pitch curve has a cusp at this position"))
+            raise Unsolvable("dead point", Problem(f"cams.{cam.link}", Phrase("the pitch curve has a cusp at this")))
         point = cam.motion.tip if isinstance(cam.motion, SwingingFollower) else next(iter(follower.points), "")
         if not point:
             point = next(names)

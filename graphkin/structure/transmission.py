@@ -23,6 +23,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
+from graphkin.words import Phrase
 
 __all__ = ["TransmissionAngle", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
 
@@ -85,8 +86,8 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
         ways = [_arm(structure, name, point) for name in (a, b)]
         if ways[0] and ways[1]:
             return TransmissionAngle(ways[0], ways[1])
-    wanted = "name two links of one joint, bars or a rod and its slider"
-    raise CallError(Problem(str(symbol), f"links {a} and {b} share no joint at which a force is passed on", wanted))
+    wanted = Phrase("name two links of one joint bars or")
+    raise CallError(Problem(str(symbol), Phrase("links and share no joint at which a", name=a, other=b), wanted))
 
 
 def _arm(structure: Structure, name: str, point: str) -> Way | None:
@@ -127,7 +128,7 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
             if pivot:
                 return TransmissionAngle(bar, ((name, link.points[pivot]), (name, link.points[point])))
     raise CallError(
-        Problem(str(symbol), f"link {name} is driven through no joint of a group of two links", "name a follower")
+        Problem(str(symbol), Phrase("link is driven through no joint of a", name=name), Phrase("name a follower"))
     )
 
 
@@ -156,6 +157,6 @@ def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:
     found = next((s for s in structure.slides if s.key == symbol.pair), None)
     if found is None:
         known = ", ".join(s.key for s in structure.slides)
-        wanted = f"known here: {known}" if known else "nothing slides here"
-        raise CallError(Problem(str(symbol), "there is no such sliding pair", wanted))
+        wanted = Phrase("known here", names=known) if known else Phrase("nothing slides here")
+        raise CallError(Problem(str(symbol), Phrase("there is no such sliding pair"), wanted))
     return found

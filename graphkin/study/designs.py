@@ -16,6 +16,7 @@ from numbers import Real
 from graphkin.errors import CallError, Problem, as_text
 from graphkin.files import OwnTables, Tables, opened, path_of
 from graphkin.scene.written import put
+from graphkin.words import Phrase, from_others
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]
 
@@ -72,39 +73,53 @@ def designs_of(
     CallError : naming every value, key and row that is wrong
     """
     if given is not None and not isinstance(given, Mapping):
-        raise CallError(Problem("designs", f"found {given!r:.60}", 'give values by keys: {"links.1.length": [40, 50]}'))
+        raise CallError(
+            Problem(
+                "designs",
+                Phrase("found value", value=f"{given!r:.60}"),
+                Phrase("give values by keys links.1.length 40 50"),
+            )
+        )
     problems: list[Problem] = []
     grid: dict[str, tuple[Value, ...]] = {}
     for key, values in ((as_text("designs", key), values) for key, values in (given or {}).items()):
         try:
             grid[key] = _values(values)
         except (TypeError, OverflowError):
-            problems.append(Problem(f"--set {key}", f"found {values!r:.60}", "give a number, or several"))
+            problems.append(
+                Problem(
+                    f"--set {key}", Phrase("found value", value=f"{values!r:.60}"), Phrase("give a number or several")
+                )
+            )
         except ValueError as error:
-            problems.append(Problem(f"--set {key}", str(error), "write KEY=40:60:21, KEY=40,50,60 or KEY=50"))
+            problems.append(Problem(f"--set {key}", str(error), Phrase("write key 40 60 21 key 40 50")))
     rows: tuple[tuple[Value, ...], ...] | None = None
     keys: tuple[str, ...] = ()
     if table is not None:
         keys, rows = read_designs(table)
         twice = [key for key in grid if key in keys]
-        problems += [Problem(f"--set {key}", f"is a column of {table} too", "give it once") for key in twice]
+        problems += [
+            Problem(f"--set {key}", Phrase("is a column of too", table=table), Phrase("give it once")) for key in twice
+        ]
     if problems:
         raise CallError(*problems)
     made = Designs((*keys, *grid), tuple(grid.values()), rows)
     if len(made) > MOST_DESIGNS:
-        raise CallError(Problem("designs", f"{len(made)} of them", f"at most {MOST_DESIGNS} are possible"))
+        raise CallError(
+            Problem("designs", Phrase("of them", count=len(made)), Phrase("at most are possible", limit=MOST_DESIGNS))
+        )
     return made
 
 
 def _values(given: str | Sequence[Value] | Value) -> tuple[Value, ...]:
     if isinstance(given, bool):
-        raise ValueError(f"found {given}")
+        raise ValueError(Phrase("found value", value=given))
     if isinstance(given, Real):  # those of NumPy too
         return (_finite(float(given)),)
     if not isinstance(given, str):
         values = tuple(v if isinstance(v, str) else _finite(float(v)) for v in list(given))  # type: ignore[arg-type]
         if not values:
-            raise ValueError("there are no values")
+            raise ValueError(Phrase("there are no values"))
         return values
     text = given.strip()
     parts = text.split(":")
@@ -112,22 +127,22 @@ def _values(given: str | Sequence[Value] | Value) -> tuple[Value, ...]:
         try:
             low, high, n = _finite(float(parts[0])), _finite(float(parts[1])), int(parts[2])
         except ValueError:
-            raise ValueError(f'"{text}" is no grid') from None
+            raise ValueError(Phrase("is no grid", text=text)) from None
         if not 1 <= n <= MOST_DESIGNS:
-            raise ValueError(f"a grid of {n} values")
+            raise ValueError(Phrase("a grid of values", number=n))
         if n == 1:
             return (low,)
         # both ends exactly, and the same numbers on every machine
         return tuple(low + (high - low) * k / (n - 1) if k < n - 1 else high for k in range(n))
     if not text:
-        raise ValueError("there is no value")
+        raise ValueError(Phrase("there is no value"))
     return tuple(_value(part) for part in text.split(","))
 
 
 def _value(text: str) -> Value:
     text = text.strip()
     if not text:
-        raise ValueError("a value is empty")
+        raise ValueError(Phrase("a value is empty"))
     try:
         return _finite(float(text))
     except ValueError:
@@ -138,7 +153,7 @@ def _value(text: str) -> Value:
 
 def _finite(value: float) -> float:
     if not math.isfinite(value):
-        raise ValueError(f"{value} is no number of a scene")
+        raise ValueError(Phrase("is no number of a scene", value=value))
     return value
 
 
@@ -150,26 +165,38 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
             text = io.TextIOWrapper(stream, encoding="utf-8-sig", newline="")
             lines = list(islice(csv.reader(text), MOST_ROWS + 2))
     except OSError as error:
-        raise CallError(Problem(str(shown), f"cannot be read: {error.strerror}")) from None
+        raise CallError(
+            Problem(str(shown), Phrase("cannot be read", reason=from_others(error.strerror or str(error))))
+        ) from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise CallError(Problem(str(shown), f"is no CSV file: {error}")) from None
+        raise CallError(Problem(str(shown), Phrase("is no csv file", error=error))) from None
     lines = [line for line in lines if any(cell.strip() for cell in line)]
     if len(lines) < 2:
-        raise CallError(Problem(str(shown), "holds no designs", "the first row names keys (links.1.length), the others "
-                                                                "give values"))
+        raise CallError(
+            Problem(
+                str(shown), Phrase("holds no designs"), Phrase("the first row names keys links.1.length the others")
+            )
+        )
     if len(lines) > MOST_ROWS + 1:
-        raise CallError(Problem(str(shown), f"holds more than {MOST_ROWS} designs"))
+        raise CallError(Problem(str(shown), Phrase("holds more than designs", most=MOST_ROWS)))
     keys = tuple(cell.strip() for cell in lines[0])
-    problems = [Problem(f"{shown}, row 1", f'"{k}" stands twice') for i, k in enumerate(keys) if k in keys[:i]]
+    problems = [
+        Problem(f"{shown}, row 1", Phrase("stands twice of key", key=k)) for i, k in enumerate(keys) if k in keys[:i]
+    ]
     rows: list[tuple[Value, ...]] = []
     for number, line in enumerate(lines[1:], start=2):
         if len(line) != len(keys):
-            problems.append(Problem(f"{shown}, row {number}", f"has {len(line)} cells, the head has {len(keys)}"))
+            problems.append(
+                Problem(
+                    Phrase("row", name=shown, number=number),
+                    Phrase("has cells the head has", count=len(line), other=len(keys)),
+                )
+            )
             continue
         try:
             rows.append(tuple(_value(cell) for cell in line))
         except ValueError as error:
-            problems.append(Problem(f"{shown}, row {number}", str(error)))
+            problems.append(Problem(Phrase("row", name=shown, number=number), str(error)))
     if problems:
         raise CallError(*problems[:20])
     return keys, tuple(rows)

@@ -24,6 +24,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver import DriverRange, Motion
 from graphkin.table import Column, Table
+from graphkin.words import Phrase
 
 __all__ = ["Chords", "Ordinate", "Way", "graphical", "known_ordinate"]
 
@@ -139,9 +140,11 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
         return _of_point(point, axis), "-va".index(kind)
     known = [f"{k}_{n}" for n in links for k in ("theta", "omega", "alpha")]
     known += [f"s_{p.key}" for p in scene.slidings] + [f"x_{p}" for p in scene.holders]
-    usual = "name an angle, a travel, a coordinate, or a rate of one: theta_3, omega_3, s_6/1, x_C"
+    usual = Phrase("name an angle a travel a coordinate or")
     wanted = did_you_mean(name, known) or usual
-    raise CallError(Problem(f"quantity {name:.60}", "is no quantity with a sign here", wanted))
+    raise CallError(
+        Problem(Phrase("quantity of name", name=f"{name:.60}"), Phrase("is no quantity with a sign here"), wanted)
+    )
 
 
 def _of_link(link: str) -> tuple[Ordinate, ...]:
@@ -219,12 +222,20 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Ordinate, Ord
     chain, k = _chain_of(scene, name)
     wanted = k + (1 if way == "derivative" else -1)
     if not 0 <= wanted < len(chain):
-        says = "has no further rate here" if way == "derivative" else "is a position: integrate a rate of it"
-        raise CallError(Problem(f"{way} of {name}", says, f"one of {', '.join(o.name for o in chain)}"))
+        says = (
+            Phrase("has no further rate here")
+            if way == "derivative"
+            else Phrase("is a position integrate a rate of it")
+        )
+        raise CallError(Problem(f"{way} of {name}", says, Phrase("one of", names=', '.join(o.name for o in chain))))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:
         raise CallError(
-            Problem(f"{way} of {name}", "the driver does not move evenly", "give it a rate, and no second rate")
+            Problem(
+                f"{way} of {name}",
+                Phrase("the driver does not move evenly"),
+                Phrase("give it a rate and no second rate"),
+            )
         )
     return chain[k], chain[wanted]
 
@@ -287,6 +298,6 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
         except GraphkinError as error:
             raise Unsolvable("not drawn", *error.problems) from None
         if value is None:
-            raise Unsolvable("not drawn", Problem(given.name, "cannot be measured on the drawing of this mechanism"))
+            raise Unsolvable("not drawn", Problem(given.name, Phrase("cannot be measured on the drawing of this")))
         found.append(value)
     return np.array(found)

@@ -14,6 +14,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.solver.pose import Array
 from graphkin.structure import Structure
 from graphkin.study.equations import Arithmetic, Equations, Solution
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpf
@@ -39,7 +40,7 @@ def context() -> MPContext:
         from mpmath import MPContext
     except ImportError:
         raise CallError(
-            Problem("study", "the 50-digit reference needs mpmath", "pip install 'graphkin[study]'")
+            Problem("study", Phrase("the 50-digit reference needs mpmath"), "pip install 'graphkin[study]'")
         ) from None
     mp = MPContext()
     mp.dps = DIGITS
@@ -77,7 +78,7 @@ def refined(
         at = new
         if moved < CLOSED:
             return equations.rates(at, values, first, second)
-    raise ArithmeticError("the reference does not converge")
+    raise ArithmeticError(Phrase("the reference does not converge"))
 
 
 def _eliminated(matrix: Array, right: Array) -> Array:

@@ -42,6 +42,7 @@ from graphkin.study.quantities import (
     symbol_quantity,
 )
 from graphkin.table import Column, Table, have
+from graphkin.words import Wording
 
 __all__ = [
     "BLOCK",
@@ -57,7 +58,7 @@ __all__ = [
 ]
 
 Parts = tuple[tuple[Array, ...], ...]
-Words = Sequence[str] | Array
+Words = Sequence[Wording] | Array
 
 BLOCK = 16384
 """Positions that are computed and written together, about."""
@@ -182,7 +183,7 @@ def driver_columns(scene: Mechanism, values: Array) -> list[Column]:
 def word_column(name: str, words: Words, n: int) -> Column:
     """A column of words; a single one stands in every row."""
     values = np.empty(n, dtype=object)
-    values[:] = words[0] if len(words) == 1 else words
+    values[:] = str(words[0]) if len(words) == 1 else [str(word) for word in words]
     return Column(name, values)
 
 

@@ -12,6 +12,7 @@ from graphkin.jobs import Checkpoints, Progress, Workers
 from graphkin.study.sweeps import Found, Outcome, PieceResult, Sweep, make
 from graphkin.table import Table
 from graphkin.table.csv_files import parquet_of_csv
+from graphkin.words import Phrase, from_others
 
 __all__ = ["collect", "designs_table", "write_tables"]
 
@@ -60,7 +61,11 @@ def write_tables(
             return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
     except OSError as error:
         raise CallError(
-            Problem(str(folder), f"cannot be written: {error.strerror or error}", "give another folder with -o")
+            Problem(
+                str(folder),
+                Phrase("cannot be written", reason=from_others(error.strerror or str(error))),
+                Phrase("give another folder with o"),
+            )
         ) from None
 
 
@@ -73,7 +78,7 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
         for piece in map(points.load, range(sweep.pieces)):
             if piece is None:
                 wanted = "run the same command again; the disk may be failing"
-                raise CallError(Problem(str(points.place), "a piece was damaged while the table was made", wanted))
+                raise CallError(Problem(str(points.place), Phrase("a piece was damaged while the table was"), wanted))
             piece.copy(out)
             facts.append(piece.facts)
     found = _found(

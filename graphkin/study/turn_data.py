@@ -68,7 +68,7 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
             for r in turn.ranges
         ],
         "ranges_not_searched_for": list(turn.not_searched),
-        "why": reach.limit_why,
+        "why": str(reach.limit_why),
         "mechanisms": [
             {
                 "kind": loop.kind,

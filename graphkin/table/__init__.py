@@ -39,6 +39,7 @@ from graphkin.table.cells import (
     shortest,
     words_to_arrow,
 )
+from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
     import pandas
@@ -142,9 +143,9 @@ class Column:
         return list(map(str, values.tolist()))
 
 
-def text_column(name: str, words: Iterable[str], form: str = "") -> Column:
-    """A column of words."""
-    return Column(name, np.array(list(words), dtype=object), form=form)
+def text_column(name: str, words: Iterable[object], form: str = "") -> Column:
+    """A column of words, English where they are phrases."""
+    return Column(name, np.array([str(word) for word in words], dtype=object), form=form)
 
 
 @dataclass(frozen=True)
@@ -210,7 +211,9 @@ class Table:
         for column in self.columns:
             if name in (column.name, column.head):
                 return column
-        raise CallError(Problem(f'column "{name}"', "there is none", did_you_mean(name, self.names)))
+        raise CallError(
+            Problem(Phrase("column of name", name=name), Phrase("there is none"), did_you_mean(name, self.names))
+        )
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -357,7 +360,7 @@ class Table:
                 along[name] = np.unique(own)
                 left //= len(along[name])
             if left != 1:
-                raise CallError(Problem("table", f"is no grid of {', '.join(self.index)}"))
+                raise CallError(Problem("table", Phrase("is no grid of", shape=', '.join(self.index))))
         else:
             along["row"] = np.arange(len(self))
         shape = tuple(len(along[name]) for name in kept)
@@ -381,7 +384,11 @@ class Table:
         target = path_of(path)
         kind = target.suffix.lower()
         if kind not in FILES:
-            raise CallError(Problem(str(path), f'"{kind}" is no table', f"known here: {', '.join(FILES)}"))
+            raise CallError(
+                Problem(
+                    str(path), Phrase("is no table of kind", kind=kind), Phrase("known here", names=", ".join(FILES))
+                )
+            )
         arrow = self.to_arrow() if kind == ".parquet" else None
         try:
             with whole_file(target) as out:
@@ -394,7 +401,9 @@ class Table:
                 else:
                     import_module("pyarrow.parquet").write_table(arrow, out, compression="zstd")
         except OSError as error:
-            raise CallError(Problem(str(path), f"cannot be written: {error.strerror or error}")) from None
+            raise CallError(
+                Problem(str(path), Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
+            ) from None
         return target
 
 
@@ -402,7 +411,9 @@ def _library(name: str) -> Any:
     try:
         return import_module(name)
     except ImportError:
-        raise CallError(Problem(name, "is not installed", f"install it with pip install {name}")) from None
+        raise CallError(
+            Problem(name, Phrase("is not installed"), Phrase("install it with pip install", name=name))
+        ) from None
 
 
 def _facts(column: Column) -> dict[str, str]:

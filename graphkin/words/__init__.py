@@ -7,12 +7,18 @@ same keys, and every command knows it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, reduce
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
-__all__ = ["BOTH", "LANGUAGES", "Phrase", "about", "area", "class_of", "languages", "listed", "say", "word"]
+if TYPE_CHECKING:
+    import re
+
+__all__ = [
+    "BOTH", "LANGUAGES", "Phrase", "Wording", "about", "alternatives", "area", "class_of", "clauses", "from_others",
+    "languages", "listed", "say", "word",
+]  # fmt: skip
 
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -39,22 +45,56 @@ def area(name: str, language: str = "en") -> Mapping[str, str]:
     return _areas(language)[name]
 
 
-@dataclass(frozen=True)
 class Phrase:
-    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases)."""
+    """A sentence to be: its key in the table and what stands in its gaps (names, symbols, numbers, phrases).
 
-    key: str
-    args: tuple[object, ...] = ()
+    The gaps are named (``{link}`` in the table), or counted where ``args`` fill them.  As a text it is English.
+
+    >>> str(Phrase("link is the frame", name="4"))
+    'link 4 is the frame'
+    """
+
+    __slots__ = ("args", "gaps", "key")
+
+    def __init__(self, key: str, args: tuple[object, ...] = (), /, **gaps: object) -> None:
+        self.key, self.args, self.gaps = key, args, gaps
+
+    def __repr__(self) -> str:
+        filled = [
+            repr(self.key),
+            *([repr(self.args)] if self.args else []),
+            *(f"{k}={v!r}" for k, v in self.gaps.items()),
+        ]
+        return f"Phrase({', '.join(filled)})"
+
+    def __str__(self) -> str:
+        return say(self)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Phrase) and repr(self) == repr(other)
+
+    def __hash__(self) -> int:
+        return hash((self.key, self.args, tuple(self.gaps.items())))
 
 
-def say(phrase: Phrase, language: str = "en", show: Callable[[object], str] = str) -> str:
+Wording: TypeAlias = Phrase | str
+"""What is said in the reader's language, or the same in every one: a name, a number, a line of a file."""
+
+
+def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = str) -> str:
     """The sentence in a language.  ``show`` writes each argument (plain text, or markup of a convention).
 
     >>> say(Phrase("points", ("2", "B, C")))
     'mark B, C on link 2'
     """
-    parts = (say(a, language, show) if isinstance(a, Phrase) else show(a) for a in phrase.args)
-    return _table(language)[phrase.key].format(*parts)
+    if isinstance(phrase, str):
+        return phrase
+
+    def filled(gap: object) -> str:
+        return say(gap, language, show) if isinstance(gap, Phrase) else show(gap)
+
+    named = {name: filled(gap) for name, gap in phrase.gaps.items()}
+    return _table(language)[phrase.key].format(*map(filled, phrase.args), **named)
 
 
 def about(key: str, names: Sequence[object]) -> str:
@@ -69,6 +109,60 @@ def listed(names: Sequence[object]) -> object:
     'mark B, C, D on link 2'
     """
     return reduce(lambda one, other: Phrase("listed", (one, other)), names)
+
+
+def clauses(parts: Sequence[Wording]) -> Wording:
+    """Clauses, one at least, with the marks of the language between them.
+
+    >>> say(clauses(["known only to me", Phrase("give it once")]))
+    'known only to me; give it once'
+    """
+    return reduce(lambda one, other: Phrase("clauses", first=one, second=other), parts)
+
+
+def alternatives(names: Iterable[str]) -> Wording:
+    """Names, one at least, of which one is chosen.
+
+    >>> say(alternatives(["2", "3"]))
+    '2 or 3'
+    """
+    chosen: Iterable[Wording] = names
+    return reduce(lambda one, other: Phrase("one or other", first=one, second=other), chosen)
+
+
+def from_others(sentence: Wording) -> Wording:
+    """A sentence of another program (the operating system, the TOML parser, the command line), or the description of a
+    file's key, known by its words in the table of English; one that is not there stays as it is.
+
+    >>> say(from_others("No such command 'drw'."), "zh")
+    '没有命令“drw”'
+    """
+    if isinstance(sentence, Phrase):
+        return sentence
+    if key := _descriptions().get(sentence):
+        return Phrase(key)
+    for key, pattern in _sentences_of_others():
+        if match := pattern.fullmatch(sentence):
+            return Phrase(key, **{name: from_others(gap) for name, gap in match.groupdict().items()})
+    return sentence
+
+
+@cache
+def _descriptions() -> Mapping[str, str]:
+    """The keys of the descriptions of a file's keys, by their English."""
+    return {text.format(): key for key, text in area("keys").items()}
+
+
+@cache
+def _sentences_of_others() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    import re
+
+    def pattern(text: str) -> re.Pattern[str]:
+        parts = enumerate(re.split(r"\{(\w+)\}", text))
+        written = (f"(?P<{part}>.+?)" if i % 2 else re.escape(part.format()) for i, part in parts)
+        return re.compile("".join(written), re.DOTALL)
+
+    return tuple((key, pattern(text)) for key, text in area("others").items())
 
 
 def class_of(order: int) -> Phrase | str:

@@ -145,7 +145,7 @@ def what_gives_way(seed: int, drawn: bool) -> list[str]:
                     continue
     except graphkin.GraphkinError as error:
         # what would be right may be lines to be pasted
-        if not error.problems or "\n" in "".join(p.where + p.found for p in error.problems):
+        if not error.problems or "\n" in "".join(f"{p.where}{p.found}" for p in error.problems):
             found.append(f"seed {seed}: no sentence: {error!r:.200}")
     except Exception as error:
         at = error.__traceback__

@@ -273,7 +273,7 @@ def test_a_point_taken_out_for_a_wrong_number_is_not_reported_as_unknown() -> No
 def test_the_frame_is_not_offered_where_a_link_is_to_be_driven() -> None:
     with pytest.raises(SceneError) as error:
         mechanism_of_text(changed(FOUR_BAR, ('link = "1"', 'link = "7"')), "four-bar")
-    assert ["known here: 1, 2, 3"] == [problem.wanted for problem in error.value.problems]
+    assert ["known here: 1, 2, 3"] == [str(problem.wanted) for problem in error.value.problems]
 
 
 def test_a_wrong_angle_of_the_driver_is_not_reported_as_missing() -> None:

@@ -110,7 +110,7 @@ def test_dead_points_have_fifty_digits() -> None:
 
 def test_a_dead_position_tells_where_the_dead_point_lies() -> None:
     motion = solve(mechanism_of_text(scenes.PARALLELOGRAM, "scene"), at={"1": math.radians(180)})
-    assert motion.why[0].endswith("it lies at 1 = 180 deg, 0 deg away")
+    assert str(motion.why[0]).endswith("it lies at 1 = 180 deg, 0 deg away")
 
 
 def test_every_public_function_takes_such_a_scene() -> None:

@@ -25,6 +25,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide
+from graphkin.words import Phrase
 
 __all__ = ["CutFree", "HeadToTail", "dead_point"]
 
@@ -33,8 +34,11 @@ PARALLEL = 1e-12
 
 def dead_point(links: Sequence[str]) -> Unsolvable:
     """What is said where the lines that should close a polygon are parallel."""
-    found = "the balance does no work in this position, or the forces of these links grow without bound"
-    return Unsolvable("dead point", Problem(f"links {', '.join(links)}", found, "move the driver off this position"))
+    found = Phrase("the balance does no work in this position or")
+    return Unsolvable(
+        "dead point",
+        Problem(Phrase("links", links=", ".join(links)), found, Phrase("move the driver off this position")),
+    )
 
 
 @dataclass

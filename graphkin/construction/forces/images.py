@@ -11,6 +11,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
+from graphkin.words import Phrase
 
 __all__ = ["Images"]
 
@@ -91,7 +92,9 @@ class Images:
             return 0j
         known = self._known(order, link)
         if not known:
-            raise Unsolvable("not drawn", Problem(f"link {link}", "no point of it stands in the polygons"))
+            raise Unsolvable(
+                "not drawn", Problem(Phrase("link of name", name=link), Phrase("no point of it stands in the polygons"))
+            )
         start, end = min(known, key=lambda one: abs(one[0] - at))
         if abs(start - at) <= self._tiny:
             return end

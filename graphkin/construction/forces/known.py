@@ -23,6 +23,7 @@ from graphkin.scene.loads import LinkMass, LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
+from graphkin.words import Phrase
 
 __all__ = ["acting_loads", "from_outside", "inertias", "strokes_of_loads"]
 
@@ -169,8 +170,10 @@ def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Acti
     )
     size = abs(two - one)
     if size <= COINCIDE * images.sheet.scene.size * images.mm:
-        found = "its two points coincide in this position, so that its force has no line"
-        raise Unsolvable("dead point", Problem(f"springs.{spring.name}", found, "move the driver off this position"))
+        found = Phrase("its two points coincide in this position so")
+        raise Unsolvable(
+            "dead point", Problem(f"springs.{spring.name}", found, Phrase("move the driver off this position"))
+        )
     length = hand.read(size) / images.mm
     force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
     symbol = Symbol("P", name=spring.name)

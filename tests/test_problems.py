@@ -1,0 +1,174 @@
+"""What is wrong, in the language that is asked for: each phrase has its words in every table, names are kept."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import string
+from collections.abc import Iterator
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+import graphkin
+from graphkin.api.report_text import report_text
+from graphkin.errors import CallError, Problem
+from graphkin.scene import reading
+from graphkin.scene.design_file import KINDS
+from graphkin.scene.file_table import keys_of
+from graphkin.scene.source import library_text
+from graphkin.words import Phrase, area, from_others, say
+from tests.command import run
+
+ROOMS = Path(graphkin.__file__).parent
+ENGLISH = {key: text for name in ("problems", "others") for key, text in area(name).items()}
+
+
+def phrases_made() -> Iterator[tuple[str, str, frozenset[str]]]:
+    """Where a phrase with named gaps is made, its key, and the gaps that are filled there."""
+    for path in sorted(ROOMS.rglob("*.py")):
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(call, ast.Call) and getattr(call.func, "id", "") == "Phrase" and call.args):
+                continue
+            key = call.args[0]
+            if isinstance(key, ast.Constant) and len(call.args) == 1 and None not in {k.arg for k in call.keywords}:
+                yield f"{path.name}:{call.lineno}", key.value, frozenset(k.arg for k in call.keywords)
+
+
+def gaps(text: str) -> frozenset[str]:
+    return frozenset(name for _, name, _, _ in string.Formatter().parse(text) if name is not None)
+
+
+def test_every_phrase_is_made_with_the_gaps_of_its_table():
+    made = [(where, key, filled) for where, key, filled in phrases_made() if filled or key in ENGLISH]
+    assert 1000 < len(made)
+    assert [] == [(where, key) for where, key, filled in made if filled != gaps(ENGLISH.get(key, "{unknown}"))]
+
+
+def test_every_phrase_of_a_problem_is_made_somewhere():
+    written = "".join(path.read_text(encoding="utf-8") for path in ROOMS.rglob("*.py"))
+    keys = {key.removesuffix(" one") for key in area("problems") if not key.startswith(("noun ", "status "))}
+    assert [] == sorted(key for key in keys if f'"{key}"' not in written and f'"{key} one"' not in written)
+
+
+def test_every_problem_has_other_words_in_chinese():
+    neutral = re.compile(r'"[^"]*"|\{\w+\}|pip install.*')
+    same = [key for key, text in area("problems", "zh").items() if text == area("problems")[key]]
+    assert [] == [key for key in same if re.search("[a-z]{3}", neutral.sub("", ENGLISH[key]))]
+
+
+def test_what_a_key_is_about_has_chinese():
+    about = {
+        reading.clause_of(key.metadata.get("description", "")) for _, table in reading._TABLES for key in keys_of(table)
+    }
+    about |= {key.metadata.get("description", "") for design in KINDS.values() for key in fields(design)}
+    assert [] == sorted(text for text in about if text and isinstance(from_others(text), str))
+
+
+@pytest.mark.parametrize(("chinese", "sentence"), [
+    ("没有命令“drw”；是否指 'draw'？", "No such command 'drw'. Did you mean 'draw'?"),
+    ("没有这个文件或文件夹", "No such file or directory"),
+    ("a sentence that no table has", "a sentence that no table has"),
+])  # fmt: skip
+def test_sentences_of_other_programs_are_known_by_their_words(chinese, sentence):
+    assert chinese == say(from_others(sentence), "zh")
+
+
+@pytest.mark.parametrize(("chinese", "english", "problem"), [
+    ("links.2.length：读到 -5，长度为负；长度应为正",
+     "links.2.length: found -5, a negative length; a length must be positive",
+     Problem("links.2.length", Phrase("found a negative", value="-5", noun=Phrase("noun length")),
+             Phrase("a must be positive", noun=Phrase("noun length")))),
+    ("构件 2, 3：没有任何约束", "links 2, 3: nothing holds it",
+     Problem(Phrase("links", links="2, 3"), Phrase("nothing holds it"))),
+    ("name：the links of a title", "name: the links of a title", Problem("name", "the links of a title")),
+])  # fmt: skip
+def test_a_problem_is_said_in_each_language_with_what_stands_in_it(chinese, english, problem):
+    assert (chinese, english, english) == (problem.text("zh"), problem.text("en"), str(problem))
+
+
+def test_an_error_says_each_of_its_problems_in_a_language_and_is_english_itself():
+    error = CallError(Problem("a", Phrase("is missing")), Problem("b", Phrase("is missing"), Phrase("give it once")))
+    assert "a：没有给出\nb：没有给出；请只给一次" == error.text("zh")
+    assert "a: is missing\nb: is missing; give it once" == str(error)
+
+
+def test_lines_to_be_pasted_are_kept():
+    pasted = Phrase("paste one of these at the head of the file", rows="C = [1, 2]")
+    problem = Problem("x", Phrase("nothing holds it"), pasted)
+    assert "x：没有任何约束；请把以下之一粘贴到文件开头：\nC = [1, 2]" == problem.text("zh")
+
+
+@pytest.fixture(scope="module")
+def broken(tmp_path_factory) -> str:
+    path = tmp_path_factory.mktemp("scenes") / "broken.toml"
+    path.write_text(
+        'title = "x"\n[frame]\nname = "4"\npoints = { A = [0, 0] }\n[links.1]\npoints = ["A", "B"]\nlength = -5\n'
+        '[links.2]\npoints = ["B", "C"]\nlenght = 4\n[driver]\nlink = "9"\nomega = 1\n',
+        encoding="utf-8",
+    )
+    return str(path)
+
+
+def test_each_problem_of_a_file_is_said_in_chinese_on_a_line_of_its_own(broken):
+    done = run("check", broken, "--lang", "zh")
+    assert (2, "", [
+        "graphkin: links.2.lenght：没有这个键；是否指“length”？",
+        "graphkin: links.1.length：读到 -5，长度为负；长度应为正",
+        "graphkin: driver.link：没有构件“9”；可用的有：1, 2",
+    ]) == (done.returncode, done.stdout, done.stderr.splitlines())  # fmt: skip
+
+
+def test_in_both_languages_the_english_lines_stand_first(broken):
+    done, english = run("draw", broken, "--lang=both"), run("draw", broken)
+    lines = done.stderr.splitlines()
+    assert (2, english.stderr.splitlines(), 6) == (done.returncode, lines[:3], len(lines))
+
+
+@pytest.mark.parametrize(("status", "said", "call"), [
+    (3, "原动件 1/4 位于 270 mm：不能装配：构件 2, 3 在 1/4 = 200 mm 处到达运动的尽头；运动范围从 -200 mm 到 200 mm",
+     ("check", "elliptic-trammel", "--at", "270")),
+    (2, "缺少参数“SCENE”", ("draw",)),
+    (2, "没有命令“drw”；是否指 'draw'？", ("drw",)),
+    (2, "没有选项 --positionz；是否指 --positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),
+])  # fmt: skip
+def test_a_call_is_refused_in_chinese_with_the_same_status(status, said, call):
+    done = run(*call, "--lang", "zh")
+    assert (status, f"graphkin: {said}\n") == (done.returncode, done.stderr)
+
+
+def test_what_is_printed_for_programs_says_the_same_in_every_language():
+    call = ("solve", "elliptic-trammel", "--at", "270", "--json")
+    english, chinese = run(*call), run(*call, "--lang", "zh")
+    assert json.loads(english.stdout) == json.loads(chinese.stdout)
+
+
+@pytest.mark.parametrize("name", ["scissor-lift", "shaper-scheme-2", "gears-epicyclic"])
+def test_a_report_in_chinese_has_no_english_in_its_steps_and_equations(name):
+    text = report_text(graphkin.check(name), "zh")
+    assert [] == re.findall(r"\b(?:seen|from|given|the|of|on|link|links)\b", text)
+
+
+ENGLISH_WORDS = re.compile(r"[a-z]{3,} [a-z]{2,}")
+
+
+def test_a_scene_without_a_driver_is_refused_in_chinese(tmp_path):
+    text = re.sub(r"\[driver\][^\[]*", "", library_text("sixbar-420rpm"))
+    (tmp_path / "still.toml").write_text(text, encoding="utf-8")
+    for command in ("check", "explain"):
+        done = run(command, str(tmp_path / "still.toml"), "--lang", "zh")
+        assert (2, [
+            "graphkin: 自由度：F = 3*5 - 2*7 = 1，但没有给原动件；自由度为 1 的机构需要同样多的原动件；"
+            "请在文件中写 [driver]，用 link、angle 和 omega，或用 slide、travel 和 velocity",
+        ]) == (done.returncode, done.stderr.splitlines())  # fmt: skip
+
+
+def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_path):
+    solved = run("solve", "sixbar-AE70", "--at", "100", "--lang", "zh")
+    swept = run("sweep", "sixbar-420rpm", "--set", "links.2.length=0.01,0.34", "-o", str(tmp_path), "--lang", "zh")
+    assert (3, 0) == (solved.returncode, swept.returncode)
+    assert "\n不能装配：构件 4, 5" in solved.stdout
+    assert "2 个方案：1 不能装配, 1 可解\n" in swept.stdout
+    assert [None, None] == [ENGLISH_WORDS.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
