@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import base64
 import io
-import math
 import tempfile
 import zipfile
 import zlib
@@ -16,13 +15,18 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
+from typing import Annotated, Any
 
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from graphkin.api.arguments import known_words
 from graphkin.api.drawn import FIGURES
 from graphkin.board import building, pictures
 from graphkin.board.moving import pulled
-from graphkin.board.pictures import Message
+from graphkin.board.pictures import FigureOptions
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
+from graphkin.construction.sheet import Scales
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -69,7 +73,10 @@ def answer(desk: Desk, message: object) -> Answer:
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
-        return {**head, "ok": True, **QUESTIONS[name](desk, message)}
+        form, told = QUESTIONS[name]
+        return {**head, "ok": True, **told(desk, form.model_validate(dict(message)))}
+    except ValidationError as error:
+        return {**head, "ok": False, **_problems(desk, _refused(error), message)}
     except GraphkinError as error:
         return {**head, "ok": False, **_problems(desk, error, message)}
     except (RecursionError, MemoryError, OverflowError):
@@ -118,94 +125,152 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
 # -- the questions --------------------------------------------------------------------------------------------------
 
 
-def _text(message: Message) -> str:
-    return building.checked_text(message.get("text"))
+class Asked(BaseModel):
+    """A message of the page.  What is left out or null is as the page begins."""
+
+    model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
+
+    language: str | None = None
+
+    @property
+    def spoken(self) -> str:
+        """The language of the answer, English where the message does not say."""
+        return self.language if self.language in LANGUAGES else LANGUAGES[0]
 
 
-def _name(message: Message) -> str:
-    name = message.get("name")
-    return name if isinstance(name, str) else ""
+class OfFile(Asked):
+    name: str | None = None
+    mark: str | None = None
 
 
-def _scene(desk: Desk, message: Message) -> Mechanism:
-    return pictures.scene_of(_text(message), safe_name(_name(message).removesuffix(".toml")), desk.shelf.folder)
+class OfText(OfFile):
+    text: str
 
 
-def _at(message: Message) -> dict[str, float] | None:
-    at = message.get("at")
-    if at is None:
-        return None
-    if not isinstance(at, Mapping) or not all(_finite(v) for v in at.values()):
-        raise CallError(
-            Problem("at", Phrase("found value", value=f"{at!r:.60}"), Phrase("give a number for each driver"))
-        )
-    return {str(key): float(value) for key, value in at.items()}
+class OfScene(OfText):
+    """A scene at values of its drivers, with wishes for its figures."""
+
+    at: dict[str, float] | None = None
+    figures: list[str] | None = None
+    convention: str | None = None
+    instrument: str | None = None
+    seed: int | None = None
+    scales: Annotated[list[Annotated[float, Field(gt=0)]], Field(min_length=3, max_length=3)] | None = None
+
+    def scene(self, desk: Desk) -> Mechanism:
+        return pictures.scene_of(self.text, safe_name((self.name or "").removesuffix(".toml")), desk.shelf.folder)
+
+    @property
+    def options(self) -> FigureOptions:
+        """Raises CallError for a language, a convention or an instrument that there is not."""
+        language, convention, instrument = self.language or None, self.convention or None, self.instrument or "exact"
+        known_words(language=language, convention=convention, instrument=instrument)
+        figures = FigureOptions.figures if self.figures is None else tuple(self.figures)
+        scales = Scales(*self.scales) if self.scales else None
+        return FigureOptions(figures, language, convention, instrument, self.seed or 0, scales)
 
 
-def _finite(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+class Show(OfScene):
+    quick: bool | None = None
 
 
-def _show(desk: Desk, message: Message) -> Answer:
-    scene = _scene(desk, message)
-    options = pictures.FigureOptions.of(message)
-    quick = message.get("quick") is True
-    told = pictures.shown(scene, _at(message), options, quick)
-    return told if quick else {**told, "form": parsed(_text(message))}
+class Pull(Show):
+    point: str
+    x: float
+    y: float
+    lengths: bool | None = None
+    final: bool | None = None
 
 
-def _pull(desk: Desk, message: Message) -> Answer:
+class Change(OfText):
+    changes: dict[str, Any]
+
+
+class Build(OfText):
+    step: dict[str, Any]
+
+
+class Complete(OfText):
+    line: int
+    column: int
+
+
+class Open(OfFile):
+    link: str | None = None
+    new: str | None = None
+
+
+class Diagrams(OfScene):
+    find: list[str] | None = None
+
+
+class Export(OfScene):
+    kind: str
+    count: Annotated[int, Field(ge=1, le=MOST_VARIANTS)] = 1
+
+
+_PULL, _COMPLETE = ("pull", Phrase("name a point and a place")), ("complete", Phrase("give line and column"))
+_NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
+    "text": (Phrase("the scene"), Phrase("give its text")),
+    "at": ("at", Phrase("give a number for each driver")),
+    "point": _PULL, "x": _PULL, "y": _PULL,
+    "changes": ("changes", Phrase("give values by key")),
+    "step": ("piece", Phrase("say what to build")),
+    "line": _COMPLETE, "column": _COMPLETE,
+    "count": ("variants", Phrase("give a number from 1 to", most=MOST_VARIANTS)),
+}  # fmt: skip
+"""What a key of a message is about, and what it needs."""
+
+
+def _refused(error: ValidationError) -> CallError:
+    """What of a message is not as its question needs it."""
+    problems = []
+    for one in error.errors(include_url=False):
+        key = str(one["loc"][0])
+        where, needed = _NEEDED.get(key, (key, ""))
+        value = None if one["type"] == "missing" else one["input"]
+        problems.append(Problem(where, Phrase("found value", value=f"{value!r:.60}"), needed))
+    return CallError(*problems)
+
+
+def _show(desk: Desk, asked: Show) -> Answer:
+    told = pictures.shown(asked.scene(desk), asked.at, asked.options, bool(asked.quick))
+    return told if asked.quick else {**told, "form": parsed(asked.text)}
+
+
+def _pull(desk: Desk, asked: Pull) -> Answer:
     """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
-    x, y, point = message.get("x"), message.get("y"), message.get("point")
-    if not _finite(x) or not _finite(y) or not isinstance(point, str):
-        raise CallError(
-            Problem(
-                "pull",
-                Phrase("found to", point=f"{point!r:.40}", value=f"{x!r:.20}", other=f"{y!r:.20}"),
-                Phrase("name a point and a place"),
-            )
-        )
-    scene, at, text = _scene(desk, message), _at(message), _text(message)
-    options = pictures.FigureOptions.of(message)
-    raw = parsed(text)
-    to = complex(float(x), float(y)) * scene.units.metres  # type: ignore[arg-type]
-    found = pulled(raw, pictures.motion_at(scene, at), point, to, message.get("lengths") is True)
-    now = {**(at or {}), **found.at} or None
-    if message.get("final") is True:
-        text = changed(text, found.changes) if found.changes else text
-        return {**_show(desk, {**message, "text": text, "at": now, "quick": False}), "text": text}
+    scene, raw = asked.scene(desk), parsed(asked.text)
+    to = complex(asked.x, asked.y) * scene.units.metres
+    found = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, bool(asked.lengths))
+    now = {**(asked.at or {}), **found.at} or None
+    if asked.final:
+        text = changed(asked.text, found.changes) if found.changes else asked.text
+        return {**_show(desk, asked.model_copy(update={"text": text, "at": now, "quick": False})), "text": text}
     for key, value in found.changes.items():
         if problem := put(raw, key, value):
             raise CallError(problem)
     there = resolved(pictures.with_own_files(raw, desk.shelf.folder), "scene")[1] if found.changes else scene
-    return {**pictures.shown(there, now, options, quick=True), "changes": found.changes}
+    return {**pictures.shown(there, now, asked.options, quick=True), "changes": found.changes}
 
 
-def _change(desk: Desk, message: Message) -> Answer:
-    changes = message.get("changes")
-    if not isinstance(changes, Mapping) or not all(isinstance(key, str) for key in changes):
-        raise CallError(
-            Problem("changes", Phrase("found value", value=f"{changes!r:.60}"), Phrase("give values by key"))
-        )
-    return {"text": changed(_text(message), changes)}
+def _change(desk: Desk, asked: Change) -> Answer:
+    return {"text": changed(asked.text, asked.changes)}
 
 
-def _build(desk: Desk, message: Message) -> Answer:
-    step = message.get("step")
-    if not isinstance(step, Mapping):
-        raise CallError(Problem("piece", Phrase("found value", value=f'{step!r:.60}'), Phrase("say what to build")))
-    return {"text": building.built(_text(message), step)}
+def _build(desk: Desk, asked: Build) -> Answer:
+    return {"text": building.built(asked.text, asked.step)}
 
 
-def _keep(desk: Desk, message: Message) -> Answer:
+def _keep(desk: Desk, asked: OfScene) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
-    scene, text = _scene(desk, message), _text(message)
-    told = pictures.shown(scene, _at(message), pictures.FigureOptions(("mechanism",)), quick=True)
+    scene = asked.scene(desk)
+    told = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
     at, points = told["at"], told["points"]
     assert isinstance(at, dict)
     assert isinstance(points, dict)
     changes: Answer = {}
-    raw = parsed(text)
+    raw = parsed(asked.text)
     many = isinstance(raw.get("driver"), list)
     for index, driver in enumerate(scene.drivers, 1):
         key = f"driver.{index}" if many else "driver"
@@ -214,71 +279,62 @@ def _keep(desk: Desk, message: Message) -> Answer:
     spots = {p: [float(f"{z[c]:.6g}") for c in "xy"] for p, z in points.items() if isinstance(z, dict)}
     for table in ("sketch", "drawn"):
         changes |= {f"{table}.{p}": spots[p] for p in raw.get(table, {}) if p in spots}
-    return {"text": changed(text, changes)}
+    return {"text": changed(asked.text, changes)}
 
 
-def _complete(desk: Desk, message: Message) -> Answer:
-    line, column = message.get("line"), message.get("column")
-    if not isinstance(line, int) or not isinstance(column, int):
-        raise CallError(Problem("complete", Phrase("no place in the text"), Phrase("give line and column")))
-    language, found = language_of(message), completions(_text(message), line, column)
+def _complete(desk: Desk, asked: Complete) -> Answer:
+    language, found = asked.spoken, completions(asked.text, asked.line, asked.column)
     if language != LANGUAGES[0]:
         found = [{**key, "detail": say(from_others(clause_of(key["detail"])), language)} for key in found]
     return {"options": found}
 
 
-def _open(desk: Desk, message: Message) -> Answer:
+def _open(desk: Desk, asked: Open) -> Answer:
     """The first scene of the page, one of its shelf, a link that carries one, or a new one of a kind."""
-    name, kind = message.get("name"), message.get("new")
-    if isinstance(message.get("link"), str):
-        return {"name": "", "text": text_of_link(message["link"]), "mark": "", "own": False}
-    if isinstance(kind, str):
-        return {"name": "", "text": new_scene(kind, {}) if kind in NEW else building.EMPTY, "mark": "", "own": False}
-    if not isinstance(name, str) or not name:
-        if desk.text:
-            return {"name": "", "text": desk.text, "mark": "", "own": False}
-        if not desk.first:
-            return {"name": "", "text": "", "mark": "", "own": False}
-        name = desk.first
+    name = asked.name or ("" if desk.text else desk.first)
+    fresh: Answer = {"name": "", "text": desk.text, "mark": "", "own": False}
+    if asked.link is not None:
+        return {**fresh, "text": text_of_link(asked.link)}
+    if asked.new is not None:
+        return {**fresh, "text": new_scene(asked.new, {}) if asked.new in NEW else building.EMPTY}
+    if not name:
+        return fresh
     text = desk.shelf.text(name)
     return {"name": name, "text": text, "mark": mark_of(text), "own": name in desk.shelf.files()}
 
 
-def _shelf(desk: Desk, message: Message) -> Answer:
+def _shelf(desk: Desk, asked: Asked) -> Answer:
     found = desk.shelf.listing()
     writes = desk.shelf.folder is not None
     return {"scenes": found, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
 
 
-def _thumbnail(desk: Desk, message: Message) -> Answer:
-    name = _name(message)
+def _thumbnail(desk: Desk, asked: OfFile) -> Answer:
+    name = asked.name or ""
     scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
-    language = message.get("language") if message.get("language") in LANGUAGES else None
-    return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(language or "en")}
+    language = asked.language if asked.language in LANGUAGES else None
+    return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(asked.spoken)}
 
 
-def _save(desk: Desk, message: Message) -> Answer:
-    mark = message.get("mark")
-    return {"mark": desk.shelf.save(_name(message), _text(message), mark if isinstance(mark, str) else "")}
+def _save(desk: Desk, asked: OfText) -> Answer:
+    return {"mark": desk.shelf.save(asked.name or "", asked.text, asked.mark or "")}
 
 
-def _watch(desk: Desk, message: Message) -> Answer:
-    return {"changed": desk.shelf.changed(_name(message), str(message.get("mark")))}
+def _watch(desk: Desk, asked: OfFile) -> Answer:
+    return {"changed": desk.shelf.changed(asked.name or "", asked.mark or "")}
 
 
-def _diagrams(desk: Desk, message: Message) -> Answer:
+def _diagrams(desk: Desk, asked: Diagrams) -> Answer:
     from graphkin.api.sweep import sweep
 
-    asked = message.get("find")
-    find = [str(one) for one in asked] if isinstance(asked, list) and asked else None
-    swept = sweep(_scene(desk, message), find=find, language=pictures.FigureOptions.of(message).language)
+    swept = sweep(asked.scene(desk), find=asked.find or None, language=asked.options.language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
-def _race(desk: Desk, message: Message) -> Answer:
+def _race(desk: Desk, asked: OfScene) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
-    found = speed_accuracy(_scene(desk, message), repeats=1, language=pictures.FigureOptions.of(message).language)
+    found = speed_accuracy(asked.scene(desk), repeats=1, language=asked.options.language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in found.figures.items()}}
 
 
@@ -286,48 +342,38 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
           "zip": "application/zip", "toml": "application/toml"}  # fmt: skip
 
 
-def _export(desk: Desk, message: Message) -> Answer:
+def _export(desk: Desk, asked: Export) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
-    kind, scene = message.get("kind"), _scene(desk, message)
-    options = pictures.FigureOptions.of(message)
+    kind, scene, options = asked.kind, asked.scene(desk), asked.options
     if kind in ("svg", "pdf", "png", "dxf"):
         from graphkin import solver
 
-        drawn, _ = pictures.drawn_at(solver.structure_of(scene), _at(message), options)
+        drawn, _ = pictures.drawn_at(solver.structure_of(scene), asked.at, options)
         figures = drawn.figures
         if not figures:
             raise CallError(Problem("figure", Phrase("there is nothing to draw"), Phrase("choose another figure")))
         name, figure = next(iter(figures.items()))
         return _file(f"{scene.name}-{name}.{kind}", figure.content(kind))
     if kind == "scene":
-        return _file(f"{scene.name}.toml", _text(message).encode())
+        return _file(f"{scene.name}.toml", asked.text.encode())
     if kind not in ("papers", "variants"):
         raise CallError(Problem("kind", f'"{kind!s:.40}"', Phrase("known here svg pdf png dxf papers variants")))
     with tempfile.TemporaryDirectory() as folder:
-        _papers(scene, message, options, Path(folder))
+        _papers(scene, asked, options, Path(folder))
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
 
 
-def _papers(scene: Mechanism, message: Message, options: pictures.FigureOptions, folder: Path) -> None:
+def _papers(scene: Mechanism, asked: Export, options: FigureOptions, folder: Path) -> None:
     from graphkin.api.handouts import handout, papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.table import have
 
     formats = ("html", "pdf") if have("typst") else ("html",)
-    if message.get("kind") == "papers":
-        handout(scene, folder, _at(message), formats=formats, language=options.language, convention=options.convention)
+    if asked.kind == "papers":
+        handout(scene, folder, asked.at, formats=formats, language=options.language, convention=options.convention)
         return
-    count, seed = message.get("count"), message.get("seed")
-    if not isinstance(count, int) or not 1 <= count <= MOST_VARIANTS:
-        raise CallError(
-            Problem(
-                "variants",
-                Phrase("found value", value=f"{count!r:.20}"),
-                Phrase("give a number from 1 to", most=MOST_VARIANTS),
-            )
-        )
     render = papers_of(scene, formats, options.language, options.convention)
-    problem_set(scene, count, seed if isinstance(seed, int) else 0, out=folder, render=render)
+    problem_set(scene, asked.count, options.seed, out=folder, render=render)
 
 
 def _packed(folder: Path) -> bytes:
@@ -368,20 +414,22 @@ def text_of_link(link: str) -> str:
         ) from None
 
 
-def _link(desk: Desk, message: Message) -> Answer:
-    return {"link": scene_link(_text(message))}
+def _link(desk: Desk, asked: OfText) -> Answer:
+    return {"link": scene_link(asked.text)}
 
 
-def _names(desk: Desk, message: Message) -> Answer:
+def _names(desk: Desk, asked: Asked) -> Answer:
     """The words of the page in a language."""
-    spoken = language_of(message)
+    spoken = asked.spoken
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
     return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(FIGURES)}
 
 
-QUESTIONS: Mapping[str, Callable[[Desk, Message], Answer]] = {
-    "show": _show, "pull": _pull, "change": _change, "build": _build, "keep": _keep, "complete": _complete,
-    "open": _open, "shelf": _shelf, "thumbnail": _thumbnail, "save": _save, "watch": _watch, "diagrams": _diagrams,
-    "race": _race, "export": _export, "link": _link, "names": _names,
+QUESTIONS: Mapping[str, tuple[type[Asked], Callable[[Desk, Any], Answer]]] = {
+    "show": (Show, _show), "pull": (Pull, _pull), "change": (Change, _change), "build": (Build, _build),
+    "keep": (OfScene, _keep), "complete": (Complete, _complete), "open": (Open, _open), "shelf": (Asked, _shelf),
+    "thumbnail": (OfFile, _thumbnail), "save": (OfText, _save), "watch": (OfFile, _watch),
+    "diagrams": (Diagrams, _diagrams), "race": (OfScene, _race), "export": (Export, _export), "link": (OfText, _link),
+    "names": (Asked, _names),
 }  # fmt: skip
-"""What the page may ask, by name."""
+"""What the page may ask, by name: the form of the message and what it is told."""

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from graphkin.board.scene_text import changed
-from graphkin.errors import CallError, Problem, SceneError, did_you_mean
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.scene.source import parsed
 from graphkin.words import Phrase
@@ -298,12 +298,3 @@ def trial_driver(made: Tables) -> OwnTables | None:
     if "driver" in made or not _tables(made, "links"):
         return None
     return {"link": next(iter(_tables(made, "links"))), "angle": 0.0, "omega": 1.0}
-
-
-def checked_text(text: object) -> str:
-    """A text as a message brings it.  Raises SceneError for none."""
-    if not isinstance(text, str):
-        raise SceneError(
-            Problem(Phrase("the scene"), Phrase("found value", value=f"{text!r:.40}"), Phrase("give its text"))
-        )
-    return text

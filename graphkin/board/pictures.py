@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from graphkin import solver
-from graphkin.api.arguments import driver_values, known_words, placed
+from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
 from graphkin.api.report_text import plain_said, reading_words
@@ -36,16 +36,12 @@ from graphkin.words import Phrase, Wording, languages, say
 from graphkin.words.written import in_markup
 
 __all__ = [
-    "FigureOptions", "Message", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail",
+    "FigureOptions", "drawn_at", "mobility_text", "motion_at", "scene_of", "shown", "thumbnail",
     "with_own_files",
 ]  # fmt: skip
 
 NEAR_END = 1e-6  # of the range: so far from its end the drawing is whole
 FAST = 1e3  # times a driver's own speed over the size: so fast is what stands beside a dead point
-
-
-Message = Mapping[str, Any]
-"""What a page asks: `do`, the name of the question, and what that needs."""
 
 
 @dataclass(frozen=True)
@@ -58,21 +54,6 @@ class FigureOptions:
     instrument: str = "exact"
     seed: int = 0
     scales: Scales | None = None
-
-    @classmethod
-    def of(cls, message: Message) -> FigureOptions:
-        """What a message wants of them.  Raises CallError for words that mean nothing."""
-        language, convention = message.get("language") or None, message.get("convention") or None
-        instrument = message.get("instrument") or "exact"
-        known_words(language=language, convention=convention, instrument=instrument)
-        figures = message.get("figures")
-        names = [str(f) for f in figures] if isinstance(figures, list) else list(cls.figures)
-        seed = message.get("seed")
-        given = message.get("scales")
-        scales = None
-        if isinstance(given, list) and len(given) == 3 and all(isinstance(x, float | int) and x > 0 for x in given):
-            scales = Scales(*map(float, given))
-        return cls(tuple(names), language, convention, instrument, seed if isinstance(seed, int) else 0, scales)
 
 
 @lru_cache(maxsize=16)

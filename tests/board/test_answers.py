@@ -138,6 +138,29 @@ def test_what_is_refused_is_said_in_the_language_of_the_question(chinese: str, q
     assert found["problems"][0]["text"].startswith(chinese)
 
 
+@pytest.mark.parametrize(("sentence", "question"), [
+    ("the scene: found None; give its text", {"do": "show", "text": None}),
+    ("at: found 'x'; give a number for each driver", {"do": "show", "at": {"1": "x"}}),
+    ("at: found nan; give a number for each driver", {"do": "keep", "at": {"1": float("nan")}}),
+    ("at: found True; give a number for each driver", {"do": "show", "at": {"1": True}}),
+    ("pull: found 'a'; name a point and a place", {"do": "pull", "point": "B", "x": "a", "y": 0}),
+    ("changes: found 7; give values by key", {"do": "change", "changes": 7}),
+    ("piece: found []; say what to build", {"do": "build", "step": []}),
+    ("complete: found None; give line and column", {"do": "complete", "line": 3}),
+    ("variants: found 61; give a number from 1 to 60", {"do": "export", "kind": "variants", "count": 61}),
+    ("figures: found 'sheet'", {"do": "show", "figures": "sheet"}),
+])  # fmt: skip
+def test_what_a_question_lacks_is_said_with_what_it_needs(sentence: str, question: dict) -> None:
+    found = answer(DESK, {"text": SIXBAR, **question})
+    assert [sentence] == [problem["text"] for problem in found["problems"]]
+
+
+def test_what_the_page_leaves_out_or_sends_as_null_is_as_it_begins() -> None:
+    plain = told("show", figures=["mechanism"])
+    nulls = dict.fromkeys(("name", "at", "language", "convention", "instrument", "seed", "scales", "quick"))
+    assert plain == told("show", figures=["mechanism"], **nulls, more="unknown")
+
+
 def test_what_may_be_written_is_explained_in_the_language_of_the_question() -> None:
     lines = SIXBAR[: SIXBAR.index("[links.1]")].count("\n") + 2
     english, chinese = (told("complete", line=lines, column=0, language=language) for language in ("en", "zh"))
