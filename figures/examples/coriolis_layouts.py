@@ -14,13 +14,13 @@ from graphkin.construction import Room, draft
 from graphkin.construction.polygon_acts import Carried, LaidOff
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.coriolis import coriolis_terms
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.polygon import polygon_piece
-from graphkin.drawing.polygon_on_page import PolygonOnPage, extent
+from graphkin.drawing.ink.strokes import DIMENSION
+from graphkin.drawing.parts.coriolis import coriolis_terms
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.parts.polygon import polygon_piece
+from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, extent
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.stepwise import births, so_far, stepped
-from graphkin.drawing.strokes import DIMENSION
 from graphkin.drawing.text import plain, rich
 from graphkin.scene import mechanism_of
 

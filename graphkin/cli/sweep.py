@@ -80,7 +80,7 @@ def sweep(
 ) -> None:
     """Tables and motion diagrams over a turn, limit positions, strokes and K; and the same over designs."""
     from graphkin.api.sweep import sweep as sweeping
-    from graphkin.drawing.page import leave_undocumented
+    from graphkin.drawing.write.pdf import leave_undocumented
     from graphkin.scene import mechanism_of
 
     target = out if out is not None else Path(mechanism_of(scene).name)

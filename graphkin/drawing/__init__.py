@@ -6,9 +6,9 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.drawing import Drawing, save
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
-from graphkin.drawing.svg import svg_bytes
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.write.drawing import Drawing, save
+from graphkin.drawing.write.svg import svg_bytes
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage

@@ -9,16 +9,16 @@ from collections.abc import Mapping, Sequence
 
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.sheet import Extent, fitting_scale
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import number, once, term
-from graphkin.drawing.labels import Label
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.drawing.dxf import closed_curve_dxf
+from graphkin.drawing.write.dxf import closed_curve_dxf
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.follower_law import SmoothPart

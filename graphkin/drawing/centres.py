@@ -14,23 +14,23 @@ import numpy as np
 
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
-from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import centre_marks, line_name, mark_of, near_box, pale
-from graphkin.drawing.centre_steps import centre_steps, named_centres, untold
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
-from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.strokes import colour_of_link
+from graphkin.drawing.parts.centre_marks import centre_marks, line_name, mark_of, near_box, pale
+from graphkin.drawing.parts.centre_steps import centre_steps, named_centres, untold
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
+from graphkin.drawing.parts.touching import replacing_links
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import plain, rich, wrapped
-from graphkin.drawing.touching import replacing_links
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word

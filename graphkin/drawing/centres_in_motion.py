@@ -14,18 +14,18 @@ from numpy.typing import NDArray
 from graphkin.construction.centres import Centres
 from graphkin.construction.centres.pairs import LinkPair
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import mark_of
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import drivers, facts, figure_title, punctuation, term, titles
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel
-from graphkin.drawing.strokes import colour_of_link
+from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel
+from graphkin.drawing.ink.strokes import colour_of_link
+from graphkin.drawing.parts.centre_marks import mark_of
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["centres_in_motion", "centrodes_figure"]

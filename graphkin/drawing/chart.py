@@ -19,13 +19,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.drawing import Kept
 from graphkin.drawing.embedded import face_rules, families
 from graphkin.drawing.font import FAMILY, Style, holds
 from graphkin.drawing.font_widths import width
-from graphkin.drawing.labels import Label, Mark, place
-from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.page import (
+from graphkin.drawing.ink.primitives import Primitive, Stroke, Text
+from graphkin.drawing.place.labels import Label, Mark, place
+from graphkin.drawing.place.obstacles import Obstacles
+from graphkin.drawing.text import rich
+from graphkin.drawing.write.drawing import Kept
+from graphkin.drawing.write.pdf import (
     MM_PER_INCH,
     POINTS_PER_MM,
     empty_page,
@@ -36,8 +38,6 @@ from graphkin.drawing.page import (
     own_settings,
     whole_pixels,
 )
-from graphkin.drawing.primitives import Primitive, Stroke, Text
-from graphkin.drawing.text import rich
 from graphkin.errors import CallError, Problem
 from graphkin.words import Phrase
 

@@ -11,7 +11,7 @@ from zlib import crc32
 
 from graphkin.drawing.font import EM, FAMILY, Glyph, Style, glyph, held, part
 from graphkin.drawing.font_widths import style_of
-from graphkin.drawing.primitives import Run
+from graphkin.drawing.ink.primitives import Run
 
 __all__ = ["FALLBACK", "face_rules", "families", "outline"]
 

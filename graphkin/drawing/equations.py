@@ -9,12 +9,12 @@ from functools import cache, cached_property, partial
 from graphkin.construction.polygon_acts import LaidOff
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Given
-from graphkin.drawing import strokes
 from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term, written
-from graphkin.drawing.piece import moved
-from graphkin.drawing.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.place.piece import moved
 from graphkin.drawing.sums import bound, carried_by, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.plane import added_up

@@ -6,8 +6,6 @@ from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
     describe,
@@ -20,13 +18,15 @@ from graphkin.drawing.headings import (
     term,
     titles,
 )
-from graphkin.drawing.insets import mechanism_detail, polygon_with_insets, strip_height
-from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Primitive, Run, Text
+from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets, strip_height
+from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.sheet import background_piece, scan_piece, sheet_page
 from graphkin.drawing.text import fitted, rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages
 
 __all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]

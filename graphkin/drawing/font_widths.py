@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font import EM, Style, glyph
-from graphkin.drawing.primitives import Run, Text
+from graphkin.drawing.ink.primitives import Run, Text
 from graphkin.plane import added_up
 
 __all__ = ["CAP_HEIGHT", "has_cjk", "is_cjk", "run_box", "runs_width", "start_runs", "style_of", "text_box", "width"]

@@ -10,17 +10,17 @@ from dataclasses import replace
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Vector
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.force_chain import corner_at, corners
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
-from graphkin.drawing.labels import Label
-from graphkin.drawing.piece import Piece, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import side_by_side
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
-from graphkin.drawing.symbols import COMPONENT, RESULTANT, vector_group
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, vector_group
+from graphkin.drawing.parts.polygon_on_page import side_by_side
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, moved_piece, with_labels
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 

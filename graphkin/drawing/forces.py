@@ -10,12 +10,9 @@ from dataclasses import dataclass, replace
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
@@ -23,12 +20,15 @@ from graphkin.drawing.force_words import couple_sentences, inertia_line, moment_
 from graphkin.drawing.free_body import free_body, sketch_height
 from graphkin.drawing.given_loads import given_loads, spring_lines
 from graphkin.drawing.headings import facts, figure_title, term
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text
 from graphkin.drawing.overleaf import heading
-from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece
-from graphkin.drawing.primitives import Group, Polygon, Primitive, Run, Text
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, listed, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]

@@ -11,18 +11,18 @@ from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touching
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.force_stages import ForceStage
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import links_alone
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
-from graphkin.drawing.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow
+from graphkin.drawing.parts.mechanism import links_alone
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.parts.touching import marks_cut_free
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece, with_labels
 from graphkin.drawing.text import symbol
-from graphkin.drawing.touching import marks_cut_free
 from graphkin.plane import added_up, unit
 
 __all__ = ["colour_of_force", "free_body", "letters_of_force", "links_cut_free", "sketch_height"]

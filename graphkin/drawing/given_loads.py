@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.conventions import Letters, force_letters
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Group, Text
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Group, Text
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import plain
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism

@@ -12,14 +12,14 @@ from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Aid, Bar, CompassArc, TrialCurve
-from graphkin.drawing import strokes
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.polygon_points import step_number
-from graphkin.drawing.primitives import Arc, Group, Line, Polyline, Primitive, Text
-from graphkin.drawing.symbols import arrowhead
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Group, Line, Polyline, Primitive, Text
+from graphkin.drawing.ink.symbols import arrowhead
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place
+from graphkin.drawing.parts.polygon_points import step_number
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import symbol
 from graphkin.plane import cross, dot, unit
 

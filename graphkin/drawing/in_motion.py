@@ -8,15 +8,15 @@ from __future__ import annotations
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import FIGURE_WORDS, figure_title
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.piece import Piece, ink_box, layer_groups, middle_of, moved_piece
-from graphkin.drawing.polygon import polygon_piece
-from graphkin.drawing.polygon_on_page import PolygonOnPage, extent
-from graphkin.drawing.primitives import Text, page_direction
+from graphkin.drawing.ink.primitives import Text, page_direction
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.parts.polygon import polygon_piece
+from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, extent
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, layer_groups, middle_of, moved_piece
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages
 
 __all__ = ["figure_in_motion"]

@@ -8,20 +8,20 @@ from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Extent, Sheet, fitting_scale
-from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, as_vector, force_letters, letters_of, pole, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_words import lever_sum
 from graphkin.drawing.headings import drivers, facts, figure_title, term, written
-from graphkin.drawing.labels import Label
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Run, Text
+from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.page_text import titled
-from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Run, Text
-from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say

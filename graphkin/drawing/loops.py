@@ -10,21 +10,21 @@ from dataclasses import replace
 
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet, next_of_series
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import letters_of, scale_statement
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term
-from graphkin.drawing.labels import Label
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.strokes import colour_of_link
+from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.drawing.page_text import titled
-from graphkin.drawing.piece import Piece, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
-from graphkin.drawing.strokes import colour_of_link
-from graphkin.drawing.symbols import POINTER, arrowhead
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers

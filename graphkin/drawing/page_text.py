@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.bilingual import all_in_both
-from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import term, titles
-from graphkin.drawing.primitives import Group, Primitive, Run, Text, walk
+from graphkin.drawing.ink.primitives import Group, Primitive, Run, Text, walk
+from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
 from graphkin.words.written import in_markup

@@ -9,11 +9,8 @@ from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
 from graphkin.construction.plan import scales_for
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
     drivers,
@@ -25,11 +22,14 @@ from graphkin.drawing.headings import (
     titles,
     written,
 )
-from graphkin.drawing.insets import polygon_with_insets
-from graphkin.drawing.piece import Piece, joined, layer_groups, renamed
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Group, Polygon, Primitive, Text
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Text
+from graphkin.drawing.parts.insets import polygon_with_insets
+from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, renamed
 from graphkin.drawing.text import fitted, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["polygons_beside"]

@@ -10,21 +10,21 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import DimensionClearance, Parts, angle_dimension, check_bar, dimension
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, number, term, titles
-from graphkin.drawing.labels import Label, Mark
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
-from graphkin.drawing.symbols import BLOCK_LENGTH, BLOCK_WIDTH
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.symbols import BLOCK_LENGTH, BLOCK_WIDTH
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, check_bar, dimension
+from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase, Wording, languages, say

@@ -11,11 +11,8 @@ from itertools import islice, product
 from graphkin.checking.report import Report
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.coriolis import CoriolisTerm
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
 from graphkin.drawing.headings import (
     FIGURE_WORDS,
@@ -26,19 +23,22 @@ from graphkin.drawing.headings import (
     punctuation,
     term,
 )
-from graphkin.drawing.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, walk
 from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
-from graphkin.drawing.mechanism import mechanism_piece
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, walk
+from graphkin.drawing.parts.coriolis import CoriolisTerm
+from graphkin.drawing.parts.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
+from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain
 from graphkin.drawing.title_block import title_block
 from graphkin.drawing.train import train_figure
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.written_lines import written_lines
 from graphkin.words import languages, word
 

@@ -14,10 +14,10 @@ from graphkin.construction.polygon_acts import AddedRate, Carried, MeasuredRate,
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.steps import links_drawn
 from graphkin.construction.strokes import Aid, Mark, TrialCurve, Vector
-from graphkin.drawing import strokes
-from graphkin.drawing.dimensioning import LENGTHS
-from graphkin.drawing.polygon_on_page import details
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Stroke, Text
+from graphkin.drawing.parts.dimensioning import LENGTHS
+from graphkin.drawing.parts.polygon_on_page import details
 
 __all__ = ["births", "so_far", "step_of", "stepped"]
 

@@ -8,20 +8,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import facts, figure_title, term
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import bare_mechanism, links_alone
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.page_text import titled
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.symbols import JOINT_RADIUS
+from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
+from graphkin.drawing.parts.touching import replacing_links
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import plain, rich, symbol, wrapped
-from graphkin.drawing.touching import replacing_links
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver, Follower, SlideDriver

@@ -21,17 +21,17 @@ from graphkin.construction.design_sheet import (
     LineKind,
 )
 from graphkin.construction.sheet import Extent, fitting_scale
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.chart import ChartPage
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import number, term, written
-from graphkin.drawing.labels import Label
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
-from graphkin.drawing.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__

@@ -17,7 +17,7 @@ from functools import lru_cache
 
 from graphkin.drawing.font import EM, glyph
 from graphkin.drawing.font_widths import is_cjk, runs_width, style_of, width
-from graphkin.drawing.primitives import Run
+from graphkin.drawing.ink.primitives import Run
 
 __all__ = ["SMALLEST", "Atom", "fitted", "is_italic", "parsed", "plain", "rich", "stacked", "symbol", "wrapped"]
 

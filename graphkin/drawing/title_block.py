@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, scale_statement
-from graphkin.drawing.dimensions import check_bar
 from graphkin.drawing.headings import punctuation, term, titles
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.sheet_plan import BLOCK
 from graphkin.drawing.text import fitted, wrapped
 from graphkin.words import Phrase, languages, say

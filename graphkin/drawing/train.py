@@ -8,19 +8,19 @@ from dataclasses import replace
 
 from graphkin.construction.centre_lines import PlanLine, TrainPlan
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.headings import drivers, facts, figure_title, number, term, written
-from graphkin.drawing.labels import Label
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.symbols import COMPONENT, arrow
 from graphkin.drawing.page_text import titled
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Text
-from graphkin.drawing.symbols import COMPONENT, arrow
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.drawing.train_scheme import scheme
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 from graphkin.words.written import amount, on_paper, product
 

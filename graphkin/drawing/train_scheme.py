@@ -7,11 +7,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from graphkin.construction.centre_lines import CentreLine
-from graphkin.drawing import strokes
-from graphkin.drawing.labels import Label
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Circle, Group, Line, Primitive, Stroke, Text
-from graphkin.drawing.symbols import hatched_line
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.ink.symbols import hatched_line
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import plain
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Mesh

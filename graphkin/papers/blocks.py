@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 

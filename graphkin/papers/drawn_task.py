@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.drawing.drawing import Drawing
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import (
     Block,
     Document,

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font import Style
-from graphkin.drawing.primitives import Group, Line, Primitive, Stroke
-from graphkin.drawing.svg import svg_bytes
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Stroke
 from graphkin.drawing.text import Atom, is_italic, parsed
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_bytes
 from graphkin.papers.blocks import Block, Said, clean
 from graphkin.words import Phrase, area, say, word
 

@@ -28,7 +28,7 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.end_letters import EndLetters, Markup
 from graphkin.drawing.group_lines import carried_over
 from graphkin.drawing.headings import number, written
-from graphkin.drawing.polygon_on_page import SAME
+from graphkin.drawing.parts.polygon_on_page import SAME
 from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
 from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot

@@ -7,22 +7,22 @@ from dataclasses import replace
 
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import DiagramName, Equation, Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.equations import write_equation
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
-from graphkin.drawing.insets import polygon_with_insets, strip_height
-from graphkin.drawing.mechanism import mechanism_piece
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.page_text import without_titles
-from graphkin.drawing.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
+from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import rich, symbol
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up
 from graphkin.words import languages

@@ -9,11 +9,11 @@ from dataclasses import replace
 from graphkin.construction.sheet import DiagramName, Equation
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import pole
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.given_loads import given_loads
-from graphkin.drawing.given_shapes import given_shapes
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
+from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import (
     Beside,
     Block,

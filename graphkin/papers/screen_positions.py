@@ -15,21 +15,21 @@ from graphkin.construction.polygon_acts import OnPlan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet, next_of_series
 from graphkin.drawing.box import Box
 from graphkin.drawing.cam import cam_pictures, scaled_cam
-from graphkin.drawing.centre_marks import centre_marks, near_box
 from graphkin.drawing.centres import background
 from graphkin.drawing.conventions import scale_statement
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, term
-from graphkin.drawing.insets import polygon_with_insets, strip_height
+from graphkin.drawing.ink.primitives import Group
 from graphkin.drawing.lever import lever_figure
-from graphkin.drawing.mechanism import mechanism_piece
-from graphkin.drawing.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
-from graphkin.drawing.polygon_on_page import extent
-from graphkin.drawing.primitives import Group
+from graphkin.drawing.parts.centre_marks import centre_marks, near_box
+from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
+from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.drawing.train import moving_plans, train_figure
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Said, capital, said
 from graphkin.papers.html import blocks_html, figure_svg, said_html, spoken_words, words_html

@@ -8,12 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 from graphkin.construction.sheet import next_of_series
-from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text, strokes
+from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.labels import Label, place
-from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
-from graphkin.drawing.symbols import guide as guide_symbol
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
+from graphkin.drawing.ink.symbols import guide as guide_symbol
+from graphkin.drawing.place.labels import Label, place
+from graphkin.drawing.place.obstacles import obstacles_of
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.driver_axis import (

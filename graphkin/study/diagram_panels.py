@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.drawing.chart import BEHIND, SOLID_AND_DASHED, add_labels, count_steps, degree_step, look, marker
-from graphkin.drawing.primitives import Stroke
+from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.model import Mechanism
 from graphkin.study.driver_axis import DriverAxis, number
 from graphkin.study.extremes import Extreme, Traced

@@ -21,7 +21,7 @@ from graphkin.drawing.chart import (
     look,
     marker,
 )
-from graphkin.drawing.primitives import Stroke
+from graphkin.drawing.ink.primitives import Stroke
 from graphkin.solver import DriverRange
 from graphkin.solver.flywheel import FlywheelStudy, MomentArea, needed_moment
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, driver_axis, heading, number, title_of

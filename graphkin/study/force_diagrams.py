@@ -25,7 +25,7 @@ from graphkin.drawing.chart import (
     marker,
 )
 from graphkin.drawing.conventions import force_letters
-from graphkin.drawing.primitives import Stroke
+from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol

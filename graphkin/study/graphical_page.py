@@ -6,11 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.drawing import Drawing, strokes
-from graphkin.drawing.dimensions import check_bar
-from graphkin.drawing.piece import Piece, layer_groups
-from graphkin.drawing.primitives import Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
-from graphkin.drawing.symbols import POINTER, arrowhead
+from graphkin.drawing import Drawing
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, layer_groups
 from graphkin.drawing.text import fitted, plain, rich, symbol, wrapped
 from graphkin.solver import DriverRange
 from graphkin.study.driver_axis import number, title_of

@@ -18,7 +18,8 @@ from collections.abc import Callable
 from unittest.mock import patch
 
 import graphkin
-from graphkin.drawing import piece, svg_bytes
+from graphkin.drawing import svg_bytes
+from graphkin.drawing.place import piece
 from tests.command import PROGRAM
 
 REPEATS = 9

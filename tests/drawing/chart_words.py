@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.drawing import Box, ChartPage
-from graphkin.drawing.page import own_settings
+from graphkin.drawing.write.pdf import own_settings
 
 SLACK = 0.2  # mm
 

@@ -2,9 +2,9 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drawing import symbols as arrows
-from graphkin.drawing.primitives import Circle, Line, class_names
-from graphkin.drawing.symbols import arrow, head_size, vector_group
+from graphkin.drawing.ink import symbols as arrows
+from graphkin.drawing.ink.primitives import Circle, Line, class_names
+from graphkin.drawing.ink.symbols import arrow, head_size, vector_group
 
 pytestmark = pytest.mark.quick
 

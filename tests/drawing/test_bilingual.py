@@ -7,7 +7,7 @@ import pytest
 from graphkin import centres, draw
 from graphkin.drawing import Text
 from graphkin.drawing.bilingual import all_in_both, in_both
-from graphkin.drawing.primitives import walk
+from graphkin.drawing.ink.primitives import walk
 
 
 def texts(figure) -> list[str]:

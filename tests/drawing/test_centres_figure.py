@@ -13,16 +13,16 @@ from graphkin.api.centroded import centrodes
 from graphkin.construction import Room
 from graphkin.construction.centres import Centres, speeds
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import centre_marks
-from graphkin.drawing.centre_steps import named_centres, untold
 from graphkin.drawing.centres import background, centres_figure
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.piece import Piece, ink_box, joined, with_labels
-from graphkin.drawing.primitives import Group, Line, Polyline, Primitive, Text, walk
-from graphkin.drawing.svg import svg_bytes
+from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
+from graphkin.drawing.parts.centre_marks import centre_marks
+from graphkin.drawing.parts.centre_steps import named_centres, untold
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.place.piece import Piece, ink_box, joined, with_labels
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 

@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.primitives import Circle, Group, walk
+from graphkin.drawing.ink.primitives import Circle, Group, walk
 
 SVG = "{http://www.w3.org/2000/svg}"
 SWINGING = {

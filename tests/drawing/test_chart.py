@@ -26,9 +26,9 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.embedded import FALLBACK
 from graphkin.drawing.font_widths import width
-from graphkin.drawing.page import MissingFont
-from graphkin.drawing.primitives import Text
+from graphkin.drawing.ink.primitives import Text
 from graphkin.drawing.text import rich
+from graphkin.drawing.write.pdf import MissingFont
 from graphkin.errors import CallError
 from tests.drawing.chart_words import overlapping, word_boxes
 
@@ -211,7 +211,7 @@ def test_the_png_has_as_many_pixels_as_the_page() -> None:
 
 
 def test_a_missing_chinese_font_is_a_warning_and_no_failure(monkeypatch) -> None:
-    monkeypatch.setattr("graphkin.drawing.page._chinese_face", lambda: None)
+    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: None)
     with pytest.warns(MissingFont):
         assert chart(wave, title="鑫", lang="zh").content("png")
 

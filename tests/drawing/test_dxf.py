@@ -12,7 +12,7 @@ import pytest
 from graphkin import draw
 from graphkin.drawing import Drawing, Text
 from graphkin.drawing.font_widths import width
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Stroke
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Stroke
 from graphkin.drawing.text import rich
 from graphkin.errors import CallError
 

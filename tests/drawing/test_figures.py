@@ -15,7 +15,7 @@ import pytest
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import walk
+from graphkin.drawing.ink.primitives import walk
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import PAPERS
 from tests.drawn import drafted, drawn

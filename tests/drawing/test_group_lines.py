@@ -16,7 +16,7 @@ from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.end_letters import EndLetters
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.group_lines import GroupLines
-from graphkin.drawing.polygon_on_page import extent
+from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import wrapped
 from graphkin.drawing.written_lines import written_lines

@@ -11,18 +11,18 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from graphkin.drawing import label_panel
-from graphkin.drawing import symbols as arrows
 from graphkin.drawing.box import Box
-from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.label_panel import InkRaster
-from graphkin.drawing.labels import Label, Placement, place
-from graphkin.drawing.obstacles import Obstacles, obstacles_of
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Text
-from graphkin.drawing.strokes import DIRECTION, LINK
-from graphkin.drawing.svg import svg_bytes
-from graphkin.drawing.symbols import turning_pair, vector_group
+from graphkin.drawing.ink import symbols as arrows
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Text
+from graphkin.drawing.ink.strokes import DIRECTION, LINK
+from graphkin.drawing.ink.symbols import turning_pair, vector_group
+from graphkin.drawing.place import label_panel
+from graphkin.drawing.place.label_panel import InkRaster
+from graphkin.drawing.place.labels import Label, Placement, place
+from graphkin.drawing.place.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.text import rich
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_bytes
 
 PANEL = Box(5.0, 5.0, 155.0, 105.0)
 

@@ -12,7 +12,7 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.primitives import Arc, Group, Line, Text, walk
+from graphkin.drawing.ink.primitives import Arc, Group, Line, Text, walk
 from graphkin.errors import CallError
 
 SCENES = ("shaper-scheme-2", "sixbar-coupler-1A", "single-flier", "double-butterfly", "hydraulic-cylinder",

@@ -11,13 +11,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from graphkin.drawing import page
-from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.page import MissingFont, own_settings, pdf_bytes, png_bytes
-from graphkin.drawing.primitives import Arc, Line, Text
-from graphkin.drawing.strokes import CONSTRUCTION, LINK
-from graphkin.drawing.symbols import vector_group
+from graphkin.drawing.ink.primitives import Arc, Line, Text
+from graphkin.drawing.ink.strokes import CONSTRUCTION, LINK
+from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.pdf import MissingFont, own_settings, pdf_bytes, png_bytes
 
 A4 = Drawing(210.0, 297.0, (vector_group("v_B", 1, 20 + 50j, 80 + 30j), Text(20 + 90j, rich("$v_{B_3}$ = 0"))), "Title")
 CHINESE = Drawing(60.0, 30.0, (Text(5 + 15j, rich("速度 $v_B$")),), lang="zh")
@@ -72,7 +71,7 @@ def test_the_pdf_has_no_date():
 
 @pytest.mark.parametrize("write", [pdf_bytes, png_bytes])
 @pytest.mark.parametrize("drawing", [A4, CHINESE], ids=["latin", "chinese"])
-@pytest.mark.filterwarnings("ignore::graphkin.drawing.page.MissingFont")
+@pytest.mark.filterwarnings("ignore::graphkin.drawing.write.pdf.MissingFont")
 def test_the_bytes_are_the_same_again(write, drawing):
     assert write(drawing) == write(drawing)
 
@@ -158,7 +157,7 @@ def test_the_settings_are_of_their_own_kind_again():
 
 
 def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
-    monkeypatch.setattr(page, "_chinese_face", lambda: None)
+    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: None)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         pdf_bytes(Drawing(60.0, 30.0, (Text(5 + 15j, rich("鑫")),), lang="zh"))
@@ -166,5 +165,5 @@ def test_a_missing_chinese_font_is_one_warning_and_no_failure(monkeypatch):
 
 
 def test_a_latin_figure_looks_for_no_chinese_font(monkeypatch):
-    monkeypatch.setattr(page, "_chinese_face", lambda: pytest.fail("looked for one"))
+    monkeypatch.setattr("graphkin.drawing.write.pdf._chinese_face", lambda: pytest.fail("looked for one"))
     assert png_bytes(A4).startswith(b"\x89PNG")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin.drawing.page import pdf_bytes, png_bytes
+from graphkin.drawing.write.pdf import pdf_bytes, png_bytes
 
 MM = 25.4 / 72  # of a point
 STROKED = re.compile(r"([\d.]+) ([\d.]+) m\n([\d.]+) ([\d.]+) l\n\s*S\n")

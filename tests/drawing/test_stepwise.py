@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.primitives import Group, Text, walk
+from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import births, so_far, step_of, stepped
 from graphkin.papers.pictures import parts
 from graphkin.scene import library

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from graphkin.drawing import strokes
+from graphkin.drawing.ink import strokes
 
 pytestmark = pytest.mark.quick
 

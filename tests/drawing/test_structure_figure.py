@@ -7,9 +7,10 @@ import xml.etree.ElementTree as ET
 import pytest
 
 import graphkin
-from graphkin.drawing import strokes, svg_bytes
-from graphkin.drawing.piece import ink_box
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, walk
+from graphkin.drawing import svg_bytes
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, walk
+from graphkin.drawing.place.piece import ink_box
 from graphkin.errors import CallError
 
 

@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import graphkin
-from graphkin.drawing import symbols as arrows
-from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Text
-from graphkin.drawing.strokes import CONSTRUCTION, DIRECTION, LINK
-from graphkin.drawing.svg import number, svg_bytes
-from graphkin.drawing.symbols import vector_group
+from graphkin.drawing.ink import symbols as arrows
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Text
+from graphkin.drawing.ink.strokes import CONSTRUCTION, DIRECTION, LINK
+from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import number, svg_bytes
 
 pytestmark = pytest.mark.quick
 

@@ -4,14 +4,23 @@ import math
 
 import pytest
 
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.dimensions import angle_dimension, check_bar, dimension
-from graphkin.drawing.drawing import Drawing
-from graphkin.drawing.primitives import Arc, Circle, Line, Polygon, Text
-from graphkin.drawing.svg import svg_bytes
-from graphkin.drawing.symbols import block, fixed_pivot, guide, hatched_line, rigid_link, sense_arc, slot, turning_pair
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Circle, Line, Polygon, Text
+from graphkin.drawing.ink.symbols import (
+    block,
+    fixed_pivot,
+    guide,
+    hatched_line,
+    rigid_link,
+    sense_arc,
+    slot,
+    turning_pair,
+)
+from graphkin.drawing.place.dimensions import angle_dimension, check_bar, dimension
 from graphkin.drawing.text import plain
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_bytes
 
 
 def test_a_turning_pair_is_an_open_circle():

@@ -4,7 +4,7 @@ import pytest
 
 from graphkin.drawing.font import EM, glyph
 from graphkin.drawing.font_widths import run_box, runs_width, text_box, width
-from graphkin.drawing.primitives import Text
+from graphkin.drawing.ink.primitives import Text
 from graphkin.drawing.text import plain, rich, symbol
 
 

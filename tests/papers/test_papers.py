@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.api.checked import check
 from graphkin.api.handouts import handout
-from graphkin.drawing.primitives import Line, Text, walk
+from graphkin.drawing.ink.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
 from graphkin.papers.answer_key import answer_key, key_rows
 from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from graphkin.construction.sheet import next_of_series
 from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import walk
+from graphkin.drawing.ink.primitives import walk
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.coupler import coupler_points

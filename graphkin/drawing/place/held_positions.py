@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.drawing.label_positions import LOTS, LabelForms, LabelPosition, LabelPositions, leader_forms
-from graphkin.drawing.meeting import ON_LINE, Flags, Floats, Indices
+from graphkin.drawing.place.label_positions import LOTS, LabelForms, LabelPosition, LabelPositions, leader_forms
+from graphkin.drawing.place.meeting import ON_LINE, Flags, Floats, Indices
 
 __all__ = ["HeldPositions"]
 

@@ -12,13 +12,13 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.drawing import strokes, symbols
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, page
-from graphkin.drawing.meeting import Floats, Points
-from graphkin.drawing.piece import Piece, joined
-from graphkin.drawing.primitives import Group, Line, Stroke, Text
-from graphkin.drawing.symbols import POINTER, arrowhead
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Group, Line, Stroke, Text
+from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, MechanismOnPaper, page
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.meeting import Floats, Points
+from graphkin.drawing.place.piece import Piece, joined
 from graphkin.drawing.text import symbol
 from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, SlideDriver

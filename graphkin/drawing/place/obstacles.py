@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.primitives import (
+from graphkin.drawing.ink.primitives import (
     Arc,
     Circle,
     Line,

@@ -9,15 +9,15 @@ import numpy as np
 from graphkin.construction.centres import Centre, Centres
 from graphkin.construction.centres.kennedy import CentreRelation
 from graphkin.construction.centres.pairs import Line as Straight
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number
-from graphkin.drawing.labels import Label
-from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text
-from graphkin.drawing.symbols import POINTER, arrow
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.symbols import POINTER, arrow
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
 

@@ -14,8 +14,8 @@ from typing import TypeAlias
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.meeting import Flags, Floats, Indices, Points
-from graphkin.drawing.primitives import Segment, Text, page_direction
+from graphkin.drawing.ink.primitives import Segment, Text, page_direction
+from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points
 
 __all__ = [
     "LEADER_FROM", "LEADER_LEAST", "LED_RINGS", "RINGS", "Candidates", "Label", "LabelRequest", "LabelRequests", "Mark",

@@ -13,10 +13,22 @@ from itertools import accumulate, zip_longest
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width, text_box
-from graphkin.drawing.label_positions import Placed
-from graphkin.drawing.labels import Label, Mark, Placement
-from graphkin.drawing.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Scan, Text, walk
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Run,
+    Scan,
+    Text,
+    walk,
+)
+from graphkin.drawing.place.label_positions import Placed
+from graphkin.drawing.place.labels import Label, Mark, Placement
+from graphkin.drawing.place.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.text import rich
 from graphkin.plane import added_up
 

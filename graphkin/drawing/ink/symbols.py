@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
-from graphkin.drawing import strokes
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Stroke, page_direction
 
 __all__ = [
     "BLOCK_LENGTH",

@@ -14,11 +14,11 @@ from functools import cached_property
 
 from graphkin.construction.cam_outline import outlines_on_paper, station
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import symbols
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.primitives import Segment
-from graphkin.drawing.strokes import colour_of_link
-from graphkin.drawing.symbols import hull
+from graphkin.drawing.ink import symbols
+from graphkin.drawing.ink.primitives import Segment
+from graphkin.drawing.ink.strokes import colour_of_link
+from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import CircularSlot, Mechanism, SlideDriver

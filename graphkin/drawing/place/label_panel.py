@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.label_candidates import (
+from graphkin.drawing.ink.primitives import Segment
+from graphkin.drawing.place.label_candidates import (
     LEADER_FROM,
     LEADER_LEAST,
     LED_RINGS,
@@ -25,8 +26,8 @@ from graphkin.drawing.label_candidates import (
     ends,
     led_candidates,
 )
-from graphkin.drawing.label_positions import LEADER_SPACE, Columns, LabelForms, LabelPosition, LabelPositions
-from graphkin.drawing.meeting import (
+from graphkin.drawing.place.label_positions import LEADER_SPACE, Columns, LabelForms, LabelPosition, LabelPositions
+from graphkin.drawing.place.meeting import (
     Flags,
     Floats,
     Indices,
@@ -39,8 +40,7 @@ from graphkin.drawing.meeting import (
     sides_around,
     touching,
 )
-from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.primitives import Segment
+from graphkin.drawing.place.obstacles import Obstacles
 
 __all__ = ["FORBIDDEN", "TANGLED", "InkRaster", "LabelPanel", "least_cost"]
 

@@ -11,9 +11,14 @@ from itertools import pairwise, product
 from typing import NamedTuple, TypeAlias
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.dimensions import (
+from graphkin.drawing.headings import number, written
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Text
+from graphkin.drawing.parts.given_shapes import along_its_guide, off_its_guide
+from graphkin.drawing.parts.guide_dimensions import DRIVEN, driven_value, guide_dimensions, travels
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, sliders
+from graphkin.drawing.place.dimensions import (
     GAP,
     LEAST_EXTENSION,
     OVERRUN,
@@ -23,14 +28,9 @@ from graphkin.drawing.dimensions import (
     angle_dimension,
     dimension,
 )
-from graphkin.drawing.given_shapes import along_its_guide, off_its_guide
-from graphkin.drawing.guide_dimensions import DRIVEN, driven_value, guide_dimensions, travels
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, sliders
-from graphkin.drawing.obstacles import obstacles_of
-from graphkin.drawing.piece import Piece, ink_box
-from graphkin.drawing.primitives import Group, Line, Primitive, Text
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import Piece, ink_box
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, PlacedLink
 from graphkin.scene.symbol import PointRef

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.drawing.font import FAMILY, FOLDER, holds
 from graphkin.drawing.font_widths import start_runs
-from graphkin.drawing.primitives import (
+from graphkin.drawing.ink.primitives import (
     PALE,
     Arc,
     Circle,

@@ -9,8 +9,12 @@ from cmath import phase
 from collections.abc import Iterator, Sequence
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes
-from graphkin.drawing.dimensions import (
+from graphkin.drawing.headings import number, slide_index, written
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Line, Run, Text
+from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, shapes, sliders
+from graphkin.drawing.place.dimensions import (
     GAP,
     OVERRUN,
     DimensionClearance,
@@ -18,11 +22,7 @@ from graphkin.drawing.dimensions import (
     angle_dimension,
     dimension,
 )
-from graphkin.drawing.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
-from graphkin.drawing.headings import number, slide_index, written
-from graphkin.drawing.labels import Label, Mark
-from graphkin.drawing.mechanism_on_paper import GUIDE_LENGTH, Slider, shapes, sliders
-from graphkin.drawing.primitives import Line, Run, Text
+from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink

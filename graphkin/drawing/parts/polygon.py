@@ -11,20 +11,20 @@ import numpy as np
 
 from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.strokes import Bar, Image, Ray, Vector
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.group_aids import aids_in_polygon
 from graphkin.drawing.headings import spoken_vector
-from graphkin.drawing.labels import Label
-from graphkin.drawing.meeting import Flags, Points, meets
-from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.piece import Piece, joined
-from graphkin.drawing.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.polygon_points import named_points, points, step_number
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
-from graphkin.drawing.strokes import colour_of_link, colour_of_vector
-from graphkin.drawing.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
+from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
+from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
+from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place
+from graphkin.drawing.parts.polygon_points import named_points, points, step_number
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.meeting import Flags, Points, meets
+from graphkin.drawing.place.obstacles import Obstacles
+from graphkin.drawing.place.piece import Piece, joined
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 

@@ -10,11 +10,11 @@ from cmath import phase
 from collections.abc import Iterable, Iterator
 
 from graphkin.construction.touching import Touching
-from graphkin.drawing import strokes, symbols
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import symbol
 
 __all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "replacing_links", "wheels_of"]

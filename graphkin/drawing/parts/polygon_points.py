@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.strokes import Aid, Bar, Mark
-from graphkin.drawing import strokes
 from graphkin.drawing.conventions import pole
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import spoken_ref
-from graphkin.drawing.labels import Label
-from graphkin.drawing.piece import Piece, joined
-from graphkin.drawing.polygon_on_page import SAME, ZERO, PolygonOnPage
-from graphkin.drawing.primitives import Circle, Group, Stroke, Text
-from graphkin.drawing.strokes import link_of_vector
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Stroke, Text
+from graphkin.drawing.ink.strokes import link_of_vector
+from graphkin.drawing.parts.polygon_on_page import SAME, ZERO, PolygonOnPage
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, joined
 from graphkin.drawing.text import SMALLEST, plain, symbol
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol

@@ -10,8 +10,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.meeting import Flags, Floats, Indices, Points
-from graphkin.drawing.primitives import Line, Segment, Text
+from graphkin.drawing.ink.primitives import Line, Segment, Text
+from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points
 from graphkin.plane import cross
 
 __all__ = ["LEADER_SPACE", "LOTS", "Columns", "LabelForms", "LabelPosition", "LabelPositions", "Placed", "leader_forms"]

@@ -19,7 +19,7 @@ from zlib import crc32
 from graphkin.drawing.embedded import face_rules, families, outline
 from graphkin.drawing.font import Style
 from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
-from graphkin.drawing.primitives import (
+from graphkin.drawing.ink.primitives import (
     PALE,
     Arc,
     Circle,

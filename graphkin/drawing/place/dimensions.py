@@ -14,13 +14,13 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
-from graphkin.drawing.meeting import Flags, Floats, Indices, Points, meets
-from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
-from graphkin.drawing.symbols import POINTER, arrowhead
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
+from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points, meets
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import plain
 from graphkin.plane import cross
 

@@ -8,23 +8,23 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.construction.sheet import EXACT_NAME, DiagramName, Scales, Sheet
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import term
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism import bare_mechanism
-from graphkin.drawing.mechanism_on_paper import page
-from graphkin.drawing.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels, without
-from graphkin.drawing.polygon import polygon_piece, rings, step_numbers
-from graphkin.drawing.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
-from graphkin.drawing.polygon_points import END_RADIUS
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.strokes import colour_of_vector
-from graphkin.drawing.symbols import COMPONENT, RESULTANT, arrow
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.ink.strokes import colour_of_vector
+from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
+from graphkin.drawing.parts.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
+from graphkin.drawing.parts.mechanism import bare_mechanism
+from graphkin.drawing.parts.mechanism_on_paper import page
+from graphkin.drawing.parts.polygon import polygon_piece, rings, step_numbers
+from graphkin.drawing.parts.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
+from graphkin.drawing.parts.polygon_points import END_RADIUS
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import Obstacles, free_boxes, obstacles_of
+from graphkin.drawing.place.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels, without
 from graphkin.drawing.text import fitted, symbol
 from graphkin.scene.symbol import PointRef
 

@@ -9,17 +9,17 @@ from dataclasses import replace
 from itertools import pairwise, permutations
 
 from graphkin.construction.centres import Centre, Centres
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
-from graphkin.drawing.centre_marks import TOGETHER, centre_marks, line_name, near_box
 from graphkin.drawing.conventions import Letters, scale_statement
-from graphkin.drawing.drawing import Drawing
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import facts, figure_title, term
-from graphkin.drawing.labels import Label
-from graphkin.drawing.obstacles import obstacles_of
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Text, walk
 from graphkin.drawing.page_text import MARGIN, WIDTH, foot, titled
-from graphkin.drawing.piece import (
+from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, near_box
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import (
     Piece,
     ink_box,
     joined,
@@ -29,8 +29,8 @@ from graphkin.drawing.piece import (
     with_crowd,
     without,
 )
-from graphkin.drawing.primitives import Group, Line, Primitive, Text, walk
 from graphkin.drawing.text import plain, rich
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages
 
 __all__ = ["centre_steps", "named_centres", "untold"]

@@ -13,7 +13,19 @@ from threading import Lock
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.font_widths import CAP_HEIGHT, has_cjk, start_runs, width
-from graphkin.drawing.primitives import Arc, Circle, Group, Line, Page, Polygon, Polyline, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Page,
+    Polygon,
+    Polyline,
+    Primitive,
+    Scan,
+    Stroke,
+    Text,
+)
 from graphkin.errors import CallError, Problem
 from graphkin.plane import added_up
 from graphkin.words import Phrase

@@ -10,14 +10,14 @@ from collections.abc import Collection, Iterator
 
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing import strokes, symbols
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.dimensioning import drawn_lengths
 from graphkin.drawing.given_loads import springs
 from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
-from graphkin.drawing.labels import Label
-from graphkin.drawing.mechanism_on_paper import (
+from graphkin.drawing.ink import strokes, symbols
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.parts.dimensioning import drawn_lengths
+from graphkin.drawing.parts.mechanism_on_paper import (
     GUIDE_LENGTH,
     CamOnPaper,
     CurvedSlot,
@@ -26,11 +26,11 @@ from graphkin.drawing.mechanism_on_paper import (
     Slider,
     page,
 )
-from graphkin.drawing.piece import Piece, cut_to, ink_box, joined, kept_in, middle_of
-from graphkin.drawing.primitives import Circle, Group, Line, Polygon, Primitive, Text
-from graphkin.drawing.senses import clearance, drivers, found_rates
+from graphkin.drawing.parts.senses import clearance, drivers, found_rates
+from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
-from graphkin.drawing.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.plane import added_up, cross, dot
 
 __all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]

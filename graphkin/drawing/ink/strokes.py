@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.primitives import Stroke
+from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 

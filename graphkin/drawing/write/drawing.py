@@ -6,8 +6,8 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphkin.drawing.primitives import Page
-from graphkin.drawing.svg import svg_bytes
+from graphkin.drawing.ink.primitives import Page
+from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError, Problem
 from graphkin.files import path_of, whole_file
 from graphkin.words import Phrase
@@ -78,17 +78,17 @@ class Drawing(Page, Kept):
         return svg_bytes(self, outlines=outlines)
 
     def _dxf(self) -> bytes:
-        from graphkin.drawing.dxf import dxf_bytes
+        from graphkin.drawing.write.dxf import dxf_bytes
 
         return dxf_bytes(self)
 
     def _pdf(self) -> bytes:
-        from graphkin.drawing.page import pdf_bytes
+        from graphkin.drawing.write.pdf import pdf_bytes
 
         return pdf_bytes(self, *self.further)
 
     def _png(self, dpi: float) -> bytes:
-        from graphkin.drawing.page import png_bytes
+        from graphkin.drawing.write.pdf import png_bytes
 
         return png_bytes(self, dpi)
 

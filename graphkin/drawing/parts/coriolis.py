@@ -12,16 +12,16 @@ from typing import TypeAlias
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import RateTimes, Size
 from graphkin.construction.strokes import Vector
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.labels import Label
-from graphkin.drawing.piece import Piece
-from graphkin.drawing.polygon_on_page import ZERO
-from graphkin.drawing.primitives import Circle, Group, Polygon, Primitive, Text
-from graphkin.drawing.strokes import colour_of_vector
-from graphkin.drawing.symbols import COMPONENT, arrow, sense_arc
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.ink.strokes import colour_of_vector
+from graphkin.drawing.ink.symbols import COMPONENT, arrow, sense_arc
+from graphkin.drawing.parts.polygon_on_page import ZERO
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import fitted, symbol
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol

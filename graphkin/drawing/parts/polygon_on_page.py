@@ -13,8 +13,8 @@ from graphkin.construction.sheet import SERIES, DiagramName, Sheet, Step
 from graphkin.construction.strokes import Aid, Bar, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
-from graphkin.drawing.labels import Label
-from graphkin.drawing.primitives import Segment
+from graphkin.drawing.ink.primitives import Segment
+from graphkin.drawing.place.labels import Label
 from graphkin.plane import cross, dot
 from graphkin.scene.symbol import Symbol
 

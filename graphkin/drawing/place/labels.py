@@ -15,16 +15,16 @@ from itertools import islice
 
 import numpy as np
 
-from graphkin.drawing import strokes
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import box_about
-from graphkin.drawing.held_positions import HeldPositions
-from graphkin.drawing.label_candidates import LED_RINGS, RINGS, Label, Mark
-from graphkin.drawing.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
-from graphkin.drawing.label_positions import LabelPosition, LabelPositions, Placed
-from graphkin.drawing.meeting import Flags
-from graphkin.drawing.obstacles import Obstacles
-from graphkin.drawing.primitives import Line, Text
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Line, Text
+from graphkin.drawing.place.held_positions import HeldPositions
+from graphkin.drawing.place.label_candidates import LED_RINGS, RINGS, Label, Mark
+from graphkin.drawing.place.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
+from graphkin.drawing.place.label_positions import LabelPosition, LabelPositions, Placed
+from graphkin.drawing.place.meeting import Flags
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.plane import added_up
 
 __all__ = ["Label", "Mark", "Placement", "place"]

@@ -1,0 +1,1 @@
+"""Parts of figures: the mechanism and its dimensions, polygons, centres, insets."""

@@ -1,0 +1,1 @@
+"""Places on a figure: labels and dimensions among what is drawn there."""
