@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer, language_of
 from graphkin.errors import CallError, Problem
-from graphkin.words import Phrase, say
+from graphkin.words import LANGUAGES, Phrase, say
 
 if TYPE_CHECKING:
     import socket
@@ -131,7 +131,7 @@ def application(desk: Desk, address: Address) -> Starlette:
             return headed(PlainTextResponse(why, 403))
         name = request.path_params["name"]
         if name not in _FILES:
-            return headed(PlainTextResponse(Phrase("there is no such file"), 404))
+            return headed(PlainTextResponse(say(Phrase("there is no such file"), LANGUAGES[0]), 404))
         return headed(Response(_file(name), media_type=_FILES[name][1]))
 
     async def talk(socket: WebSocket) -> None:
