@@ -139,7 +139,7 @@ def _bodies(scene: Mechanism) -> Bodies:
 
     motion = solver.solve(scene)
     if not motion.ok[0]:
-        raise Unsolvable(str(motion.status[0]), Problem(scene.title, motion.why[0]))
+        raise Unsolvable(str(motion.status[0]), Problem(scene.title, motion.reasons[0]))
     unit = scene.units.metres
     made = Bodies(scene.title, unit=scene.units.length)
     for point, place in scene.frame.points.items():

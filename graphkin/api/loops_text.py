@@ -128,7 +128,7 @@ def loops_text(motion: Motion, language: str) -> LoopText:
     CallError : no position is solved, or a chosen loop goes from a point to another that nothing joins
     """
     if not motion.ok.any():
-        raise CallError(Problem("loops", Phrase("no position is solved", why=motion.why[0])))
+        raise CallError(Problem("loops", Phrase("no position is solved", why=motion.reasons[0])))
     k = int(np.argmax(motion.ok))
     axes = {name: complex(pose.u[k]) for name, pose in motion.poses.items()}
     travels = {s.key: float(motion.slide(s.key).travel[k]) for s in motion.slides}

@@ -302,11 +302,11 @@ def _solved(
     forces = solver.forces_of(motion)
     stuck = motion.ok & ~forces.ok
     if stuck.any():
-        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.why, strict=True))
+        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.reasons, strict=True))
         for name, where in solver.without_line(motion).items():
             told = Phrase("the two points of spring coincide in this", name=name)
             why = tuple(told if here else said for here, said in zip(where, why, strict=True))
-        motion = replace(motion, status=np.where(stuck, "dead point", motion.status), why=why)
+        motion = replace(motion, status=np.where(stuck, "dead point", motion.status), reasons=why)
     return _asked(Solved(motion, forces, times=times), find)
 
 

@@ -218,7 +218,7 @@ class Motion:
     structure : the order of solution
     values : real, shape (n, drivers), SI
     status : str, shape (n,): "ok", "dead point" or "not assembled"
-    why : for each position the reason, empty where ok
+    reasons : for each position why it is not "ok", empty where it is; `why` is the same in English
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
@@ -233,7 +233,7 @@ class Motion:
     structure: Structure
     values: Array
     status: Array
-    why: tuple[Wording, ...]
+    reasons: tuple[Wording, ...]
     poses: Mapping[str, Pose]
     slides: tuple[Slide, ...]
     assembly: tuple[Phrase, ...]
@@ -262,7 +262,7 @@ class Motion:
             self,
             values=self.values[rows],
             status=self.status[rows],
-            why=self.why[rows],
+            reasons=self.reasons[rows],
             poses={name: pose.rows(rows) for name, pose in self.poses.items()},
             bound=ErrorBound(*(b[rows] for b in self.bound)),
             bounds={name: ErrorBound(*(b[rows] for b in own)) for name, own in self.bounds.items()},
@@ -281,14 +281,19 @@ class Motion:
         ends = {link.name: float(before.angle(link.name)[last]) for link in self.scene.links}
         return replace(self, onward={name: end - turned.get(name, 0.0) for name, end in ends.items()})
 
+    @property
+    def why(self) -> tuple[str, ...]:
+        """Why a position is not "ok", in English, for each position; "" where it is."""
+        return tuple(map(str, self.reasons))
+
     def said(self, position: int) -> Phrase:
         """The status of a position, and why it is not "ok"."""
-        return Phrase("status and why", status=Phrase(f"status {self.status[position]}"), why=self.why[position])
+        return Phrase("status and why", status=Phrase(f"status {self.status[position]}"), why=self.reasons[position])
 
     def require(self) -> Motion:
         """Itself, if at least one position is ok.  Raises Unsolvable with the first reason otherwise."""
         if not self.ok.any():
-            raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.why[0]))
+            raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.reasons[0]))
         return self
 
     def link(self, name: str) -> PlacedLink:

@@ -109,7 +109,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
             columns = {key: _Column(n) for key in parts}
         for key, values in parts.items():
             columns[key].put(rows, values, [c for other, c in columns.items() if other[1] == key[1]])
-        reasons[rows] = some.why
+        reasons[rows] = some.reasons
         first = rows.stop
     assert some is not None
     kept = {key: column.array for key, column in columns.items()}
@@ -118,7 +118,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
         some,
         values=kept["", "values"],
         status=kept["", "status"],
-        why=tuple(reasons),
+        reasons=tuple(reasons),
         poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
         bound=ErrorBound(*numbers[:6]),
         bounds={},

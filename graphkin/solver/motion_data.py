@@ -115,7 +115,7 @@ def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, 
         for k, status in enumerate(motion.status[some].tolist()):
             entry: dict[str, Json] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
             if status != "ok":
-                yield {**entry, "why": str(motion.why[first + k])}
+                yield {**entry, "why": motion.why[first + k]}
                 continue
             for part, table in cells.items():
                 entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}

@@ -95,8 +95,8 @@ def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     def at(unit: Array) -> Motion:
         drive = Drive(value, np.broadcast_to(unit, value.shape), np.zeros_like(value))
         motion = motion_of(structure, drive, stacked, assembly, good, fine=fine)
-        said = tuple(a or b for a, b in zip(motion.why, why, strict=True))
-        return replace(motion, why=said, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
+        said = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
+        return replace(motion, reasons=said, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
 
     return at
 
