@@ -19,7 +19,8 @@ from graphkin.drawing.parts.coriolis import coriolis_terms
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.polygon import polygon_piece
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, extent
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import plain, rich
 from graphkin.scene import mechanism_of

@@ -16,7 +16,8 @@ from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up

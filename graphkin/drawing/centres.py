@@ -21,8 +21,8 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
-from graphkin.drawing.ink.strokes import colour_of_link
-from graphkin.drawing.parts.centre_marks import centre_marks, line_name, mark_of, near_box, pale
+from graphkin.drawing.ink.strokes import colour_of_link, pale
+from graphkin.drawing.parts.centre_marks import centre_marks, line_name, mark_of, near_box
 from graphkin.drawing.parts.centre_steps import centre_steps, named_centres, untold
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
@@ -201,12 +201,11 @@ def _heading(centres: Centres, at: str, language: str, width: float) -> list[tup
 def background(piece: Piece, *also: str) -> Piece:
     """The mechanism alone, pale: without lengths, senses and compass arcs; with groups of ``also`` these classes."""
     kept = tuple(
-        pale(thing)
-        for thing in piece.layers["mechanism"]
+        thing for thing in piece.layers["mechanism"]
         if isinstance(thing, Group) and {"frame", "link", "point", "cam", *also} & set(thing.classes)
-    )
+    )  # fmt: skip
     names = tuple(name for name in piece.labels if name.text.id.startswith(("label-point-", "label-link-")))
-    return Piece({"mechanism": kept}, names, piece.marks)
+    return Piece({"mechanism": pale(kept)}, names, piece.marks)
 
 
 class _Side:

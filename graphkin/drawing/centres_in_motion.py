@@ -23,7 +23,8 @@ from graphkin.drawing.parts.centre_marks import mark_of
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say

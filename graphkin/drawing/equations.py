@@ -13,8 +13,7 @@ from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.place.piece import moved
+from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
 from graphkin.drawing.sums import bound, carried_by, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.plane import added_up

@@ -23,7 +23,8 @@ from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets,
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.sheet import background_piece, scan_piece, sheet_page
 from graphkin.drawing.text import fitted, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing

@@ -20,7 +20,8 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, vector_group
 from graphkin.drawing.parts.polygon_on_page import side_by_side
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, moved_piece
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 

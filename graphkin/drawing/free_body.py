@@ -21,7 +21,8 @@ from graphkin.drawing.parts.mechanism import links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.parts.touching import marks_cut_free
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, middle_of, moved_piece
 from graphkin.drawing.text import symbol
 from graphkin.plane import added_up, unit
 

@@ -19,7 +19,8 @@ from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.page_text import titled
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import unit

@@ -22,7 +22,8 @@ from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.drawing.page_text import titled
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up

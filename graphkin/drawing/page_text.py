@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.headings import term, titles
-from graphkin.drawing.ink.primitives import Group, Primitive, Run, Text, walk
+from graphkin.drawing.ink.primitives import Primitive, Run, Text, map_tree, walk
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.words import languages
@@ -55,15 +54,11 @@ def titled(sheet: Sheet, language: str, below: str, margin: float = MARGIN) -> t
 def without_titles(children: tuple[Primitive, ...]) -> tuple[tuple[Primitive, ...], float]:
     """What a figure shows without its titles, for a page that has them, and the mm that are free then at its head."""
 
-    def without(things: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
-        return tuple(
-            replace(one, children=without(one.children)) if isinstance(one, Group) else one
-            for one in things
-            if not (isinstance(one, Text) and "heading" in one.classes)
-        )
+    def is_title(thing: Primitive) -> bool:
+        return isinstance(thing, Text) and "heading" in thing.classes
 
-    lines = [one.at.imag for one in walk(children) if isinstance(one, Text) and "heading" in one.classes]
-    return without(children), max(lines, default=0.0)
+    lines = [thing.at.imag for thing in walk(children) if isinstance(thing, Text) and is_title(thing)]
+    return map_tree(children, lambda thing: None if is_title(thing) else thing), max(lines, default=0.0)
 
 
 def step_lines(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primitive], float]:

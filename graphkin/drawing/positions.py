@@ -21,8 +21,9 @@ from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, check_bar, dimension
 from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import AngleDriver

@@ -24,7 +24,7 @@ from graphkin.drawing.headings import (
     term,
 )
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, walk
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, moved, walk
 from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
@@ -32,7 +32,8 @@ from graphkin.drawing.parts.coriolis import CoriolisTerm
 from graphkin.drawing.parts.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain

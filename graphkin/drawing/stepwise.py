@@ -15,7 +15,7 @@ from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.steps import links_drawn
 from graphkin.construction.strokes import Aid, Mark, TrialCurve, Vector
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.parts.dimensioning import LENGTHS
 from graphkin.drawing.parts.polygon_on_page import details
 
@@ -152,7 +152,7 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
             inside = so_far(thing.children, first, last)
             found += [replace(thing, children=inside)] if inside else []
         elif step is not None and step < first:
-            found.append(_faded(thing))
+            found += strokes.pale((thing,), FADED, FADED + 0.2)
         elif step is not None and isinstance(thing, Group):
             halo = (
                 ()
@@ -164,19 +164,6 @@ def so_far(children: Iterable[Primitive], first: int, last: int) -> tuple[Primit
         else:
             found.append(thing)
     return tuple(found)
-
-
-def _faded(thing: Primitive) -> Primitive:
-    if isinstance(thing, Group):
-        return replace(thing, children=tuple(map(_faded, thing.children)))
-    if isinstance(thing, Text):
-        return replace(thing, colour=strokes.tint(thing.colour, FADED + 0.2))
-    if isinstance(thing, Scan):
-        return thing
-    stroke = thing.stroke and thing.stroke.coloured(strokes.tint(thing.stroke.colour, FADED))
-    if isinstance(thing, Polygon | Circle) and thing.fill not in ("", strokes.WHITE):
-        return replace(thing, stroke=stroke, fill=strokes.tint(thing.fill, FADED))
-    return replace(thing, stroke=stroke)  # type: ignore[arg-type]
 
 
 def _band(thing: Primitive) -> list[Primitive]:

@@ -19,7 +19,8 @@ from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import plain, rich, symbol, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot

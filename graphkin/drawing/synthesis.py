@@ -29,7 +29,8 @@ from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive,
 from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, moved_piece
 from graphkin.drawing.text import rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up

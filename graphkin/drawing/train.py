@@ -17,7 +17,8 @@ from graphkin.drawing.ink.symbols import COMPONENT, arrow
 from graphkin.drawing.page_text import titled
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.drawing.train_scheme import scheme
 from graphkin.drawing.write.drawing import Drawing

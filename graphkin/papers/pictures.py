@@ -13,13 +13,14 @@ from graphkin.drawing.equations import write_equation
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, map_tree, moved
 from graphkin.drawing.page_text import without_titles
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import births, so_far, stepped
 from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.write.drawing import Drawing
@@ -112,8 +113,8 @@ def stage_picture(
     steps = [step.number for step in sheet.steps if step.diagram == diagram]
     seen = so_far(layers, first if first > steps[0] else last + 1, last)
     if first <= steps[0]:
-        seen = so_far(layers, steps[0], last)
-        seen = tuple(_without(thing, "new") for thing in seen)
+        whole = so_far(layers, steps[0], last)
+        seen = map_tree(whole, lambda thing: None if isinstance(thing, Group) and "new" in thing.classes else thing)
     foot = scale_foot(sheet, diagram, letters, language)
     return cropped(seen, term(FIGURE_WORDS[diagram], language), "", language, foot)
 
@@ -158,13 +159,6 @@ def _names_result(thing: Primitive | None, aids: Collection[str]) -> bool:
         return False
     found = ("label-omega-", "label-alpha-", "label-trial-")
     return thing.id in aids or (isinstance(thing, Text) and thing.id.startswith(found))
-
-
-def _without(thing: Primitive, name: str) -> Primitive:
-    if not isinstance(thing, Group):
-        return thing
-    kept = tuple(_without(c, name) for c in thing.children if not (isinstance(c, Group) and name in c.classes))
-    return replace(thing, children=kept)
 
 
 def equation_picture(sheet: Sheet, equation: Equation, letters: Letters, language: str, words: str) -> Drawing:

@@ -26,7 +26,8 @@ from graphkin.drawing.parts.centre_marks import centre_marks, near_box
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing

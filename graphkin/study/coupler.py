@@ -13,8 +13,9 @@ from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.ink.symbols import guide as guide_symbol
-from graphkin.drawing.place.labels import Label, place
+from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.placement import place
 from graphkin.drawing.text import rich
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.study.driver_axis import (

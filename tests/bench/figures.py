@@ -19,7 +19,7 @@ from unittest.mock import patch
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.place import piece
+from graphkin.drawing.place import names
 from tests.command import PROGRAM
 
 REPEATS = 9
@@ -57,7 +57,7 @@ def five(name: str) -> None:
 def placed(name: str) -> tuple[float, int]:
     """Time for all labels of a scene's figures, ms, and how many times labels were placed."""
     spent, times = 0.0, 0
-    own = piece.named
+    own = names.named
 
     def timed(*args: object) -> object:
         nonlocal spent, times
@@ -68,7 +68,7 @@ def placed(name: str) -> tuple[float, int]:
             spent += time.process_time() - start
             times += 1
 
-    with patch.object(piece, "named", timed):
+    with patch.object(names, "named", timed):
         five(name)
     return 1e3 * spent, times
 

@@ -20,7 +20,8 @@ from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Te
 from graphkin.drawing.parts.centre_marks import centre_marks
 from graphkin.drawing.parts.centre_steps import named_centres, untold
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.place.piece import Piece, ink_box, joined, with_labels
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError

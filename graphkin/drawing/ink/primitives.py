@@ -7,8 +7,8 @@ the SVG).  Angles are radians, counter-clockwise as seen on the page.  Every wri
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple, TypeAlias
 
 __all__ = [
@@ -27,6 +27,8 @@ __all__ = [
     "Stroke",
     "Text",
     "class_names",
+    "map_tree",
+    "moved",
     "page_direction",
     "walk",
 ]
@@ -35,6 +37,9 @@ PALE = 0.5  # how much of a scan is seen
 
 Segment: TypeAlias = tuple[complex, complex]
 """A straight line from one point to another."""
+
+Recolour: TypeAlias = Callable[[str], str]
+"""From a colour ``#rrggbb`` to another."""
 
 
 def page_direction(angle: float) -> complex:
@@ -57,6 +62,9 @@ class Stroke:
     def coloured(self, colour: str) -> Stroke:
         return Stroke(self.width, self.dash, colour)
 
+    def recoloured(self, change: Recolour) -> Stroke:
+        return Stroke(self.width, self.dash, change(self.colour))
+
 
 @dataclass(frozen=True)
 class Line:
@@ -74,6 +82,12 @@ class Line:
             return self.end
         return self.end - (self.end - self.start) * min(1.0, self.covered / length)
 
+    def moved(self, by: complex) -> Line:
+        return Line(self.start + by, self.end + by, self.stroke, self.covered)
+
+    def recoloured(self, change: Recolour) -> Line:
+        return Line(self.start, self.end, self.stroke.recoloured(change), self.covered)
+
 
 @dataclass(frozen=True)
 class Polyline:
@@ -81,6 +95,12 @@ class Polyline:
 
     points: tuple[complex, ...]
     stroke: Stroke
+
+    def moved(self, by: complex) -> Polyline:
+        return Polyline(tuple(z + by for z in self.points), self.stroke)
+
+    def recoloured(self, change: Recolour) -> Polyline:
+        return Polyline(self.points, self.stroke.recoloured(change))
 
 
 @dataclass(frozen=True)
@@ -91,6 +111,12 @@ class Polygon:
     fill: str = "#000000"
     stroke: Stroke | None = None
 
+    def moved(self, by: complex) -> Polygon:
+        return Polygon(tuple(z + by for z in self.points), self.fill, self.stroke)
+
+    def recoloured(self, change: Recolour) -> Polygon:
+        return Polygon(self.points, self.fill and change(self.fill), self.stroke and self.stroke.recoloured(change))
+
 
 @dataclass(frozen=True)
 class Circle:
@@ -100,6 +126,13 @@ class Circle:
     radius: float
     fill: str = ""
     stroke: Stroke | None = None
+
+    def moved(self, by: complex) -> Circle:
+        return Circle(self.centre + by, self.radius, self.fill, self.stroke)
+
+    def recoloured(self, change: Recolour) -> Circle:
+        stroke = self.stroke and self.stroke.recoloured(change)
+        return Circle(self.centre, self.radius, self.fill and change(self.fill), stroke)
 
 
 @dataclass(frozen=True)
@@ -117,6 +150,12 @@ class Arc:
 
     def at(self, angle: float) -> complex:
         return self.centre + self.radius * page_direction(angle)
+
+    def moved(self, by: complex) -> Arc:
+        return Arc(self.centre + by, self.radius, self.start, self.end, self.stroke)
+
+    def recoloured(self, change: Recolour) -> Arc:
+        return Arc(self.centre, self.radius, self.start, self.end, self.stroke.recoloured(change))
 
 
 class Run(NamedTuple):  # a page has thousands
@@ -151,6 +190,12 @@ class Text:
         """The words alone, as a reader copies them."""
         return "".join(run.text for run in self.runs)
 
+    def moved(self, by: complex) -> Text:
+        return Text(self.at + by, self.runs, self.anchor, self.colour, self.id, self.classes, self.step)
+
+    def recoloured(self, change: Recolour) -> Text:
+        return replace(self, colour=change(self.colour))
+
 
 @dataclass(frozen=True)
 class Scan:
@@ -167,6 +212,12 @@ class Scan:
     kind: str
     data: bytes = field(repr=False)
     panel: tuple[complex, ...] = ()
+
+    def moved(self, by: complex) -> Scan:
+        return replace(self, corner=self.corner + by, panel=tuple(z + by for z in self.panel))
+
+    def recoloured(self, change: Recolour) -> Scan:
+        return self
 
 
 @dataclass(frozen=True)
@@ -196,6 +247,13 @@ class Group:
     title: str = ""
     step: int | None = None
     motion: Travel | None = None
+
+    def moved(self, by: complex) -> Group:
+        """With the same children, of which each moves itself."""
+        return self if self.motion is None else replace(self, motion=replace(self.motion, about=self.motion.about + by))
+
+    def recoloured(self, change: Recolour) -> Group:
+        return self
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group
@@ -227,3 +285,23 @@ def walk(children: tuple[Primitive, ...]) -> Iterator[Primitive]:
         yield child
         if isinstance(child, Group):
             yield from walk(child.children)
+
+
+def map_tree(
+    children: Iterable[Primitive], change: Callable[[Primitive], Primitive | None]
+) -> tuple[Primitive, ...]:
+    """The same things, each changed, or left out where ``change`` says None; groups after what they hold."""
+    found: list[Primitive] = []
+    for thing in children:
+        if isinstance(thing, Group):
+            inside = map_tree(thing.children, change)
+            thing = Group(inside, thing.id, thing.classes, thing.layer, thing.title, thing.step, thing.motion)
+        changed = change(thing)
+        if changed is not None:
+            found.append(changed)
+    return tuple(found)
+
+
+def moved(children: Iterable[Primitive], by: complex) -> tuple[Primitive, ...]:
+    """The same things elsewhere on the page (mm)."""
+    return map_tree(children, lambda thing: thing.moved(by))

@@ -6,10 +6,10 @@ same in the mechanism and in every diagram, where a vector has that of the link 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.ink.primitives import Stroke
+from graphkin.drawing.ink.primitives import Primitive, Stroke, Text, map_tree
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 
@@ -36,6 +36,7 @@ __all__ = [
     "colour_of_vector",
     "link_colour",
     "link_of_vector",
+    "pale",
     "texture",
     "tint",
 ]
@@ -85,6 +86,16 @@ def tint(colour: str, strength: float = 0.14) -> str:
     """A colour thinned with white (0: white, 1: the colour), for the area of a rigid link."""
     parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
     return "#" + "".join(f"{round(255 - (255 - part) * strength):02x}" for part in parts)
+
+
+def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1.0) -> tuple[Primitive, ...]:
+    """The same things in colours thinned to a strength, texts to that of ``words``."""
+
+    def thinned(thing: Primitive) -> Primitive:
+        share = words if isinstance(thing, Text) else strength
+        return thing if share == 1.0 else thing.recoloured(lambda colour: tint(colour, share))
+
+    return map_tree(children, thinned)
 
 
 def colour_of_link(scene: Mechanism, link: str) -> str:

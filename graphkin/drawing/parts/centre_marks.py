@@ -13,7 +13,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters
 from graphkin.drawing.headings import number
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import obstacles_of
@@ -21,7 +21,7 @@ from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
 
-__all__ = ["TOGETHER", "centre_marks", "line_name", "mark_of", "near_box", "pale"]
+__all__ = ["TOGETHER", "centre_marks", "line_name", "mark_of", "near_box"]
 
 TOGETHER = 1.3  # mm: centres so near to each other share one mark
 BEYOND = 5.0  # mm of a construction line beyond what it finds
@@ -275,24 +275,3 @@ class _Marks:
         point = next(iter(fixed), None) or next(iter(links.scene.holders))
         letter, rest = point[0], point[1:]
         return (f"{letter}_{{{rest}}}" if rest else letter), links.point(point)
-
-
-def pale(child: Primitive, strength: float = 0.45) -> Primitive:
-    """The same in thinned colours, as a background."""
-    if isinstance(child, Group):
-        inside = tuple(pale(c, strength) for c in child.children)
-        return Group(inside, child.id, child.classes, child.layer, child.title, child.step)
-    if isinstance(child, Text | Scan):
-        return child
-    stroke = child.stroke and Stroke(child.stroke.width, child.stroke.dash, strokes.tint(child.stroke.colour, strength))
-    if isinstance(child, Line):
-        return Line(child.start, child.end, stroke or child.stroke, child.covered)
-    if isinstance(child, Circle):
-        return Circle(child.centre, child.radius, _thin(child.fill, strength), stroke)
-    if isinstance(child, Polygon):
-        return Polygon(child.points, _thin(child.fill, strength), stroke)
-    return type(child)(**{**vars(child), "stroke": stroke})
-
-
-def _thin(fill: str, strength: float) -> str:
-    return strokes.tint(fill, strength) if fill else fill

@@ -18,17 +18,9 @@ from graphkin.drawing.ink.primitives import Group, Line, Primitive, Text, walk
 from graphkin.drawing.page_text import MARGIN, WIDTH, foot, titled
 from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, near_box
 from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.names import with_crowd, without
 from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import (
-    Piece,
-    ink_box,
-    joined,
-    layer_groups,
-    moved_piece,
-    renamed,
-    with_crowd,
-    without,
-)
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, renamed
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages

@@ -13,7 +13,7 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.headings import term
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.parts.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
@@ -23,8 +23,9 @@ from graphkin.drawing.parts.polygon import polygon_piece, rings, step_numbers
 from graphkin.drawing.parts.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
 from graphkin.drawing.parts.polygon_points import END_RADIUS
 from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.place.piece import Piece, cut_to, joined, middle_of, moved_piece, with_crowd, with_labels, without
+from graphkin.drawing.place.piece import Piece, cut_to, joined, middle_of, moved_piece
 from graphkin.drawing.text import fitted, symbol
 from graphkin.scene.symbol import PointRef
 
@@ -285,7 +286,7 @@ def mechanism_detail(
     names = tuple(
         name for name in bare.labels if name.text.id in kept and inner.distance(middle_of(name.mark)) == 0.0
     )
-    inside = Piece({"mechanism": cut_to(_plain(bare.layers["mechanism"]), inner)}, names)
+    inside = Piece({"mechanism": cut_to(map_tree(bare.layers["mechanism"], _plain), inner)}, names)
     named = with_labels(inside, inner)
     letters_of_both = ", ".join(f"${letters.point(ref.point)}$" for ref in near)
     words = fitted(f"{term('detail', language).replace('{0}', f'{factor:g}')}, {letters_of_both}", 2.6, box.width - 1.6)
@@ -294,7 +295,7 @@ def mechanism_detail(
         (Polygon(box.corners, "", strokes.DIMENSION), *named.layers["mechanism"]), id="detail-mechanism",
         classes=("inset", "detail"),
     )  # fmt: skip
-    labels = tuple(_renamed(thing) for thing in named.layers.get("labels", ()))
+    labels = map_tree(named.layers.get("labels", ()), _renamed)
     return Piece({"mechanism": (frame,), "labels": (*labels, caption)})
 
 
@@ -308,11 +309,9 @@ def _nearest(sheet: Sheet) -> tuple[PointRef, PointRef] | None:
     return min(close, key=lambda pair: pair[0])[1:] if close else None
 
 
-def _plain(things: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
-    """Without the ids, which the mechanism itself bears."""
-    return tuple(
-        Group(_plain(thing.children), "", thing.classes) if isinstance(thing, Group) else thing for thing in things
-    )
+def _plain(thing: Primitive) -> Primitive:
+    """Without its id, which the mechanism itself bears."""
+    return Group(thing.children, "", thing.classes) if isinstance(thing, Group) else thing
 
 
 def _renamed(thing: Primitive) -> Primitive:

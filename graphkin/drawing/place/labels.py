@@ -1,399 +1,432 @@
-"""Where labels stand: clear of each other and of the drawing, inside their panel, nearer to their own mark than to any
-other of its kind, or tied to it by a leader.
+"""What a label is, the places around its mark where it could stand, ring by ring, what each costs in looks, and whether
+labels at two of them are in each other's way.
 
-Each label has candidate places in rings of growing distance around its mark.  Those that the drawing forbids are sorted
-out for all labels at once; then labels take places, the most constrained first, and labels left without one drive out
-others (greedy point labelling with repair, after Christensen, Marks and Shieber, An empirical study of algorithms for
-point-feature label placement, ACM Trans. Graphics 14, 1995).
+The places of all labels are made together, as arrays.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from itertools import islice
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from typing import NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import box_about
-from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Text
-from graphkin.drawing.place.held_positions import HeldPositions
-from graphkin.drawing.place.label_candidates import LED_RINGS, RINGS, Label, Mark
-from graphkin.drawing.place.label_panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
-from graphkin.drawing.place.label_positions import LabelPosition, LabelPositions, Placed
-from graphkin.drawing.place.meeting import Flags
-from graphkin.drawing.place.obstacles import Obstacles
-from graphkin.plane import added_up
+from graphkin.drawing.ink.primitives import Line, Segment, Text, page_direction
+from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points
+from graphkin.plane import cross
 
-__all__ = ["Label", "Mark", "Placement", "place"]
+__all__ = [
+    "LEADER_FROM", "LEADER_LEAST", "LEADER_SPACE", "LED_RINGS", "LOTS", "RINGS", "Candidates", "Columns", "Label",
+    "LabelForms", "LabelPosition", "LabelPositions", "LabelRequest", "LabelRequests", "Mark", "Placed", "candidates",
+    "ends", "leader_forms", "led_candidates",
+]  # fmt: skip
 
-# Rings looked at, one stage after the other, for the labels that have no place yet.
-_STAGES = (0, 2, 5, len(RINGS))
-# What a label is worth by its rank: so much more must others be worth together before it gives way to them.
-_WORTH = (12, 5, 4, 3, 2, 1)
-_DRIVES = 4  # how often labels may drive out others, for each label
-_SPACE = complex(1.8, 0.9)  # mm between two labels, beside each other and one above the other
-_TRIED = 40  # places tried to get round a vector
-_LOOKED_AT = 120  # places of a label that is to make room
-# Pushes for one label; what each costs the pushed one, more each time; what it costs to drop one that may be missing.
-_PUSHES, _PUSHED, _DROPPED = 40, 8.0, 60.0
-_MOVED = 2  # labels that make room for another at most
-_DISPENSABLE = 4  # the rank from which labels may be missing
-# What it costs that a key stands for a name, that a list tells a label by its ends, that it stands nowhere.
-_KEY_COST, _TOLD_COST, _MISSING_COST = 10.0, 70.0, TANGLED
-_TOLD = -1  # in place of a request
-_NOTHING = Obstacles()
+LOTS = (0, 40, 120, 240, 720)
+"""First places of the lots in which places are judged, the cheapest first."""
+T = TypeVar("T", float, Floats)
+
+LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
+Mark: TypeAlias = complex | Segment
+"""What a label names: a point, or the line between two."""
+
+_Parts: TypeAlias = tuple[Points, Floats, Points, Floats, Indices]
+
+# Distance of the box from its mark, mm, ring by ring.
+RINGS = (0.7, 1.5, 2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0)
+LEADER_FROM = 5.0  # a label further off than this has a leader
+LEADER_LEAST = 2.0  # nearer to its mark a label has no room for a leader
+_ANGLES = 2 * np.pi * np.arange(24) / 24
+_WAYS = np.exp(-1j * _ANGLES)
+# The corner or the edge of the box that looks at the point slides with the direction.
+_HOLDS = np.clip(1.6 * _WAYS.real, -1, 1), np.clip(1.6 * _WAYS.imag, -1, 1)
+_SHARES = np.array((0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9))
+# Far from a mark every second angle, and places about the middle of a vector, will do.
+_SOME = np.arange(24) % 2 == 0, np.arange(9) < 5
+# What a leader that runs over a vector is tried with further: places of its foot, ways, distances.
+_FEET = np.array((0.35, 0.65, 0.2, 0.8, 0.08, 0.92, 0.5, 0.14, 0.86, 0.28, 0.72, 0.97, 1.0))
+_MANY_WAYS = np.exp(-2j * np.pi * np.arange(48) / 48)
+LED_RINGS = ((2.4, 3.6, 5.0, 6.8), (9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.0))
+"""Distances that are tried for such a leader, mm: the further ones where the nearer give it no place."""
+_SIDES = np.array((1.0, -1.0))
+# Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
+_LIKED = math.radians(40)
 
 
-def place(
-    labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
-) -> tuple[Placed, ...]:
-    """Give labels their places, in their order, those left out that are given up; the same input gives the same places.
+@dataclass(frozen=True)
+class LabelRequest:
+    """What a label asks for: places around a mark of these ends (equal for a point), for a box of half this width and
+    height (as a complex number), in its liked directions (rad)."""
+
+    start: complex
+    end: complex
+    half: complex
+    toward: tuple[float, ...]
+
+    @property
+    def is_point(self) -> bool:
+        return self.start == self.end
+
+
+@dataclass(frozen=True)
+class Label:
+    """A text that wants a place.
 
     Parameters
     ----------
-    labels : in the order of importance among equals
-    panel : no label leaves it
-    obstacles : what is drawn already
-    marks : further points and segments that a reader could take a label for, besides those of the labels
+    text : what to write; its ``at`` is not used
+    mark : a point, or the two ends of a segment, that it names
+    toward : directions (rad, counter-clockwise) from a point in the order of liking; for a segment the side whose
+        normal is nearest to the first of them is liked
+    rank : one of rank 0 must stand, others are given up where there is no room, the highest rank first
+    key : what may stand in its place in a crowd, the text being listed elsewhere
+    between : the letters of the ends of its vector, by which a list can tell it in a crowd where not even the key has
+        room; in the notation of symbols, empty where the ends have none
     """
-    return Placement(labels, panel, obstacles, marks).placed
+
+    text: Text
+    mark: Mark
+    toward: tuple[float, ...] = ()
+    rank: int = 0
+    key: Text | None = None
+    between: str = ""
+
+    def request(self, box: Box) -> LabelRequest:
+        """What it asks for with a box of this size."""
+        return LabelRequest(*ends(self.mark), complex(box.width, box.height) / 2, self.toward)
 
 
-class Placement:
-    """Which label stands where; parameters as for `place`."""
+class LabelRequests:
+    """What some labels ask for, as arrays: ends of marks, half sizes of boxes, whether the mark is a point, for points
+    the cost of each direction, for segments the liked one."""
 
-    def __init__(
-        self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
-    ) -> None:
-        self.labels, self.ranks = labels, [label.rank for label in labels]
-        self.texts = [label.text for label in labels]  # by request: those of the labels, then their keys
-        self.boxes = [box_about(text.runs) for text in self.texts]
-        self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
-        self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
-        self.seen = [0] * len(labels)  # rings looked at
-        self.held = HeldPositions(len(labels), _SPACE)
-        self.clear = [True] * len(labels)
-        self.keys: dict[int, int] = {}  # the request for the key of a label
-        self.keyed: set[int] = set()  # labels for which their keys stand
-        self.telling = False  # whether a list may tell labels by their ends
-        self.told: set[int] = set()  # labels that it tells so
-        self.moves = 0  # how often room has been made
-        # Labels for which none could be made: after how many moves, with how many keys, and who was in the way.
-        self.stuck: dict[int, tuple[int, int, set[int]]] = {}
-        if labels:
-            self._settle()
+    def __init__(self, requests: Sequence[LabelRequest]) -> None:
+        self.start = np.array([one.start for one in requests])
+        self.end = np.array([one.end for one in requests])
+        self.half = np.array([one.half for one in requests])
+        self.is_point = self.start == self.end
+        self.dislikes = np.array([_dislike(one.toward if one.is_point else ()) for one in requests])
+        self.liked = np.array([page_direction(one.toward[0] if one.toward else _LIKED) for one in requests])
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, distances
+    from them (mm), and which of the labels asked for it."""
+
+    centres: Points
+    costs: Floats
+    feet: Points
+    gaps: Floats
+    owners: Indices
+
+    def at(self, kept: Flags | Indices) -> Candidates:
+        """Some of the places."""
+        return Candidates(self.centres[kept], self.costs[kept], self.feet[kept], self.gaps[kept], self.owners[kept])
+
+    def __add__(self, other: Candidates) -> Candidates:
+        columns = zip(vars(self).values(), vars(other).values(), strict=True)
+        return Candidates(*map(np.concatenate, columns))
+
+
+def ends(mark: Mark) -> Segment:
+    """Ends of a mark, a point being both, to a thousandth of a millimetre, so that coincident marks are equal."""
+    start, end = mark if isinstance(mark, tuple) else (mark, mark)
+    return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
+
+
+def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -> Candidates:
+    """All places of some labels at some distances (mm) from their marks; owners are places in ``who``."""
+    is_point = requests.is_point[who]
+    points, segments = np.flatnonzero(is_point), np.flatnonzero(~is_point)
+    parts = []
+    if points.size:
+        at = requests.start[who[points]]
+        parts.append(_off_points(requests, who, points, at, gaps))
+    if segments.size:
+        parts.append(_off_segments(requests, who, segments, gaps))
+        far = tuple(gap for gap in gaps if gap >= LEADER_LEAST)
+        if far:
+            # Far from a vector there is more room all round its middle than square to it.
+            middles = (requests.start[who[segments]] + requests.end[who[segments]]) / 2
+            parts.append(_off_points(requests, who, segments, middles, far))
+    return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ...]) -> Candidates:
+    """Further places of labels that want leaders, at some distances (mm): at more angles from a point, or from more
+    places of a vector."""
+    gaps = np.array(rings)[:, None]
+    parts = []
+    for i, label in enumerate(who):
+        ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[label] else (_WAYS, _FEET)
+        start, end, half = requests.start[label], requests.end[label], requests.half[label]
+        hold = np.clip(1.6 * ways.real, -1, 1) * half.real + 1j * np.clip(1.6 * ways.imag, -1, 1) * half.imag
+        feet = (start + shares * (end - start))[:, None, None]
+        centres = feet + gaps * ways + hold
+        costs = gaps + 2.0 * np.abs(shares - 0.5)[:, None, None]
+        columns = [np.broadcast_to(column, centres.shape).ravel() for column in (centres, costs, feet, gaps)]
+        parts.append((*columns, np.full(centres.size, i)))
+    return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
+
+
+def _off_points(
+    requests: LabelRequests, who: Indices, some: Indices, points: Points, gaps: tuple[float, ...]
+) -> _Parts:
+    """Columns of places all round some points, at an angle each."""
+    rings, angles, away, hold_x, hold_y = _around(gaps)
+    half, at = requests.half[who[some]][:, None], points[:, None]
+    centres = at + away + hold_x * half.real + 1j * (hold_y * half.imag)
+    costs = rings + requests.dislikes[who[some]].take(angles, axis=1)
+    return centres.ravel(), costs.ravel(), points.repeat(len(rings)), *_rings_of(rings, some)
+
+
+def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> _Parts:
+    """Columns of places on both sides of some segments, square to them."""
+    rings, side, share, dear = _along(gaps)
+    start, end, half, liked = (
+        column[who[some]] for column in (requests.start, requests.end, requests.half, requests.liked)
+    )
+    way = end - start
+    normal = 1j * way / np.abs(way)
+    sides = normal[:, None] * _SIDES
+    disliked = 0.4 * (1.0 - (sides * liked.conj()[:, None]).real)
+    reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
+    feet = (start[:, None] + _SHARES * way[:, None]).take(share, axis=1)
+    centres = feet + (rings + reach[:, None]) * sides.take(side, axis=1)
+    costs = rings + disliked.take(side, axis=1) + dear
+    return centres.ravel(), costs.ravel(), feet.ravel(), *_rings_of(rings, some)
+
+
+def _rings_of(rings: Floats, some: Indices) -> tuple[Floats, Indices]:
+    """The ring of each place, and who asked for it."""
+    return np.broadcast_to(rings, (len(some), len(rings))).ravel(), some.repeat(len(rings))
+
+
+@lru_cache(maxsize=64)
+def _around(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Points, Floats, Floats]:
+    """Ring and angle of each place around a point, far from it only every second, in turn; how far off it is, and where
+    the box is held."""
+    rings = np.array(gaps)
+    sparse = _SOME[0] ^ (np.arange(len(gaps)) % 2 == 1)[:, None]
+    ring, angle = np.nonzero((rings < LEADER_FROM)[:, None] | sparse)
+    return rings[ring], angle, rings[ring] * _WAYS[angle], _HOLDS[0][angle], _HOLDS[1][angle]
+
+
+@lru_cache(maxsize=64)
+def _along(gaps: tuple[float, ...]) -> tuple[Floats, Indices, Indices, Floats]:
+    """Ring, side and share of each place beside a segment, and what the share costs."""
+    rings = np.array(gaps)
+    near = (rings < LEADER_FROM)[:, None, None] | _SOME[1]
+    ring, side, share = np.nonzero(np.broadcast_to(near, (len(gaps), 2, len(_SHARES))))
+    return rings[ring], side, share, 2.0 * np.abs(_SHARES - 0.5)[share]
+
+
+@lru_cache(maxsize=512)
+def _dislike(toward: tuple[float, ...]) -> Floats:
+    """What each angle costs for liked directions."""
+    if not toward:
+        return 0.5 * _apart(_LIKED) / np.pi
+    least: Floats = np.min([3.0 * _apart(liked) / np.pi + 0.3 * rank for rank, liked in enumerate(toward)], axis=0)
+    return least
+
+
+def _apart(liked: float) -> Floats:
+    away: Floats = np.abs((_ANGLES - liked + np.pi) % (2 * np.pi) - np.pi)
+    return away
+
+
+class LabelPosition(NamedTuple):
+    """A place for a label: its box (mm), what it costs in looks (mm), its leader from mark to box, and left, top, right
+    and bottom of what both take."""
+
+    left: float
+    top: float
+    right: float
+    bottom: float
+    cost: float
+    leader: Segment | None
+    reach: tuple[float, float, float, float]
 
     @property
-    def placed(self) -> tuple[Placed, ...]:
-        """The labels at their places, in their order; without such as may be missing and stand badly."""
-        return tuple(
-            self._placed(i, position) for i, position in sorted(self.held.standing.items())
-            if self.ranks[i] < _DISPENSABLE or not self._badly(i)
-        )  # fmt: skip
+    def box(self) -> Box:
+        return Box(self.left, self.top, self.right, self.bottom)
 
-    def _placed(self, i: int, position: LabelPosition) -> Placed:
-        request = self.keys[i] if i in self.keyed else i
-        text, box = self.texts[request], self.boxes[request]
-        leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
-        at = complex(position.left - box.left, position.top - box.top)
-        text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)
-        return Placed(text, position.box, leader, self.clear[i], i in self.keyed)
-
-    @property
-    def crowded(self) -> list[int]:
-        """The labels that stand badly, or nowhere though they have keys."""
-        return [
-            i for i, label in enumerate(self.labels)
-            if (not self.clear[i] or self._badly(i) if i in self.held.standing
-                else i not in self.told and label.key is not None and label.rank < _DISPENSABLE)
-        ]  # fmt: skip
-
-    def _settle(self) -> None:
-        """Give every label a place, or give it up."""
-        left = list(range(len(self.ranks)))
-        for last in _STAGES[1:]:
-            self._look(left, last)
-            left.sort(key=lambda i: (self.ranks[i] > 3, len(self.found[i]), i))
-            left = [i for i in left if not self._stand(i)]
-            if not left:
-                break
-        crowded = bool(left)
-        left = self._drive_out(sorted(left))
-        self._ease(crowded)
-        for i in left:
-            if self.ranks[i] == 0:
-                self._insist(i)
-        self._untangle()
-
-    def _look(self, who: Sequence[int], last: int) -> None:
-        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
-        for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
-            some = [i for i in who if self.seen[i] == first]
-            known = [self.found[i] for i in some] if first else ()
-            self.found |= zip(some, self.panel.free(some, first, last, known), strict=True)
-            for i in some:
-                self.seen[i] = last
-
-    def _stand(self, i: int) -> bool:
-        """Take the cheapest place that no other label holds."""
-        positions = self.found[i]
-        k = self.held.first_free(positions, len(positions))
-        if k is None:
+    def meets(self, other: LabelPosition, space: complex) -> bool:
+        """Whether two labels come nearer than a space (mm, across and down), or one's leader crosses the other or its
+        leader."""
+        left, top, right, bottom, _, leader, reach = self
+        its_left, its_top, its_right, its_bottom, _, its_leader, its_reach = other
+        if (
+            left - space.real < its_right and its_left < right + space.real and top - space.imag < its_bottom
+            and its_top < bottom + space.imag
+        ):  # fmt: skip
+            return True
+        if leader is None and its_leader is None:
             return False
-        self.held.take(i, positions.position(k))
-        return True
+        left, top, right, bottom = reach
+        its_left, its_top, its_right, its_bottom = its_reach
+        if (
+            left > its_right + LEADER_SPACE or its_left > right + LEADER_SPACE or top > its_bottom + LEADER_SPACE
+            or its_top > bottom + LEADER_SPACE
+        ):  # fmt: skip
+            return False
+        if leader is not None and other.lies_under(leader):
+            return True
+        if its_leader is None:
+            return False
+        return self.lies_under(its_leader) or (leader is not None and _crosses(leader, its_leader))
 
-    def _drive_out(self, left: list[int]) -> list[int]:
-        """Place labels in a crowd by driving out whoever is in the way, who then finds a place in the same way; each
-        time that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
-        if not left:
-            return []
-        self._look(left, len(RINGS))
-        worth = np.array([_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks])
-        weight = worth.copy()
-        queue, hopeless = list(left), []
-        best, state = worth[left].sum(), (list(left), dict(self.held.standing))
-        for _ in range(_DRIVES * len(self.ranks)):
-            if not queue:
-                break
-            i = queue.pop(0)
-            self._look([i], len(RINGS))
-            positions = self.found[i]
-            met = self.held.met(positions, len(positions))
-            lost = weight @ met
-            if not len(positions) or (self.ranks[i] and lost.min() > weight[i]):
-                hopeless.append(i)
-                continue
-            chosen = int(np.lexsort((positions.costs, lost))[0])
-            for j in [j for j in self.held.standing if met[j, chosen]]:
-                self.held.leave(j)
-                weight[j] += worth[j]
-                queue.append(j)
-            self.held.take(i, positions.position(chosen))
-            missing = worth[queue + hopeless].sum()
-            if missing < best:
-                best, state = missing, (sorted(queue + hopeless), dict(self.held.standing))
-        lacking, standing = state
-        self.held.put_back(standing)
-        return lacking
+    def lies_under(self, leader: Segment) -> bool:
+        """Whether a leader runs over the box, or nearly."""
+        a, b = leader
+        x1, x2, left, right = a.real, b.real, self.left - LEADER_SPACE, self.right + LEADER_SPACE
+        if (x1 < left and x2 < left) or (x1 > right and x2 > right):
+            return False
+        y1, y2, top, bottom = a.imag, b.imag, self.top - LEADER_SPACE, self.bottom + LEADER_SPACE
+        if (y1 < top and y2 < top) or (y1 > bottom and y2 > bottom):
+            return False
+        dx, dy = x2 - x1, y2 - y1
+        off = abs(dx * ((top + bottom) / 2 - y1) - dy * ((left + right) / 2 - x1))
+        return off <= (right - left) / 2 * abs(dy) + (bottom - top) / 2 * abs(dx)
 
-    def _ease(self, freed: bool) -> None:
-        """Move labels to better places: such as have come free (if any has), and such as are further off but cost
-        less."""
-        uneasy = [i for i, position in self.held.standing.items() if position.cost > least_cost(_STAGES[-2])]
-        self._look(sorted(uneasy), _STAGES[-1])
-        for i in sorted(self.held.standing):
-            if i not in uneasy and not freed:
-                continue
-            position, positions = self.held.standing[i], self.found[i]
-            better = positions.cheaper(position.cost)
-            if better:
-                self.held.leave(i)
-                k = self.held.first_free(positions, better)
-                self.held.take(i, position if k is None else positions.position(k))
-                freed = freed or k is not None
 
-    def _untangle(self) -> None:
-        """Find places for labels that dashed lines run through, or whose leaders cross vectors or joints, if need be by
-        moving those in their way."""
-        for rings in LED_RINGS:
-            tangled = [i for i in self.held.standing if self.clear[i] and self._badly(i)]
-            if not tangled:
-                return
-            tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
-            further = self.panel.further(tangled, rings, [self.found[i] for i in tangled])
-            self.found |= zip(tangled, further, strict=True)
-            for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
-                for i in tangled:
-                    if i in self.held.standing and self._badly(i):
-                        attempt(i)
+@dataclass(frozen=True)
+class Placed:
+    """A label at its place: the text, its box, and the leader that ties it to its mark where it needs one.
 
-    def _badly(self, i: int) -> bool:
-        """Whether a dashed line runs through a label, or its leader crosses what leaders are to go round."""
-        return self._tangled(i) or self.panel.struck(self.held.standing[i])
+    ``clear`` is False where no place without a fault was found; ``keyed`` says that its key stands for it.
+    """
 
-    def _tangled(self, i: int) -> bool:
-        """Whether the leader of a label crosses what leaders are to go round."""
-        position = self.held.standing[i]
-        return position.cost > TANGLED and self.panel.tangled(position)
+    text: Text
+    box: Box
+    leader: Line | None = None
+    clear: bool = True
+    keyed: bool = False
 
-    def shorten(self) -> None:
-        """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
-        having = [i for i, label in enumerate(self.labels) if label.key is not None]
-        crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
-        asked = self._ask_for_keys([i for i in having if i in crowded])
-        if asked:
-            self.found |= zip(asked, self.panel.everywhere_free(asked), strict=True)
-        for i in crowded:
-            self._make_room(i)
-        crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
-        if crowded:
-            self._ask_for_keys([i for i in having if i not in self.keys])
-            for i in crowded:
-                self._make_room(i)
-        self.telling = True
-        self.stuck.clear()
-        for i in sorted(self.crowded, key=lambda i: (bool(self.labels[i].between), -self._cost(i), i)):
-            self._make_room(i)
 
-    def _ask_for_keys(self, some: Sequence[int]) -> range:
-        """Let keys of some labels want places too; returns their requests."""
-        requests = []
-        for i in some:
-            label = self.labels[i]
-            assert label.key is not None
-            classes = ("label", *label.key.classes)
-            self.texts.append(replace(label.key, id=label.text.id, classes=classes))
-            self.boxes.append(box_about(label.key.runs))
-            requests.append(label.request(self.boxes[-1]))
-        first = self.panel.ask(requests)
-        asked = range(first, first + len(some))
-        self.keys |= zip(some, asked, strict=True)
-        return asked
+class Columns(NamedTuple):
+    """Places, of one label or of several, as arrays: centres, costs, feet and tips of leaders, whether there is one."""
 
-    def _places(self, request: int) -> LabelPositions:
-        """Those of a request; of a key, which may never be in question, they are looked for here."""
-        if request not in self.found:
-            (self.found[request],) = self.panel.free([request], 0, len(RINGS))
-        return self.found[request]
+    centres: Points
+    costs: Floats
+    feet: Points
+    tips: Points
+    led: Flags
 
-    def _cost(self, i: int) -> float:
-        """What it costs that a label stands where it stands, or nowhere."""
-        if i not in self.held.standing:
-            return _TOLD_COST if i in self.told else _MISSING_COST
-        if not self.clear[i]:
-            return FORBIDDEN
-        return self.held.standing[i].cost + _KEY_COST * (i in self.keyed)
+    def at(self, some: Flags | Indices | slice) -> Columns:
+        """Some of the places."""
+        return Columns(self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some])
 
-    def _forms(self, i: int) -> list[tuple[int, float]]:
-        """The requests by which a label may stand, and what they cost beside their places."""
-        return [(i, 0.0), *((key, _KEY_COST) for key in (self.keys.get(i),) if key is not None)]
 
-    def _make_room(self, i: int) -> None:
-        """Move a label, and those in its way, to where they cost less together."""
-        if self._is_stuck(i):
-            return
-        here, best = self.held.standing.get(i), self._cost(i)
-        if here is not None:
-            self.held.leave(i)
-        chosen: dict[int, tuple[int, LabelPosition | None]] = {}
-        if self.telling and self.labels[i].between and best > _TOLD_COST:
-            chosen, best = {i: (_TOLD, None)}, _TOLD_COST
-        others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
-        for form, extra in self._forms(i):
-            positions = self._places(form)
-            free = self.held.first_known_free(positions, positions.cheaper(best - extra))
-            if free is not None:
-                position = positions.position(free)
-                chosen, best = {i: (form, position)}, position.cost + extra
-            nearly = self._nearly_free(positions, positions.cheaper(best - extra))
-            for position, meeting in islice(nearly, _TRIED):
-                cost = position.cost + extra
-                if cost >= best:
-                    break
-                moved: dict[int, tuple[int, LabelPosition | None]] = {i: (form, position)}
-                taken = [position]
-                for j in meeting.nonzero()[0].tolist():
-                    if j not in others:
-                        others[j] = self._others(j)
-                    rest = best - cost + self._cost(j)
-                    for dear, own, k in others[j]:
-                        if dear >= rest:
-                            break
-                        its = None if own == _TOLD else self.found[own].position(k)
-                        if its is not None:
-                            if any(its.meets(one, _SPACE) for one in taken):
-                                continue
-                            taken.append(its)
-                        moved[j] = own, its
-                        cost += dear - self._cost(j)
-                        break
-                    if j not in moved:
-                        break
-                else:
-                    if cost < best:
-                        best, chosen = cost, moved
-        if chosen:
-            self.moves += 1
-        else:
-            self.stuck[i] = self.moves, len(self.keys), {i, *others}
-            if here is not None:
-                self.held.take(i, here)
-        for label, (form, place) in chosen.items():
-            if place is not None:
-                self.held.take(label, place)
-            elif label in self.held.standing:
-                self.held.leave(label)
-            self.clear[label] = True
-            for kind, belongs in ((self.told, form == _TOLD), (self.keyed, form not in (label, _TOLD))):
-                (kind.add if belongs else kind.discard)(label)
+class LabelForms:
+    """Linear forms of places, of one label or of several: in columns 1 and the middles of boxes, feet and tips of
+    leaders; and of each leader, by factor, form and place, what `leader_forms` says."""
 
-    def _push(self, i: int) -> None:
-        """Put a label where its leader crosses nothing, and whoever stands there elsewhere in the same way; everything
-        back where that comes to no end, or costs more."""
-        before = dict(self.held.standing)
-        pushed = np.full(len(self.ranks), _PUSHED)
-        queue = [i]
-        self.held.leave(i)
-        for _ in range(_PUSHES):
-            if not queue:
-                break
-            j = queue.pop(0)
-            self._look([j], len(RINGS))
-            positions = self.found[j]
-            count = positions.cheaper(TANGLED)
-            if not count:
-                queue.append(j)
-                break
-            met = self.held.met(positions, count)
-            chosen = int(np.argmin(positions.costs[:count] + pushed @ met))
-            for k in met[:, chosen].nonzero()[0].tolist():
-                self.held.leave(k)
-                pushed[k] += _PUSHED
-                queue.append(k)
-            self.held.take(j, positions.position(chosen))
-        after = self.held.standing
-        cost = added_up(position.cost - before[j].cost for j, position in after.items() if position is not before[j])
-        cost += added_up(_DROPPED - before[j].cost for j in queue)
-        if cost >= 0 or any(self.ranks[j] < _DISPENSABLE for j in queue):
-            self.held.put_back(before)
-        self.moves += 1
+    def __init__(self, columns: Columns) -> None:
+        self.columns = columns
 
-    def _is_stuck(self, i: int) -> bool:
-        """Whether no room could be made for a label, and nothing has changed since for it and those in its way."""
-        moves, keys, concerned = self.stuck.get(i, (-1, 0, set()))
-        return moves == self.moves and concerned.isdisjoint(list(self.keys)[keys:])
+    @cached_property
+    def middles(self) -> Floats:
+        return _points(self.columns.centres)
 
-    def _others(self, j: int) -> list[tuple[float, int, int]]:
-        """Places of a label that no other is in the way of: what they cost, their request and index."""
-        found = []
-        for form, extra in self._forms(j):
-            positions = self._places(form)
-            met = self.held.met(positions, min(_LOOKED_AT, len(positions)))
-            free = (met.sum(axis=0) == met[j]).nonzero()[0]
-            costs = (positions.costs[free] + extra).tolist()
-            found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
-        if self.telling and self.labels[j].between:
-            found.append((_TOLD_COST, _TOLD, 0))
-        return sorted(found)
+    @cached_property
+    def feet(self) -> Floats:
+        return _points(self.columns.feet)
 
-    def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:
-        """Of the first places those that meet few other labels, cheapest first, with what they meet."""
-        for first, last in positions.lots(count):
-            met = self.held.met(positions, last)[:, first:]
-            for k in (met.sum(axis=0) <= _MOVED)[: count - first].nonzero()[0].tolist():
-                yield positions.position(first + k), met[:, k]
+    @cached_property
+    def tips(self) -> Floats:
+        return _points(self.columns.tips)
 
-    def _insist(self, i: int) -> None:
-        """Put a label where it does least harm, and give up those in its way that may be given up."""
-        (positions, faults), important = self.panel.everywhere(i), np.array(self.ranks) == 0
-        met = self.held.covered(positions)
-        faults = faults + met[important].sum(axis=0)
-        chosen = int(np.lexsort((positions.costs, met.sum(axis=0), faults))[0])
-        for j in np.flatnonzero(met[:, chosen] & ~important):
-            self.held.leave(int(j))
-        self.clear[i] = bool(faults[chosen] == 0)
-        self.held.take(i, positions.position(chosen))
+    @cached_property
+    def leaders(self) -> tuple[Floats, Floats]:
+        _, x, y = self.feet
+        _, tip_x, tip_y = self.tips
+        distances, reaches = np.empty((2, 3, 3, len(x)))
+        for forms, found in zip((distances, reaches), leader_forms(x, y, tip_x - x, tip_y - y), strict=True):
+            for k, factor in enumerate(found):
+                forms[k % 3, k // 3] = factor
+        return distances, reaches
+
+
+def leader_forms(x: T, y: T, along_x: T, along_y: T) -> tuple[tuple[T | float, ...], tuple[T | float, ...]]:
+    """For a leader from a foot along a way: the distances of a point from its middle, across and down, and from its
+    line, each as factors of 1 and the point, the last times its length; and below what distances it meets a box there,
+    as factors of 1, half width and half height.  No way meets none."""
+    wide, high, one, none = abs(along_x), abs(along_y), 1.0, 0.0
+    distances = (
+        -x - along_x / 2, one, none, -y - along_y / 2, none, one, along_y * x - along_x * y, -along_y, along_x
+    )  # fmt: skip
+    reaches = (
+        wide / 2 + LEADER_SPACE, one, none, high / 2 + LEADER_SPACE, none, one, (wide + high) * LEADER_SPACE, high, wide
+    )  # fmt: skip
+    return distances, reaches
+
+
+class LabelPositions:
+    """Places of one label, whose box has a half size, cheapest first: a part of many places, of which the forms are
+    known."""
+
+    def __init__(self, half: complex, columns: Columns, forms: LabelForms | None = None, first: int = 0) -> None:
+        self.half, self.columns, self.costs = half, columns, columns.costs
+        self.forms, self.first = forms or LabelForms(columns), first
+        self._made: dict[int, LabelPosition] = {}
+
+    def __len__(self) -> int:
+        return len(self.costs)
+
+    @cached_property
+    def _listed(self) -> tuple[list[complex], list[float], list[complex], list[complex], list[bool]]:
+        centres, costs, feet, tips, led = self.columns
+        return centres.tolist(), costs.tolist(), feet.tolist(), tips.tolist(), led.tolist()
+
+    @cached_property
+    def first_led(self) -> int:
+        """The index of the first place that has a leader."""
+        return int(self.columns.led.argmax()) if self.columns.led.any() else len(self)
+
+    def middles(self, first: int, last: int) -> Floats:
+        """1 and the middles of the boxes from ``first`` to ``last``, in columns."""
+        return self.forms.middles[:, self.first + first : self.first + last]
+
+    def position(self, index: int) -> LabelPosition:
+        """The place of an index."""
+        made = self._made.get(index)
+        if made is None:
+            centres, costs, feet, tips, led = self._listed
+            centre, half, leader = centres[index], self.half, None
+            left, top, right, bottom = reach = (
+                centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag
+            )  # fmt: skip
+            if led[index]:
+                leader = foot, _ = feet[index], tips[index]
+                x, y = foot.real, foot.imag
+                reach = min(left, x), min(top, y), max(right, x), max(bottom, y)
+            made = LabelPosition(left, top, right, bottom, costs[index], leader, reach)
+            self._made[index] = made
+        return made
+
+    def cheaper(self, cost: float) -> int:
+        """How many cost less."""
+        return int(np.searchsorted(self.costs, cost))
+
+    def lots(self, count: int) -> Iterator[tuple[int, int]]:
+        """First and end of the lots that hold the first ``count``."""
+        for first, last in zip(LOTS, (*LOTS[1:], len(self)), strict=True):
+            if first < count:
+                yield first, min(last, len(self))
+
+
+def _crosses(one: Segment, other: Segment) -> bool:
+    """As `crosses`, for two lines."""
+    (a, b), (c, d) = one, other
+    apart = cross(b - a, c - a) * cross(b - a, d - a)
+    return apart < 0 and cross(d - c, a - c) * cross(d - c, b - c) < 0
+
+
+def _points(points: Points) -> Floats:
+    """1 and the points, across and down, in columns."""
+    return np.array((np.ones(len(points)), points.real, points.imag))

@@ -13,12 +13,17 @@ import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Segment
-from graphkin.drawing.place.label_candidates import (
+from graphkin.drawing.place.labels import (
     LEADER_FROM,
     LEADER_LEAST,
+    LEADER_SPACE,
     LED_RINGS,
     RINGS,
     Candidates,
+    Columns,
+    LabelForms,
+    LabelPosition,
+    LabelPositions,
     LabelRequest,
     LabelRequests,
     Mark,
@@ -26,7 +31,6 @@ from graphkin.drawing.place.label_candidates import (
     ends,
     led_candidates,
 )
-from graphkin.drawing.place.label_positions import LEADER_SPACE, Columns, LabelForms, LabelPosition, LabelPositions
 from graphkin.drawing.place.meeting import (
     Flags,
     Floats,

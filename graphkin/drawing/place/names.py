@@ -1,0 +1,155 @@
+"""Names in their places on a piece.
+
+In a crowd, where a name could only stand with its leader across vectors, its key stands there, as the number of the
+step that drew the vector, and the name behind the key in a free place of the panel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
+from itertools import accumulate, zip_longest
+
+from graphkin.drawing.box import Box
+from graphkin.drawing.font_widths import runs_width, text_box
+from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.place.labels import Label, Mark, Placed
+from graphkin.drawing.place.obstacles import CLEAR, Obstacles, free_boxes, obstacles_of
+from graphkin.drawing.place.piece import Piece
+from graphkin.drawing.place.placement import Placement
+from graphkin.drawing.text import rich
+from graphkin.plane import added_up
+
+__all__ = ["named", "with_crowd", "with_labels", "without"]
+
+POLYGONS = ("velocity", "acceleration", "forces")  # layers of vectors
+BEHIND = 1.0  # mm between a key and the name behind it
+APART = 3.0, 1.0  # mm between columns and between lines of the list
+AID = 3  # the rank of what leads on only
+
+
+def with_labels(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> Piece:
+    """The piece with its labels in their places, in the layer "labels"; some that find none are given up.
+
+    No label leaves the panel or enters a fence.
+    """
+    return with_crowd(piece, panel, fences)[0]
+
+
+def with_crowd(piece: Piece, panel: Box, fences: Sequence[Box] = ()) -> tuple[Piece, tuple[Label, ...]]:
+    """As `with_labels`, with those of the labels that stand badly."""
+    labels = [label for label in piece.labels if label.rank < _most(len(piece.labels))]
+    vectors = obstacles_of(tuple(thing for layer in POLYGONS for thing in piece.layers.get(layer, ()))).thick
+    fenced = Obstacles(areas=tuple(fences), writing=tuple(fences), vectors=vectors)
+    obstacles = obstacles_of(piece.drawn) + fenced
+    written, crowded = named(labels, panel, obstacles, piece.marks)
+    layers = {**piece.layers, "labels": (*piece.layers.get("labels", ()), *written)}
+    return Piece(layers, (), piece.marks), crowded
+
+
+def without(piece: Piece, ids: Collection[str]) -> Piece:
+    """A piece without some of its written labels and their leaders."""
+    written = piece.layers["labels"]
+    kept = tuple(
+        one for one, after in zip_longest(written, written[1:])
+        if not any(isinstance(text, Text) and text.id in ids for text in (one, isinstance(one, Line) and after))
+    )  # fmt: skip
+    return replace(piece, layers={**piece.layers, "labels": kept}) if len(kept) < len(written) else piece
+
+
+def _most(count: int) -> int:
+    """The rank from which labels are left out at once, because there are so many that none would be read."""
+    return 5 if count < 45 else 4 if count < 60 else 2
+
+
+def named(
+    labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]
+) -> tuple[tuple[Primitive, ...], tuple[Label, ...]]:
+    """Labels in their places with their leaders, parameters as for `labels.place`; those of a crowd listed by their
+    keys; and those that stand badly nevertheless."""
+    placement = Placement(labels, panel, obstacles, marks)
+    placed, crowded = placement.placed, placement.crowded
+    listed: tuple[Text, ...] = ()
+    if crowded:
+        found = _listed(placement, panel, obstacles)
+        if found is None and any(label.key and label.rank == AID for label in labels):
+            # there is no room for all: auxiliary vectors go without
+            some = [replace(label, key=None) if label.rank == AID else label for label in labels]
+            found = _listed(Placement(some, panel, obstacles, marks), panel, obstacles)
+        if found and len(found[2]) < len(crowded):
+            placed, listed, crowded = found
+    written = (thing for one in placed for thing in (one.leader, one.text) if thing is not None)
+    return (*written, *listed), tuple(labels[i] for i in crowded)
+
+
+def _listed(
+    placement: Placement, panel: Box, obstacles: Obstacles
+) -> tuple[tuple[Placed, ...], tuple[Text, ...], list[int]] | None:
+    """Labels in a crowd with keys for some, the list of these, and those that stand badly nevertheless; None where the
+    list has no room."""
+    placement.shorten()
+    placed = placement.placed
+    keyed, told = {one.text.id for one in placed if one.keyed}, {placement.labels[i].text.id for i in placement.told}
+    entries = [
+        _entry(label.text, label.key, label.between if label.text.id in told else "")
+        for label in placement.labels if label.text.id in keyed | told
+    ]  # fmt: skip
+    names = _list(entries, panel, obstacles + _standing(placed))
+    return (placed, names, placement.crowded) if names or not entries else None
+
+
+def _standing(placed: Iterable[Placed]) -> Obstacles:
+    """Labels that stand, as obstacles for others."""
+    boxes = tuple(one.box for one in placed)
+    leaders = tuple((one.leader.start, one.leader.end) for one in placed if one.leader is not None)
+    return Obstacles(solid=leaders, areas=boxes, writing=boxes)
+
+
+def _entry(name: Text, key: Text | None, between: str) -> Text:
+    """A key with what it stands for, and the letters of its ends where neither stands at its vector; only the name
+    where there is no key, or the name begins with it."""
+    runs = name.runs
+    if key is not None and not name.string.startswith(key.string.rstrip("… ")):
+        runs = _behind(key.runs, name.runs, BEHIND)
+    if between:
+        runs = _behind(runs, rich(f": ${between}$"), 0.0)
+    return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"))
+
+
+def _behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float) -> tuple[Run, ...]:
+    by = runs_width(first) + gap
+    return *first, *(run._replace(x=run.x + by) for run in second)
+
+
+def _list(entries: Sequence[Text], panel: Box, around: Obstacles) -> tuple[Text, ...]:
+    """The entries in columns in a free place of the panel, or one after the other in several where none holds all of
+    them; empty where there is no room."""
+    for lines in range(len(entries), 0, -1):
+        found = _in_columns(entries, lines, panel, around, CLEAR)
+        if found:
+            return found
+    for count in range(len(entries) - 1, 0, -1):
+        first = _in_columns(entries[:count], count, panel, around, APART[1])
+        if first:
+            boxes = tuple(text_box(entry) for entry in first)
+            rest = _list(entries[count:], panel, around + Obstacles(areas=boxes))
+            return first + rest if rest else ()
+    return ()
+
+
+def _in_columns(
+    entries: Sequence[Text], lines: int, panel: Box, around: Obstacles, clear: float
+) -> tuple[Text, ...]:
+    """Entries in columns of so many lines at most in one free place; empty where there is none."""
+    boxes = [text_box(entry) for entry in entries]
+    columns = [range(k, min(k + lines, len(entries))) for k in range(0, len(entries), lines)]
+    widths = [max(boxes[i].right for i in column) for column in columns]
+    heights = [max(boxes[i].height for i in range(k, len(entries), lines)) for k in range(lines)]
+    lefts = accumulate((width + APART[0] for width in widths[:-1]), initial=0.0)
+    tops = list(accumulate((height + APART[1] for height in heights), initial=0.0))
+    size = added_up(widths) + APART[0] * (len(widths) - 1), tops[-1] - APART[1]
+    return tuple(
+        replace(entries[i], at=complex(room.left + left, room.top + tops[k] - boxes[i].top))
+        for room in free_boxes(1, size, panel, around, clear)
+        for left, column in zip(lefts, columns, strict=True) for k, i in enumerate(column)
+    )  # fmt: skip
