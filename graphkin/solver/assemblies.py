@@ -13,6 +13,7 @@ from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array, Pose
 from graphkin.structure import (
     Cluster,
@@ -255,8 +256,6 @@ def _descended(system: System, place: Array) -> Array:
 
     Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).
     """
-    from graphkin.solver.larger_groups import solve_all
-
     active, damping = np.arange(len(place)), np.ones(len(place))
     missed = np.full(len(place), np.inf)
     all_ = system.at(place)

@@ -18,6 +18,7 @@ from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
 from graphkin.solver.larger_groups import System
 from graphkin.solver.led_links import LedLink, with_led_links
+from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Pair, RollingRelation, Structure, Turn
@@ -60,7 +61,8 @@ def _bounds(
     every, all_ = {**system.known, **members}, system.of(members)
     with np.errstate(all="ignore"):
         matrix = system.matrix(all_)
-        inverse = _inverse(matrix)
+        inverse = solve_all(matrix, np.broadcast_to(np.eye(matrix.shape[1]), matrix.shape))
+        inverse = np.where(np.isnan(inverse), np.inf, inverse)
         sizes = _sizes(system, all_, matrix, inverse)
         open_ = np.abs(system.constraints(all_))
 
@@ -169,20 +171,6 @@ def _points(structure: Structure, name: str, poses: Mapping[str, Pose], error: E
             r = np.maximum(r, np.abs(poses[slide.a].z - pose.z))
     spin, bend = np.abs(pose.omega), np.abs(pose.alpha) + pose.omega**2
     return error.within(r, (np.abs(pose.z), np.abs(pose.v), np.abs(pose.a)), spin, bend, FEW)
-
-
-def _inverse(matrix: Array) -> Array:
-    """The inverse of each matrix; infinite where there is none."""
-    try:
-        return np.asarray(np.linalg.inv(matrix))
-    except np.linalg.LinAlgError:
-        found = np.full_like(matrix, np.inf)
-        for i, one in enumerate(matrix):
-            try:
-                found[i] = np.linalg.inv(one)
-            except np.linalg.LinAlgError:
-                continue
-        return found
 
 
 class _Joint(NamedTuple):

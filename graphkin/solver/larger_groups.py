@@ -16,11 +16,12 @@ import numpy as np
 
 from graphkin.solver.group_layout import NOTHING, Layout, layout_of
 from graphkin.solver.joints import Drive, turned
+from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure
 
-__all__ = ["ClusterSolved", "System", "as_place", "form_of", "solve_all", "solve_cluster"]
+__all__ = ["ClusterSolved", "System", "as_place", "form_of", "solve_cluster"]
 
 ROUNDS = 40
 ROUNDINGS = 32 * UNIT
@@ -373,20 +374,6 @@ def _bending(system: System, members: Mapping[str, Pose]) -> Array:
     poses = [*members.values(), *system.known.values()]
     reach = 1 + np.max(np.broadcast_arrays(*(np.abs(p.z) / size for p in poses)), axis=0)
     return np.asarray(4 * reach * rows**0.5)
-
-
-def solve_all(matrix: Array, right: Array) -> Array:
-    """Solve a stack of linear systems; a singular one gives NaN instead of an error for all."""
-    try:
-        return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0])
-    except np.linalg.LinAlgError:
-        given = np.full_like(right, np.nan)
-        for i in range(len(right)):
-            try:
-                given[i] = np.linalg.solve(matrix[i], right[i])
-            except np.linalg.LinAlgError:
-                continue
-        return given
 
 
 def as_place(poses: Mapping[str, Pose], names: tuple[str, ...]) -> Array:

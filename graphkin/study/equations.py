@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.plane import Values
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
-from graphkin.solver.larger_groups import solve_all
+from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
 
