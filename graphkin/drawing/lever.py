@@ -3,37 +3,35 @@ point's velocity, arms about the pole, and the sum of moments that gives what ba
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Extent, Sheet, fitting_scale
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, as_vector, force_letters, letters_of, pole, scale_statement
+from graphkin.drawing.boxes import INSIDE, Block, FigurePage, column, table
+from graphkin.drawing.conventions import Letters, as_vector, force_letters, pole
 from graphkin.drawing.force_words import lever_sum
-from graphkin.drawing.headings import drivers, facts, figure_title, term, written
+from graphkin.drawing.headings import drivers, written
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
-from graphkin.drawing.page_text import titled
-from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, middle_of, moved_piece
-from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.place.piece import Piece, cut_to, middle_of, moved_piece
+from graphkin.drawing.text import symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, say
+from graphkin.words import languages, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["lever_figure", "lever_on_page"]
 
-WIDTH, MARGIN = 190.0, 8.0
 HIGHEST = 130.0  # mm of a lever
 ARROW, ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
-ROW, SIZE = 4.6, 2.8
+COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
 SHORT = 0.3  # mm: a nearer end point is at the pole
 DIGITS = 5
 
@@ -52,51 +50,45 @@ def lever_figure(
     shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in forces.levers[k]]
     if not shown:
         return None
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    words, y = titled(sheet, spoken, f"{term('lever', spoken)}:  {drivers(sheet, letters)}", MARGIN)
-    y += 1.5
-    inside = WIDTH - 2 * MARGIN
-    for each in languages(spoken):
-        reasons = [say(Phrase("lever reason", (f"${pole(letters.convention, 'velocity')}$",)), each)]
-        reasons += [say(Phrase("lever couple"), each)] * any(row.pair for _, _, one in shown for row in one.rows)
-        reasons += [say(Phrase("lever virtual"), each)] * any(one.virtual for _, _, one in shown)
-        for runs in (r for text in reasons for r in wrapped(text, SIZE, inside)):
-            y += ROW
-            words.append(Text(complex(MARGIN, y), runs))
-    y += 3.0
-    pieces: list[Piece] = []
-    for number_, (k, state, lever) in enumerate(shown):
+    page = FigurePage.of(sheet, "lever", language, convention)
+    why = page.said("lever reason", f"${pole(page.convention, 'velocity')}$")
+    why += page.said("lever couple") * any(row.pair for _, _, lever in shown for row in lever.rows)
+    why += page.said("lever virtual") * any(lever.virtual for _, _, lever in shown)
+    body = [page.prose(why)]
+    for number, (k, state, lever) in enumerate(shown):
         if len(forces.states) > 1:
-            for each in languages(spoken):
-                y += ROW
-                key = "force with load" if k else "force without load"
-                words.append(Text(complex(MARGIN, y), rich(say(Phrase(key), each), SIZE, bold=True)))
-            y += 2.0
-        scaled, per_mm = lever_on_page(sheet, lever)
-        box = _extent(scaled)
-        panel = Box(MARGIN, y, WIDTH - MARGIN, y + box.height + 2 * ROOM)
-        pieces.append(_drawn(sheet, scaled, letters, panel, panel.centre - box.centre, str(number_ or "")))
-        y = panel.bottom
-        at_scale = replace(sheet, scales=replace(sheet.scales, velocity=per_mm))
-        told = scale_statement(at_scale, letters.convention, "velocity")
-        words.append(Text(complex(MARGIN, y - 2.0), fitted(told, 3.2, 100.0)))
-        y = _table(words, sheet, state, scaled, per_mm, letters, spoken, y + 2.0)
-        y += 4.0
-    words += check_bar(complex(WIDTH - MARGIN - 50.0, y + 3.0), rich(term("check bar", spoken), 2.4))
-    page = joined((*pieces, Piece({"labels": tuple(words)})))
+            body.append(page.prose(page.said("force with load" if k else "force without load"), bold=True))
+        body += _lever(page, state, lever, str(number or ""))
     per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
-    return Drawing(
-        WIDTH, y + 8.0, layer_groups(page), figure_title(sheet, "lever", spoken),
-        say(Phrase("lever described"), languages(spoken)[0]), languages(spoken)[0],
-        facts(sheet, "lever") | {"scales": {"velocity": float(f"{per:.12g}")}},
+    return page.drawing(
+        f"{page.term('lever')}:  {drivers(sheet, page.letters)}", column(*body, gap=3.0), "", title="lever",
+        said=page.said("lever described")[0], metadata={"scales": {"velocity": float(f"{per:.12g}")}},
     )  # fmt: skip
+
+
+def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
+    """A lever, its scale, the moment of each force, their sum, and what balances beside the value of the polygons."""
+    scaled, per_mm = lever_on_page(page.sheet, lever)
+    box, units = _extent(scaled), page.sheet.scene.units
+    yield page.panel(
+        box.height + 2 * ROOM,
+        lambda room: _drawn(page.sheet, scaled, page.letters, room, room.centre - box.centre, tag),
+    )
+    yield page.prose([page.scale("velocity", per_mm)], 3.2)
+    heads = [
+        [word("force heads", each), units.force, f"{word('arm', each)}, mm",
+         f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
+    ]  # fmt: skip
+    yield table(heads, [_row(row, units.newtons, page.letters) for row in scaled.rows if row.force], COLUMNS)
+    sums = [lever_sum(page.sheet, state, scaled, page.letters, each) for each in languages(page.language)]
+    totals, balances = zip(*sums, strict=True)
+    yield column(page.prose(in_both(totals)), page.prose(in_both(balances), bold=True))
 
 
 def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
     """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
     box = _extent(lever)
-    wide, high = WIDTH - 2 * (MARGIN + ROOM), HIGHEST
+    wide, high = INSIDE - 2 * ROOM, HIGHEST
     if not lever.virtual and box.width <= wide and box.height <= high:
         return lever, lever.per_mm
     metres = sheet.scene.units.rates.metres
@@ -189,42 +181,9 @@ def _forces_at(row: LeverRow) -> list[tuple[complex, complex]]:
     return [(tip, unit(row.force)), (tail, -unit(row.force))]
 
 
-def _table(
-    words: list[Primitive], sheet: Sheet, state: ForceState, lever: Lever, per_mm: float, letters: Letters, spoken: str,
-    y: float,
-) -> float:  # fmt: skip
-    """Force, arm and moment of each row, their sum, and what balances beside the value of the polygons."""
-    units = sheet.scene.units
-    columns = (MARGIN, MARGIN + 45.0, MARGIN + 80.0, MARGIN + 125.0)
-    heads = (term("force heads", spoken), f"{units.force}", f"{term('arm', spoken)}, mm",
-             f"{term('moment about pole', spoken)}, {units.force}·mm")  # fmt: skip
-    y += 4.0
-    words += [Text(complex(x, y), rich(head, 2.5)) for x, head in zip(columns, heads, strict=True)]
-    words.append(Line(complex(MARGIN, y + 1.4), complex(WIDTH - MARGIN, y + 1.4), strokes.OUTLINE))
-    y += 0.8
-    for row in lever.rows:
-        if not row.force:
-            continue
-        y += ROW
-        words += _row(row, columns, y, units.newtons, letters)
-    y += 1.4
-    words.append(Line(complex(MARGIN, y), complex(WIDTH - MARGIN, y), strokes.DIMENSION))
-    sums = zip(*(lever_sum(sheet, state, lever, letters, each) for each in languages(spoken)), strict=True)
-    for said, bold in zip(sums, (False, True), strict=True):
-        for line in in_both(said):
-            y += ROW
-            words.append(Text(complex(MARGIN, y), rich(line, SIZE, bold=bold)))
-    return y
-
-
-def _row(
-    row: LeverRow, columns: Sequence[float], y: float, newtons: float, letters: Letters
-) -> list[Text]:
-    size = amount(abs(row.force) / newtons, DIGITS)
-    arm = on_paper(abs(row.arm))
-    sign = "−" if row.moment < 0 else ""
-    whole = f"{sign}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
-    opposite = "−" if row.turned else ""
-    name = f"{opposite}${force_letters(letters.convention, row.symbol)}$" + (" / $l$" if row.pair is not None else "")
-    cells: list[tuple[Run, ...]] = [rich(text, SIZE) for text in (name, written(size), written(arm), whole)]
-    return [Text(complex(x, y), runs) for x, runs in zip(columns, cells, strict=True)]
+def _row(row: LeverRow, newtons: float, letters: Letters) -> tuple[str, str, str, str]:
+    """A force with its arm and moment."""
+    size, arm = amount(abs(row.force) / newtons, DIGITS), on_paper(abs(row.arm))
+    moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
+    name = f"{'−' * row.turned}${force_letters(letters.convention, row.symbol)}$" + " / $l$" * (row.pair is not None)
+    return name, written(size), written(arm), moment

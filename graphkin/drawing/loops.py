@@ -5,38 +5,35 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
 
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet, next_of_series
 from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import letters_of, scale_statement
+from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
+from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term
+from graphkin.drawing.headings import drivers, number
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
-from graphkin.drawing.page_text import titled
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
-from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.drawing.place.piece import Piece, moved_piece
+from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
-from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["loop_blocks", "loops_figure"]
 
-WIDTH, MARGIN = 190.0, 8.0
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
 ROOM = 11.0  # around a polygon, for names
-LINE, SMALL = 4.6, 2.8  # mm from line to line, size of letters
+BESIDE = 6.0  # between a polygon and its equations
 OPEN = Stroke(0.5, (), "#b00020")
 CLOSES = 2e-3  # part of a loop's length within which printed angles close it, rounded as they are
 ARC = 5.0  # mm, of an angle from the x axis
@@ -61,31 +58,28 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     blocks = loop_blocks(sheet)
     if not blocks:
         return None
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    pieces: list[Piece] = []
-    words, y = titled(sheet, spoken, f"{term('loops', spoken)}:  {drivers(sheet, letters)}", MARGIN)
-    y += 4.0
+    page = FigurePage.of(sheet, "loops", language, convention)
     scale = _scale(blocks)
-    for block in blocks:
-        panels = [_polygon(sheet, loop, block, scale) for loop in block.loops]
-        for piece, box, loop in zip([p for p, _ in panels], [b for _, b in panels], block.loops, strict=True):
-            height = max(PANEL[1] if len(block.loops) == 1 else 30.0, box.height + 2 * ROOM)
-            panel = Box(MARGIN, y, MARGIN + PANEL[0], y + height)
-            pieces.append(with_labels(moved_piece(piece, panel.centre - box.centre), panel))
-            column = Box(panel.right + 6.0, y, WIDTH - MARGIN, y + height)
-            lines = _lines(sheet, loop, block, letters.convention, spoken)
-            end = _write(words, lines, column)
-            if loop is block.loops[-1]:
-                end = _matrices(words, sheet, block, spoken, complex(column.left, end + 1.0), column.right)
-            y = max(panel.bottom, end) + 5.0
-    at_scale = replace(sheet, scales=replace(sheet.scales, length=scale))
-    words.append(Text(complex(MARGIN, y + 2.0), rich(scale_statement(at_scale, letters.convention, "mechanism"), 3.2)))
-    page = joined((*pieces, Piece({"labels": tuple(words)})))
-    return Drawing(
-        WIDTH, y + 8.0, layer_groups(page), figure_title(sheet, "loops", spoken), _described(sheet, blocks, spoken),
-        languages(spoken)[0], facts(sheet, "loops") | {"scales": {"length": scale / sheet.scene.units.metres}},
+    body = column(*(_loop(page, block, loop, scale) for block in blocks for loop in block.loops), gap=5.0)
+    return page.drawing(
+        f"{page.term('loops')}:  {drivers(sheet, page.letters)}", body, page.scale("mechanism", scale), title="loops",
+        said=_described(page, blocks), metadata={"scales": {"length": scale / sheet.scene.units.metres}},
     )  # fmt: skip
+
+
+def _loop(page: FigurePage, block: LoopBlock, loop: LoopValue, scale: float) -> Block:
+    """The polygon of a loop; beside it its equations, with the last loop of a block the matrices of all."""
+    piece, box = _polygon(page.sheet, loop, block, scale)
+    height = max(PANEL[1] if len(block.loops) == 1 else 30.0, box.height + 2 * ROOM)
+    polygon = panel(PANEL[0], height, lambda room: with_labels(moved_piece(piece, room.centre - box.centre), room))
+    width = page.width - PANEL[0] - BESIDE
+    told = [prose((line,), width, bold=bold) for line, bold in _lines(page, loop, block)]
+    found = [
+        part for one in (matrices(block, page.sheet.scene) if loop is block.loops[-1] else ())
+        for part in (prose((page.term(one.key),), width, bold=True), _matrix(one, width),
+                     prose((",  ".join(one.solution),), width))
+    ]  # fmt: skip
+    return row(polygon, column(column(*told), column(*found, gap=1.2), gap=1.0), gap=BESIDE)
 
 
 def _scale(blocks: Iterable[LoopBlock]) -> float:
@@ -191,75 +185,47 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
     return parts
 
 
-def _lines(
-    sheet: Sheet, loop: LoopValue, block: LoopBlock, convention: Convention, spoken: str
-) -> list[tuple[str, bool]]:
-    scene = sheet.scene
-    lines: list[tuple[str, bool]] = []
-    head = Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), equation(loop, convention)))
-    lines += [(text, True) for text in in_both([say(head, each) for each in languages(spoken)])]
+def _lines(page: FigurePage, loop: LoopValue, block: LoopBlock) -> Iterator[tuple[str, bool]]:
+    """What is written of a loop, and whether it is bold."""
+    scene = page.sheet.scene
+    head = page.said("loop heading", loop.loop.name, ", ".join(loop.loop.links), equation(loop, page.convention))
+    yield from ((text, True) for text in in_both(head))
     x, y = projections(loop, block, scene)
-    lines += [(f"x:  {x}", False), (f"y:  {y}", False)]
-    gap = _gap(sheet, loop)
+    yield from ((f"x:  {x}", False), (f"y:  {y}", False))
+    gap = _gap(page.sheet, loop)
     if gap is not None:
-        told = f"{number(gap / scene.units.metres, 4)} {scene.units.length}"
-        left = Phrase("loop open", (loop.loop.name, told))
-        lines += [(text, False) for text in in_both([say(left, each) for each in languages(spoken)])]
+        size = f"{number(gap / scene.units.metres, 4)} {scene.units.length}"
+        yield from ((text, False) for text in in_both(page.said("loop open", loop.loop.name, size)))
     if loop.root is not None:
-        lines += [(root(loop.root, loop, scene, each), False) for each in languages(spoken)[:1]]
-    return lines
+        yield root(loop.root, loop, scene, languages(page.language)[0]), False
 
 
-def _write(words: list[Primitive], lines: Sequence[tuple[str, bool]], column: Box) -> float:
-    y = column.top
-    for text, bold in lines:
-        for runs in wrapped(text, SMALL, column.width, bold=bold):
-            y += LINE
-            words.append(Text(complex(column.left, y), runs))
-    return y
-
-
-def _matrices(
-    words: list[Primitive], sheet: Sheet, block: LoopBlock, spoken: str, at: complex, right: float
-) -> float:
-    y = at.imag
-    for one in matrices(block, sheet.scene):
-        y += LINE
-        words.append(Text(complex(at.real, y), rich(term(one.key, spoken), SMALL, bold=True)))
-        y = _matrix(words, one, complex(at.real, y + 1.2), right - at.real)
-        for line in wrapped(",  ".join(one.solution), SMALL, right - at.real):
-            y += LINE
-            words.append(Text(complex(at.real, y), line))
-    return y
-
-
-def _matrix(words: list[Primitive], one: MatrixEquation, at: complex, room: float) -> float:
-    """A matrix equation set with brackets; returns where it ends."""
-    size = SMALL
+def _matrix(one: MatrixEquation, room: float) -> Block:
+    """A matrix equation with its brackets, as large as it fits a width (mm)."""
+    size = SIZE
     while True:
-        columns = [[rich(row[k], size) for row in one.rows] for k in range(len(one.unknowns))]
-        names, column = [symbol(n, size) for n in one.unknowns], [rich(r, size) for r in one.right]
-        wide = [max(map(runs_width, cells)) for cells in columns]
-        whole = added_up(wide) + 2.6 * len(wide) + max(map(runs_width, names)) + max(map(runs_width, column)) + 16.0
+        columns = [[rich(cells[k], size) for cells in one.rows] for k in range(len(one.unknowns))]
+        names, right = [symbol(n, size) for n in one.unknowns], [rich(r, size) for r in one.right]
+        widths = [max(map(runs_width, cells)) for cells in columns]
+        whole = added_up(widths) + 2.6 * len(widths) + max(map(runs_width, names)) + max(map(runs_width, right)) + 16.0
         if whole <= room or size <= 1.6:
             break
         size -= 0.2
-    step, x = 1.5 * size, at.real
+    step = 1.5 * size
     height = step * len(one.rows) + 0.6
+    drawn: list[Primitive] = []
 
     def bracket(x: float, sense: float) -> None:
         for start, end in ((0j, 0.9 * sense + 0j), (0j, height * 1j), (height * 1j, height * 1j + 0.9 * sense)):
-            corner = complex(x, at.imag)
-            words.append(Line(corner + start, corner + end, strokes.DIMENSION))
+            drawn.append(Line(x + start, x + end, strokes.DIMENSION))
 
     def cells(runs: Sequence[tuple[Run, ...]], x: float, wide: float, anchor: str) -> None:
-        for k, cell in enumerate(runs):
-            place = x + wide if anchor == "end" else x
-            words.append(Text(complex(place, at.imag + step * (k + 0.85)), cell, anchor))
+        place = x + wide if anchor == "end" else x
+        drawn.extend(Text(complex(place, step * (k + 0.85)), cell, anchor) for k, cell in enumerate(runs))
 
-    bracket(x, 1.0)
-    x += 1.4
-    for column_cells, width in zip(columns, wide, strict=True):
+    bracket(0.0, 1.0)
+    x = 1.4
+    for column_cells, width in zip(columns, widths, strict=True):
         cells(column_cells, x, width, "end")
         x += width + 2.6
     bracket(x - 1.0, -1.0)
@@ -268,17 +234,18 @@ def _matrix(words: list[Primitive], one: MatrixEquation, at: complex, room: floa
     cells(names, x + 1.4, 0.0, "start")
     x += 2.8 + max(map(runs_width, names))
     bracket(x, -1.0)
-    words.append(Text(complex(x + 1.6, at.imag + height / 2 + 0.35 * size), rich("=", size)))
+    drawn.append(Text(complex(x + 1.6, height / 2 + 0.35 * size), rich("=", size)))
     x += 5.0
     bracket(x, 1.0)
-    cells(column, x + 1.4, max(map(runs_width, column)), "end")
-    bracket(x + 2.8 + max(map(runs_width, column)), -1.0)
-    return at.imag + height
+    wide = max(map(runs_width, right))
+    cells(right, x + 1.4, wide, "end")
+    bracket(x + 2.8 + wide, -1.0)
+    return Block(Piece({"labels": tuple(drawn)}), height, x + 2.8 + wide)
 
 
-def _described(sheet: Sheet, blocks: Sequence[LoopBlock], spoken: str) -> str:
+def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     said = []
-    for each in languages(spoken):
+    for each in languages(page.language):
         for loop in (one for block in blocks for one in block.loops):
             points = ", ".join(loop.loop.points)
             said.append(say(Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), points)), each))

@@ -12,6 +12,7 @@ from graphkin.checking.report import Report
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import MARGIN
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
 from graphkin.drawing.headings import (
@@ -25,7 +26,6 @@ from graphkin.drawing.headings import (
 )
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, moved, walk
-from graphkin.drawing.loops import MARGIN as FIGURE_MARGIN
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.parts.coriolis import CoriolisTerm
@@ -185,7 +185,7 @@ class _Writing:
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
     """A figure on a page of the sheet's size, or a longer one where it takes that."""
-    to = complex(plan.page.left - FIGURE_MARGIN, plan.page.top - FIGURE_MARGIN)
+    to = complex(plan.page.left - MARGIN, plan.page.top - MARGIN)
     height = max(plan.height, figure.height + to.imag)
     return replace(figure, width=plan.width, height=height, children=moved(figure.children, to),
                    title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())  # fmt: skip

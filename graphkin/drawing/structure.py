@@ -6,22 +6,23 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of
-from graphkin.drawing.headings import facts, figure_title, term
+from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import term
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
-from graphkin.drawing.page_text import titled
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.text import plain, rich, symbol, wrapped
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
@@ -31,10 +32,10 @@ from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["structure_figure"]
 
-WIDTH, MARGIN = 190.0, 8.0
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
 PART = (56.0, 46.0)  # of a group
-LINE, SIZE = 5.0, 3.0
+BESIDE = 5.0  # between the diagram and its numbers
+SIZE = 3.0
 TOUCH = 1e-6
 FITS = 4  # times that the diagram is drawn smaller, to fit
 
@@ -50,26 +51,15 @@ def structure_figure(
     language : "en", "zh" or "both"; the scene's own if None
     convention : letters of points; the scene's own if None
     """
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    words, y = titled(sheet, spoken, term("structure", spoken), MARGIN)
-    y += 3.0
-    panel = Box(MARGIN, y, MARGIN + DIAGRAM[0], y + DIAGRAM[1])
-    pieces = [_diagram(sheet, letters, spoken, panel)]
-    column = Box(panel.right + 5.0, y, WIDTH - MARGIN, panel.bottom)
-    row = column.top
-    for text, bold in _counted(sheet.structure, spoken):
-        for runs in wrapped(text, SIZE, column.width, bold=bold):
-            row += LINE
-            words.append(Text(complex(column.left, row), runs))
-    y = max(panel.bottom, row) + 4.0
-    for structure in (sheet.structure, *others):
-        y = _taken_apart(sheet, structure, letters, spoken, y, pieces, words)
-    page_ = joined((*pieces, Piece({"labels": tuple(words)})))
-    return Drawing(
-        WIDTH, y + 4.0, layer_groups(page_), figure_title(sheet, "structure", spoken),
-        ". ".join(text.replace("$", "") for text, _ in _counted(sheet.structure, spoken)),
-        languages(spoken)[0], facts(sheet, "structure"),
+    page_ = FigurePage.of(sheet, "structure", language, convention)
+    counted = _counted(sheet.structure, page_.language)
+    diagram = panel(*DIAGRAM, lambda room: _diagram(sheet, page_.letters, page_.language, room))
+    told = [prose((text,), page_.width - DIAGRAM[0] - BESIDE, SIZE, bold=bold) for text, bold in counted]
+    apart = (_taken_apart(page_, structure) for structure in (sheet.structure, *others))
+    body = column(row(diagram, column(*told), gap=BESIDE), *apart, gap=4.0)
+    return page_.drawing(
+        page_.term("structure"), body, None, title="structure",
+        said=". ".join(text.replace("$", "") for text, _ in counted),
     )  # fmt: skip
 
 
@@ -165,40 +155,23 @@ def _order(group: Dyad | Cluster) -> int:
     return group.order if isinstance(group, Cluster) else 2
 
 
-def _taken_apart(
-    sheet: Sheet, structure: Structure, letters: Letters, spoken: str, y: float, pieces: list[Piece],
-    words: list[Primitive],
-) -> float:  # fmt: skip
+def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
     """The groups in the reverse order of solution, the drivers last, each in a panel of its own."""
     names = ", ".join(d.key for d in structure.scene.drivers)
-    for each in languages(spoken):
-        y += LINE
-        order = _class(structure) if structure.groups else None
-        told = Phrase("structure ungrouped", (names,)) if order is None else Phrase(
-            "structure driven by", (names, class_of(order))
-        )
-        text = say(told, each)
-        words.append(Text(complex(MARGIN, y), rich(text, SIZE, bold=True)))
-    groups = [*reversed(structure.groups)]
+    order = _class(structure) if structure.groups else None
+    drivers = page_.said("structure ungrouped", names) if order is None else (
+        page_.said("structure driven by", names, class_of(order)))
+    shown: list[Sequence[Element]] = [(group,) for group in reversed(structure.groups)]
     driven = [e for e in structure.elements if isinstance(e, Driven)]
-    shown: list[tuple[str, Sequence[Element]]] = [(str(k), (g,)) for k, g in enumerate(groups, 1)]
     if driven:  # a driver inside a group has no part of its own
-        shown.append((str(len(shown) + 1), driven))
-    x, bottom = MARGIN, y
-    for number, elements in shown:
-        if x + PART[0] > WIDTH - MARGIN + 0.1:
-            x, y = MARGIN, bottom + 2.0
-        panel = Box(x, y + 2.0, x + PART[0], y + 2.0 + PART[1])
+        shown.append(driven)
+    parts = []
+    for number, elements in enumerate(shown, 1):
         tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
-        pieces.append(_group(sheet, elements, letters, panel, tag))
-        line = panel.bottom
-        for text in _about(sheet, elements, spoken):
-            for runs in wrapped(text, 2.6, PART[0] - 2.0):
-                line += 4.0
-                words.append(Text(complex(x, line), runs))
-        bottom = max(bottom, line)
-        x += PART[0] + 3.0
-    return bottom + 4.0
+        part = panel(*PART, partial(_group, page_.sheet, elements, page_.letters, tag))
+        about = prose(_about(page_.sheet, elements, page_.language), PART[0] - 2.0, 2.6)
+        parts.append(column(framed(part), about, gap=1.0))
+    return column(page_.prose(drivers, SIZE, bold=True), *rows(parts, page_.width, gap=3.0), gap=GAP)
 
 
 def _about(sheet: Sheet, elements: Sequence[Element], language: str) -> list[str]:
@@ -255,16 +228,15 @@ def _named(pair: Pair) -> str:
     return pair.point if isinstance(pair, Turn) else pair.key
 
 
-def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: Box, tag: str) -> Piece:
+def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str, panel: Box) -> Piece:
     """The links of a group alone, where they lie, inner joints filled and outer ones open; what replaces a higher pair
     is dashed.  As large as the panel allows, and not larger than in the diagram of the sheet."""
     here = MechanismOnPaper(sheet, letters)
-    frame = Piece({"construction": (Group((Polygon(panel.corners, "", strokes.DIMENSION),), classes=("panel",)),)})
     times, (parts, labels) = 1.0, _drawn_apart(here, elements)
     for _ in range(FITS):  # symbols keep their size
         drawn = ink_box(parts)
         if drawn is None:
-            return frame
+            return Piece()
         over = max(drawn.width / (panel.width - 16.0), drawn.height / (panel.height - 14.0))
         if over <= 1.0:
             break
@@ -272,7 +244,7 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, panel: B
         parts, labels = _drawn_apart(MechanismOnPaper(_scaled(sheet, times), letters), elements)
     piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
     ink = ink_box(piece.drawn) or panel
-    return joined((frame, with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))))
+    return with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))
 
 
 def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:

@@ -3,36 +3,33 @@ the rate scale, on which parallels through a pole mark off the angular rates."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from graphkin.construction.centre_lines import PlanLine, TrainPlan
-from graphkin.construction.sheet import Scales, Sheet
-from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.headings import drivers, facts, figure_title, number, term, written
+from graphkin.construction.sheet import Sheet
+from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import drivers, number, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, arrow
-from graphkin.drawing.page_text import titled
-from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.text import fitted, rich, symbol, wrapped
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.train_scheme import scheme
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["moving_plans", "train_figure"]
 
-WIDTH, MARGIN, ROOM = 190.0, 10.0, 9.0
+ROOM = 9.0  # mm above and below a line of centres
 SCHEME = 68.0
 """mm that the train seen from the side may take."""
-PLAN = 86.0
-"""mm from the left edge to where velocities may begin."""
-SIZE, ROW = 2.8, 4.6
+PLAN = 78.0
+"""mm from the left margin to where velocities may begin."""
+TABLE = 62.0  # mm
 SHORT = 0.3
 
 
@@ -45,9 +42,8 @@ def train_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
-    pages = [_page(sheet, plan, letters, spoken, i) for i, plan in enumerate(moving_plans(sheet))]
+    page = FigurePage.of(sheet, "plan", language, convention)
+    pages = [_page(page, plan) for plan in moving_plans(sheet)]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 
@@ -56,53 +52,44 @@ def moving_plans(sheet: Sheet) -> list[TrainPlan]:
     return [plan for plan in sheet.trains if any(plan.velocities.values()) or any(one.rate for one in plan.lines)]
 
 
-def _page(sheet: Sheet, plan: TrainPlan, letters: Letters, spoken: str, count: int) -> Drawing:
-    name = "plan" if plan.order == "velocity" else "plan accelerations"
-    words, y = titled(sheet, spoken, f"{term(name, spoken)}:  {drivers(sheet, letters)}", MARGIN)
-    y += 1.0
-    for each in languages(spoken):
-        key = "plan reason" if plan.order == "velocity" else "plan reason accelerations"
-        said = [say(Phrase(key), each)]
-        said += [say(Phrase("plan relative", (line.still,)), each) for line in plan.on if not line.in_frame]
-        for runs in (r for text in said for r in wrapped(text, SIZE, WIDTH - 2 * MARGIN)):
-            y += ROW
-            words.append(Text(complex(MARGIN, y), runs))
-    y += 4.0
-    pieces = []
-    mm = 1.0 / plan.scales.length
-    for k, line in enumerate(plan.on):
-        heights = [s.height * mm for s in line.spots]
-        left = scheme(sheet.scene, line, mm, SCHEME)
-        # the zero line stands where the slowest place still clears the train
-        reach = [z.real for one in plan.lines if one.on == k for z in one.ends]
-        x = PLAN - min(0.0, *reach) if reach else PLAN
-        ink = ink_box(left.drawn)
-        drawn = _lines(sheet, plan, k, letters, MARGIN + (ink.right if ink else 0.0) - x)
-        top = y + ROOM + max(heights)
-        whole = joined((moved_piece(left, complex(MARGIN, 0.0)), moved_piece(drawn, complex(x, 0.0))))
-        panel = Box(MARGIN - 4.0, y, WIDTH - MARGIN + 4.0, top - min(heights) + ROOM)
-        pieces.append(with_labels(moved_piece(whole, complex(0.0, top)), panel))
-        y = panel.bottom
-    scale = _rate_scale(sheet, plan, letters)
-    feet = [0.0, *(one.foot for one in plan.lines)]
-    x = PLAN + 4.0 - min(feet)
-    panel = Box(PLAN - 12.0, y, WIDTH - MARGIN + 4.0, y + plan.scales.pole + 16.0)
-    pieces.append(with_labels(moved_piece(scale, complex(x, y + 7.0)), panel))
-    bottom = _table(words, sheet, plan, letters, spoken, y + 7.0)
-    y = max(panel.bottom, bottom) + 7.0
-    for i, told in enumerate(_scales(sheet, plan, letters)):
-        words.append(Text(complex(MARGIN + 42.0 * i, y), fitted(told, 3.0, 40.0)))
-    words += check_bar(complex(WIDTH - MARGIN - 50.0, y), rich(term("check bar", spoken), 2.4))
-    page = joined((*pieces, Piece({"labels": tuple(words)})))
-    rates = sheet.scene.units.rates.metres
-    size, speed = plan.scales.length / sheet.scene.units.metres, plan.scales.speed / rates
-    angular = "omega" if plan.order == "velocity" else "alpha"
-    told_scales = {"length": size, plan.order: speed, angular: plan.scales.rate}
-    return Drawing(
-        WIDTH, y + 8.0, layer_groups(page), figure_title(sheet, name, spoken),
-        say(Phrase("plan described"), languages(spoken)[0]), languages(spoken)[0],
-        facts(sheet, "plan") | {"scales": {k: float(f"{v:.12g}") for k, v in told_scales.items()}},
+def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
+    sheet, velocity = page.sheet, plan.order == "velocity"
+    name = "plan" if velocity else "plan accelerations"
+    why = [
+        text for each in languages(page.language)
+        for text in (say(Phrase("plan reason" if velocity else "plan reason accelerations"), each),
+                     *(say(Phrase("plan relative", (line.still,)), each) for line in plan.on if not line.in_frame))
+    ]  # fmt: skip
+    lines = [_train(page, plan, k) for k in range(len(plan.on))]
+    rates = _rate_scale(sheet, plan, page.letters)
+    least = min(0.0, *(one.foot for one in plan.lines))
+    scale = panel(page.width - TABLE - 4.0, plan.scales.pole + 16.0, lambda room: with_labels(
+        moved_piece(rates, complex(PLAN + 4.0 - least - TABLE - 4.0, 7.0)), room))
+    body = column(page.prose(why), *lines, row(_table(page, plan), scale, gap=4.0), gap=GAP)
+    size, speed = plan.scales.length / sheet.scene.units.metres, plan.scales.speed / sheet.scene.units.rates.metres
+    scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.scales.rate}
+    return page.drawing(
+        f"{page.term(name)}:  {drivers(sheet, page.letters)}", body, ",  ".join(_scales(page, plan)), title=name,
+        said=page.said("plan described")[0],
+        metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
     )  # fmt: skip
+
+
+def _train(page: FigurePage, plan: TrainPlan, k: int) -> Block:
+    """A line of centres: the train seen from the side, and the velocities of its places."""
+    line, mm = plan.on[k], 1.0 / plan.scales.length
+    heights = [spot.height * mm for spot in line.spots]
+    seen = scheme(page.sheet.scene, line, mm, SCHEME)
+    # the zero line stands where the slowest place still clears the train
+    reach = [z.real for one in plan.lines if one.on == k for z in one.ends]
+    x = PLAN - min(0.0, *reach) if reach else PLAN
+    ink = ink_box(seen.drawn)
+    velocities = _lines(page.sheet, plan, k, page.letters, (ink.right if ink else 0.0) - x)
+    whole = joined((seen, moved_piece(velocities, complex(x, 0.0))))
+    return page.panel(
+        max(heights) - min(heights) + 2 * ROOM,
+        lambda room: with_labels(moved_piece(whole, complex(0.0, ROOM + max(heights))), room.grown(2.0)),
+    )
 
 
 def _lines(sheet: Sheet, plan: TrainPlan, k: int, letters: Letters, start: float) -> Piece:
@@ -175,45 +162,31 @@ def _plan_lines(sheet: Sheet, plan: TrainPlan) -> list[PlanLine]:
     return [one for one in found if one is not None]
 
 
-def _table(
-    words: list[Primitive], sheet: Sheet, plan: TrainPlan, letters: Letters, spoken: str, y: float
-) -> float:
+def _table(page: FigurePage, plan: TrainPlan) -> Block:
     """What is read off the rate scale: mm, and the rate."""
     sign, unit = ("ω", "rad/s") if plan.order == "velocity" else ("α", "rad/s²")
-    columns = (MARGIN, MARGIN + 16.0, MARGIN + 34.0)
-    heads = (term("plan link", spoken), "mm", f"${sign}$, {unit}")
-    words += [Text(complex(x, y), rich(head, 2.5)) for x, head in zip(columns, heads, strict=True)]
-    words.append(Line(complex(MARGIN, y + 1.4), complex(MARGIN + 62.0, y + 1.4), strokes.OUTLINE))
-    y += 0.8
-    for one in _plan_lines(sheet, plan):
-        y += ROW
+    units = page.sheet.scene.units.rates
+    rows = []
+    for one in _plan_lines(page.sheet, plan):
         read = on_paper(abs(one.foot))
+        size = written(product(read, amount(plan.scales.rate, 12)))
+        rate = f"−{size}" if one.rate < 0.0 and size != "0" else size
         if one.rate_known and not one.trial:
-            told = f"{number(one.rate, 5)} {term('plan given', spoken)}"
-        else:
-            size = written(product(read, amount(plan.scales.rate, 12)))
-            told = f"−{size}" if one.rate < 0.0 and size != "0" else size
-        cells = (one.link, read, told)
-        words += [Text(complex(x, y), rich(text, SIZE, bold=x == MARGIN), classes=("cell",))
-                  for x, text in zip(columns, cells, strict=True)]  # fmt: skip
-    for key, (value, mm) in plan.travels.items():
-        y += ROW
-        tail = "/s" if plan.order == "velocity" else "/s²"
-        said = f"{number(value / sheet.scene.units.rates.metres, 5)} {sheet.scene.units.rates.length}{tail}"
-        cells = (key, on_paper(abs(mm)), said)
-        words += [Text(complex(x, y), rich(text, SIZE), classes=("cell",))
-                  for x, text in zip(columns, cells, strict=True)]  # fmt: skip
-    return y
+            rate = f"{number(one.rate, 5)} {page.term('plan given')}"
+        rows.append((one.link, read, rate))
+    tail = "/s" if plan.order == "velocity" else "/s²"
+    rows += [(key, on_paper(abs(mm)), f"{number(value / units.metres, 5)} {units.length}{tail}")
+             for key, (value, mm) in plan.travels.items()]  # fmt: skip
+    heads = [[word("plan link", each), "mm", f"${sign}$, {unit}"] for each in languages(page.language)]
+    return table(heads, rows, (0.2 * TABLE, 0.25 * TABLE, 0.55 * TABLE))
 
 
-def _scales(sheet: Sheet, plan: TrainPlan, letters: Letters) -> Sequence[str]:
-    speed = plan.scales.speed
-    at_scale = replace(sheet, scales=Scales(plan.scales.length, speed, speed))
-    diagrams = ("mechanism", "velocity" if plan.order == "velocity" else "acceleration")
+def _scales(page: FigurePage, plan: TrainPlan) -> tuple[str, str, str]:
     sign, unit = ("ω", "rad/s") if plan.order == "velocity" else ("α", "rad/s²")
     per = plan.scales.rate
     angular = f"$μ_{{{sign}}}$ = {number(per)} ({unit})/mm"
-    if letters.convention in ("us", "british"):
-        times, head = (1, "1 mm") if letters.convention == "us" else (10, "1 cm")
+    if page.convention in ("us", "british"):
+        times, head = (1, "1 mm") if page.convention == "us" else (10, "1 cm")
         angular = f"{head} = {number(times * per)} {unit}"
-    return (*(scale_statement(at_scale, letters.convention, d) for d in diagrams), angular)  # type: ignore[arg-type]
+    of_plan = page.scale("velocity" if plan.order == "velocity" else "acceleration", plan.scales.speed)
+    return page.scale("mechanism", plan.scales.length), of_plan, angular

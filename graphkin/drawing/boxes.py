@@ -1,0 +1,260 @@
+"""Boxes of a page: content about its left upper corner that knows its size; set below each other, beside each other,
+and at last as a page with its heading and its foot.
+
+Every length is in mm, y down.  Text is markup, with symbols between dollar signs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.conventions import Letters, letters_of, scale_statement
+from graphkin.drawing.font_widths import runs_width
+from graphkin.drawing.headings import facts, figure_title, term, titles
+from graphkin.drawing.ink import strokes
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.place.dimensions import check_bar
+from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
+from graphkin.drawing.text import fitted, rich, wrapped
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.plane import added_up
+from graphkin.scene.sheet_tables import Convention
+from graphkin.words import Phrase, languages, say, word
+
+__all__ = [
+    "GAP", "INSIDE", "MARGIN", "SIZE", "Block", "FigurePage", "column", "foot", "framed", "heading", "page", "panel",
+    "prose", "row", "rows", "table", "words_of",
+]  # fmt: skip
+
+MARGIN = 8.0  # of a page
+INSIDE = 174.0  # width of a page between its margins, where a figure has none of its own
+BELOW = 6.0  # from the base line of the foot to the edge of the page
+SIZE = 2.8  # of the letters of prose
+LEADING, BASE = 1.55, 0.7  # a line of text by the size of its letters; its base line, of the line
+TITLE, GIVEN, SCALE = 4.0, 3.2, 3.5  # letters of titles, of what stands below them, of the scale
+HEAD_LINE = 5.0  # from line to line of a heading
+GAP = 2.0  # between heading and body, body and foot
+BAR = 50.0  # length of the check bar
+
+
+@dataclass(frozen=True)
+class Block:
+    """Content about its left upper corner, so high and so wide."""
+
+    piece: Piece
+    height: float
+    width: float = 0.0
+
+    def moved(self, by: complex) -> Piece:
+        return moved_piece(self.piece, by) if by else self.piece
+
+
+BARE = Block(Piece(), 0.0)
+
+
+def prose(
+    lines: Iterable[str], width: float, size: float = SIZE, *, bold: bool = False, line: float = 0.0,
+    classes: tuple[str, ...] = (), step: int | None = None,
+) -> Block:  # fmt: skip
+    """Text in paragraphs of one line or more, ``line`` mm from line to line."""
+    height = line or LEADING * size
+    rows = [runs for text in lines for runs in wrapped(text, size, width, bold=bold)]
+    bases = (complex(0.0, height * (k + BASE)) for k in range(len(rows)))
+    texts = tuple(Text(at, runs, classes=classes, step=step) for at, runs in zip(bases, rows, strict=True))
+    return Block(Piece({"labels": texts} if texts else {}), height * len(rows), width)
+
+
+def column(*blocks: Block | None, gap: float = 0.0) -> Block:
+    """Blocks below each other; those without height take no gap."""
+    pieces: list[Piece] = []
+    y = width = 0.0
+    for block in (one for one in blocks if one is not None and one.height):
+        y += gap if pieces else 0.0
+        pieces.append(block.moved(complex(0.0, y)))
+        y, width = y + block.height, max(width, block.width)
+    return Block(joined(pieces), y, width)
+
+
+def row(*blocks: Block, gap: float = 0.0) -> Block:
+    """Blocks beside each other, their upper edges level."""
+    pieces: list[Piece] = []
+    x = 0.0
+    for block in blocks:
+        pieces.append(block.moved(complex(x, 0.0)))
+        x += block.width + gap
+    return Block(joined(pieces), max((one.height for one in blocks), default=0.0), max(0.0, x - gap))
+
+
+def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
+    """Blocks beside each other, as many to a row as a width holds."""
+    made: list[list[Block]] = []
+    for block in blocks:
+        if made and added_up((one.width + gap for one in made[-1]), block.width) <= width + 0.1:
+            made[-1].append(block)
+        else:
+            made.append([block])
+    return [row(*some, gap=gap) for some in made]
+
+
+def panel(width: float, height: float, draw: Callable[[Box], Piece]) -> Block:
+    """A room for a drawing, which is told the room."""
+    return Block(draw(Box(0.0, 0.0, width, height)), height, width)
+
+
+def framed(block: Block) -> Block:
+    """The block in a thin frame."""
+    frame = Polygon(Box(0.0, 0.0, block.width, block.height).corners, "", strokes.DIMENSION)
+    return replace(block, piece=joined((Piece({"construction": (Group((frame,), classes=("panel",)),)}), block.piece)))
+
+
+def table(
+    heads: Sequence[Sequence[str]], rows: Sequence[Sequence[str]], widths: Sequence[float], *, size: float = SIZE,
+    line: float = 0.0, layer: str = "labels",
+) -> Block:  # fmt: skip
+    """A table: lines of heads (one a language) over a rule, rows of cells, a thin rule below; the first column begins
+    at the left, the others end at the right.  What is wider than its column is set smaller."""
+    line = line or LEADING * size
+    edges = [added_up(widths[:k]) for k in range(len(widths) + 1)]
+    drawn: list[Primitive] = []
+    y = 0.72 * line
+    for n, words in enumerate(heads):
+        small = min(_fitting(text, size - 0.1, edges[k + 1] - edges[k] - 1.2) for k, text in enumerate(words))
+        drawn += [_cell(rich(text, small), edges, k, y) for k, text in enumerate(words)
+                  if text and not (n and text == heads[0][k])]  # fmt: skip
+        y += 0.75 * line
+    rule = y - 0.42 * line
+    drawn.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
+    for n, cells in enumerate(rows):
+        for k, text in enumerate(cells):
+            runs, limit = rich(text, size), edges[k + 1] - edges[k] - 0.8
+            if runs_width(runs) > limit:
+                runs = _shrunk(runs, limit)
+            if runs:
+                drawn.append(_cell(runs, edges, k, rule + (n + 0.72) * line))
+    low = rule + (len(rows) + 0.3) * line
+    drawn.append(Line(complex(edges[0], low), complex(edges[-1], low), strokes.DIMENSION))
+    return Block(Piece({layer: tuple(drawn)}), low, edges[-1])
+
+
+def words_of(keys: Sequence[str], language: str) -> list[list[str]]:
+    """Heads of a table by keys of the table of words, a line a language."""
+    return [[word(key, each) for key in keys] for each in languages(language)]
+
+
+def _fitting(text: str, size: float, width: float) -> float:
+    """The size, down to 2 mm, at which a head fits a width."""
+    wide = runs_width(rich(text, size))
+    return size if wide <= width else max(2.0, size * width / wide)
+
+
+def _cell(runs: tuple[Run, ...], edges: Sequence[float], k: int, y: float) -> Text:
+    return Text(complex(edges[k], y), runs) if k == 0 else Text(complex(edges[k + 1] - 0.6, y), runs, "end")
+
+
+def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
+    share = width / runs_width(runs)
+    return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
+
+
+def heading(names: Iterable[str], below: str, width: float) -> Block:
+    """Titles, and below them what is shown or given."""
+    parts = [prose((text,), width, TITLE, bold=True, line=HEAD_LINE, classes=("heading",)) for text in names]
+    return column(*parts, prose((below,) if below else (), width, GIVEN, line=HEAD_LINE, classes=("heading",)))
+
+
+def foot(scale: str, width: float, language: str, note: str = "") -> Block:
+    """The scale, a bar that checks a print, and a small note below them."""
+    base = 8.0j
+    bar = check_bar(base + width - BAR, fitted(term("check bar", language), 2.5, BAR))
+    told = (Text(base, fitted(scale, SCALE, width - BAR - 6.0)),) if scale else ()
+    more = (Text(base + 3.8j, fitted(note, 2.4, width)),) if note else ()
+    return Block(Piece({"labels": (*told, *bar, *more)}), base.imag, width)
+
+
+def page(
+    head: Block, body: Block, low: Block, *, title: str, said: str, language: str, metadata: Mapping[str, object],
+    margin: float = MARGIN,
+) -> Drawing:  # fmt: skip
+    """Heading, body and foot on a page as wide and as high as they are.
+
+    Parameters
+    ----------
+    said : the figure in words, for those who do not see it
+    language : "en", "zh" or "both"
+    """
+    top = margin + head.height + GAP
+    end = top + body.height
+    parts = body.moved(complex(margin, top)), head.moved(complex(margin, margin)), low.moved(complex(margin, end))
+    width = max(block.width for block in (head, body, low)) + 2 * margin
+    return Drawing(width, end + low.height + BELOW, layer_groups(joined(parts)), title, said, languages(language)[0],
+                   dict(metadata))  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FigurePage:
+    """The page of a figure of a drawn mechanism: in which language and letters it speaks, and how wide it is inside.
+
+    name : of the figure in the metadata
+    """
+
+    sheet: Sheet
+    name: str
+    language: str
+    letters: Letters
+    width: float = INSIDE
+
+    @classmethod
+    def of(
+        cls, sheet: Sheet, name: str, language: str | None, convention: str | None, width: float = INSIDE
+    ) -> FigurePage:
+        """``language`` and ``convention`` are the scene's own where they are None."""
+        wish = sheet.scene.sheet
+        letters = letters_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
+        return cls(sheet, name, language or wish.language, letters, width)
+
+    @property
+    def convention(self) -> Convention:
+        return self.letters.convention
+
+    def term(self, key: str) -> str:
+        return term(key, self.language)
+
+    def said(self, key: str, *arguments: object) -> list[str]:
+        """A phrase in each language of the page."""
+        return [say(Phrase(key, arguments), each) for each in languages(self.language)]
+
+    def prose(self, lines: Iterable[str], size: float = SIZE, *, bold: bool = False) -> Block:
+        return prose(lines, self.width, size, bold=bold)
+
+    def panel(self, height: float, draw: Callable[[Box], Piece]) -> Block:
+        return panel(self.width, height, draw)
+
+    def scale(self, diagram: DiagramName, per_mm: float | None = None) -> str:
+        """The scale of a diagram as the convention writes it; ``per_mm`` (SI) stands for the sheet's own."""
+        sheet = self.sheet
+        if per_mm is not None:
+            name = "length" if diagram == "mechanism" else diagram
+            sheet = replace(sheet, scales=replace(sheet.scales, **{name: per_mm}))
+        return scale_statement(sheet, self.convention, diagram)
+
+    def drawing(
+        self, below: str, body: Block, scale: str | None, *, title: str, said: str, note: str = "",
+        metadata: Mapping[str, object] | None = None,
+    ) -> Drawing:  # fmt: skip
+        """The page with the titles of the scene.
+
+        Parameters
+        ----------
+        below : what stands below the titles
+        scale, note : of the foot; there is none of a figure without a scale (None)
+        title : what the figure is called, as a key of the table of words
+        """
+        low = BARE if scale is None else foot(scale, self.width, self.language, note)
+        return page(
+            heading(titles(self.sheet, self.language), below, self.width), body, low,
+            title=figure_title(self.sheet, title, self.language), said=said, language=self.language,
+            metadata=facts(self.sheet, self.name) | dict(metadata or {}),
+        )  # fmt: skip
