@@ -7,16 +7,17 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.errors import Disagreement, Problem
+from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
-from graphkin.structure import by_drivers_alone
+from graphkin.solver.motion import SLIGHT
+from graphkin.structure import by_drivers_alone, greatest_before, links_for
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, amount, computed, figures, on_paper, product
 
@@ -24,9 +25,10 @@ if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
     from graphkin.scene.model import Mechanism
     from graphkin.solver import Motion
+    from graphkin.solver.pose import Array
 
 __all__ = [
-    "JUDGED", "Compared", "Report", "compare", "deviation", "exact", "measured", "paper", "rounding_of",
+    "JUDGED", "Compared", "Lost", "Report", "compare", "deviation", "exact", "measured", "paper", "rounding_of",
 ]  # fmt: skip
 
 EXACT_TOLERANCE = 1e-9
@@ -42,6 +44,20 @@ HAND = 5.0
 Exact = Callable[[Symbol], complex | float]
 
 
+class Lost(NamedTuple):
+    """How far rounding may have moved what leads to a quantity (m, m/s, m/s2, N); ``slight`` where that is so little
+    beside the motion of the drivers that what is not above it is 0."""
+
+    mechanism: float = 0.0
+    velocity: float = math.inf
+    acceleration: float = math.inf
+    force: float = 0.0
+    slight: bool = True
+
+
+Rounding = Callable[[Symbol], Lost]
+
+
 @dataclass(frozen=True)
 class Compared:
     """A reading beside the exact value (SI).
@@ -49,8 +65,8 @@ class Compared:
     ``error`` is the size of the difference of the two, as vectors where they are vectors; ``tolerance`` what it may be;
     ``direction_error`` the angle from the exact direction to the drawn one (rad; 0 for rates and for vectors too short
     to have a direction).  A value not above ``floor`` is nothing but rounding; a reading is not ``determined`` here
-    where its tolerance accepts anything.  ``by_drivers``: it is determined because the drivers alone give it, where
-    what groups add is not.
+    where its tolerance accepts anything.  ``by_drivers``: the drivers alone give it, where rounding lost what groups
+    add too.
     """
 
     reading: Reading
@@ -113,7 +129,7 @@ class Report:
     @property
     def ok(self) -> bool:
         """Whether no reading is out of tolerance, and something that was found is determined."""
-        found = any(row.ok and not row.by_drivers for row in self.rows)
+        found = any(row.ok and not row.by_drivers for row in self.rows) or all(row.by_drivers for row in self.rows)
         return not self.rows or (found and all(row.ok is not False for row in self.rows))
 
     def must_agree(self, scene: Mechanism) -> None:
@@ -134,14 +150,42 @@ class Report:
         return tuple(row.symbol for row in self.rows if row.ok is None)
 
 
-def rounding_of(motion: Motion, forces: float = 0.0) -> dict[DiagramName, float]:
-    """How far rounding may have moved the exact values of one position, as `compare` takes it; ``forces`` those (N)."""
-    return {
-        "mechanism": float(np.nan_to_num(motion.bound.position[0], posinf=0.0)),
-        "velocity": float(motion.rough[0][0]),
-        "acceleration": float(motion.rough[1][0]),
-        "force": forces,
-    }
+def rounding_of(motion: Motion, forces: float = 0.0) -> Rounding:
+    """How far rounding may have moved the exact values of one position, as `compare` takes it; ``forces`` those (N).
+
+    Where it is more than slight beside the motion of the drivers it is told of the links of each quantity alone: beside
+    a dead point of one group the links before it are as certain as ever.
+    """
+    size = motion.scene.size
+    rate, second = (float(driven[0]) for driven in motion.driven)
+
+    def lost(position: Array, velocity: Array, acceleration: Array) -> Lost:
+        place, v, a = float(np.nan_to_num(position[0], posinf=0.0)), float(velocity[0]), float(acceleration[0])
+        return Lost(place, v, a, forces, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
+
+    whole = lost(motion.bound.position, *motion.rough)
+    alone: list[Motion] = []
+
+    def of(symbol: Symbol) -> Lost:
+        if whole.slight or symbol.scope == "force":
+            return whole
+        if not alone:
+            from graphkin.solver import solve
+
+            keys = [driver.key for driver in motion.scene.drivers]
+            values = dict(zip(keys, map(float, motion.values[0]), strict=True))
+            alone.append(solve(motion.scene, at=values, fine=False))
+        try:
+            own = alone[0].bound_of(links_for(motion.structure, symbol)) if alone[0].ok[0] else None
+        except CallError:  # a special point of the drawing
+            own = None
+        if own is None:
+            return whole
+        return lost(
+            own.position, np.maximum(own.velocity, size * own.omega), np.maximum(own.acceleration, size * own.alpha)
+        )
+
+    return of
 
 
 def compare(
@@ -150,7 +194,7 @@ def compare(
     exact: Exact,
     asked: Sequence[Symbol] = (),
     predicted: Mapping[Symbol, Uncertainty] | None = None,
-    rounding: Mapping[DiagramName, float] | None = None,
+    rounding: Rounding | None = None,
     force_scale: float = 0.0,
 ) -> Report:
     """Hold readings against exact values.
@@ -159,7 +203,7 @@ def compare(
     ----------
     exact : gives the exact value of a symbol at the drawn position (SI; a complex number for a vector)
     predicted : uncertainty of each reading, by which it is judged; without it (exact instrument) a reading may be off
-        by 1e-9 of the largest vector of the diagram, a rate by 1e-9 of the largest rate or of that vector over the
+        by 1e-9 of the largest vector that leads to it, a rate by 1e-9 of the largest rate or of that vector over the
         size; where what is allowed exceeds a thousandth of that (of a pencil: the whole of it) nothing is determined
     rounding : how far rounding may have moved the exact places (m) and vectors of a diagram (m/s, m/s2): within a hair
         of a dead point it exceeds 1e-9, and drawing and solver can agree no better; what is smaller is zero
@@ -167,20 +211,7 @@ def compare(
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
     of_forces = _Forces.of(sheet, pairs, predicted, rounding)
-    # a vector is judged by the largest of its diagram, a rate by the largest rate or by that vector over the size
-    largest: dict[tuple[str, bool], float] = {}
-    for reading, value in pairs:
-        if reading.symbol.scope != "motion":
-            continue
-        group = (reading.diagram, reading.symbol.is_vector)
-        largest[group] = max(largest.get(group, 0.0), abs(value), abs(reading.value))
-    for order in ("velocity", "acceleration"):
-        # vectors that only lead to the readings asked for belong to the diagram too
-        diagram = sheet.vectors("velocity" if order == "velocity" else "acceleration")
-        whole = max((abs(v.span) for v in diagram.values()), default=0.0)
-        largest[order, True] = whole * sheet.scales.of("velocity" if order == "velocity" else "acceleration")
-        # a rate that is zero comes from a vector divided by a length
-        largest[order, False] = max(largest.get((order, False), 0.0), largest[order, True] / sheet.scene.size)
+    most_of = _largest(sheet, pairs)
     grain = _grain(sheet)
 
     # the largest of each kind that drivers alone give, beside which rounding is nothing
@@ -195,31 +226,54 @@ def compare(
             rows.append(of_forces.row(reading, value))
             continue
         if reading.symbol.scope != "motion":
-            rows.append(_position(sheet, reading, float(value.real), predicted, rounding))
+            lost = rounding(reading.symbol) if rounding else Lost()
+            rows.append(_position(sheet, reading, float(value.real), predicted, lost))
             continue
-        most = largest[reading.diagram, reading.symbol.is_vector]
+        most, lost = most_of(reading), rounding(reading.symbol) if rounding else Lost()
         error = abs(reading.value - value)
         turned = 0.0
         if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
             turned = cmath.phase(complex(reading.value) / complex(value))
         expected = (predicted or {}).get(reading.symbol)
         by = 1.0 if reading.symbol.is_vector else sheet.scene.size
-        rounded = (rounding or {}).get(reading.diagram, 0.0) / by
+        rounded = 0.0 if rounding is None else _of(lost, reading.diagram) / by
         tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most, rounded)
         least = ON_PAPER.get(sheet.instrument, HAND) * sheet.scales.of(reading.diagram) / by
-        floor = _floor(sheet, reading, rounding or {}, EXACT_TOLERANCE * most)
+        floor = _floor(sheet, reading, lost, EXACT_TOLERANCE * most)
         if not reading.symbol.is_vector and math.isfinite(floor):  # over its own bar, which may be short
             tolerance = max(tolerance, floor)
-        fair, alone = _fair(sheet, tolerance, most, least), False
-        if (not fair or 0.0 < abs(value) <= floor) and by_drivers_alone(sheet.structure, reading.symbol):
+        fair, alone = _fair(sheet, tolerance, most, least), by_drivers_alone(sheet.structure, reading.symbol)
+        if (not fair or 0.0 < abs(value) <= floor) and alone:
             # no group comes before it whose rounding it could have
             tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
-            alone, floor = not fair, min(floor, ROUNDED * led[reading.symbol.kind])
+            floor = min(floor, ROUNDED * led[reading.symbol.kind])
             fair = _fair(sheet, tolerance, most, least)
+        if not lost.slight and not alone and 0.0 < abs(value) <= floor:
+            fair = False  # too small to be told, and not so small that it is 0
         rows.append(Compared(reading, value, error, tolerance, turned, expected, floor, fair, alone))
     have = {r.symbol for r in readings}
     scales = replace(sheet.scales, force=force_scale)
     return Report(sheet.instrument, scales, tuple(rows), tuple(s for s in asked if s not in have))
+
+
+def _largest(sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]]) -> Callable[[Reading], float]:
+    """By what a reading of the motion is judged: a vector by the largest that leads to it, a rate by the largest rate
+    or by that vector over the size (SI)."""
+    sizes: dict[tuple[str, bool], list[tuple[Symbol, float]]] = {}
+    for reading, value in pairs:
+        if reading.symbol.scope == "motion":
+            group = (reading.diagram, reading.symbol.is_vector)
+            sizes.setdefault(group, []).append((reading.symbol, max(abs(value), abs(reading.value))))
+    diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
+    for order in diagrams:
+        # vectors that only lead to the readings asked for belong to the diagram too
+        spans = [(s, abs(v.span) * sheet.scales.of(order)) for s, v in sheet.vectors(order).items()]
+        sizes.setdefault((order, True), []).extend(spans)
+        # a rate that is zero comes from a vector divided by a length
+        vectors = sizes[order, True]
+        sizes.setdefault((order, False), []).extend((s, span / sheet.scene.size) for s, span in vectors)
+    most = {group: greatest_before(sheet.structure, some) for group, some in sizes.items()}
+    return lambda reading: most[reading.diagram, reading.symbol.is_vector](reading.symbol)
 
 
 def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
@@ -246,7 +300,7 @@ class _Forces:
     @classmethod
     def of(
         cls, sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]],
-        predicted: Mapping[Symbol, Uncertainty] | None, rounding: Mapping[DiagramName, float] | None,
+        predicted: Mapping[Symbol, Uncertainty] | None, rounding: Rounding | None,
     ) -> _Forces:  # fmt: skip
         forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
 
@@ -257,7 +311,7 @@ class _Forces:
         largest, size = most("force"), sheet.scene.size
         turning = max(most("moment"), largest * size)
         inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
-        lost = (rounding or {}).get("force", 0.0)
+        lost = rounding(forces[0][0].symbol).force if rounding and forces else 0.0
         # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
         speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
         fastest = max(speeds, default=0.0) * sheet.scales.velocity or size
@@ -281,6 +335,8 @@ class _Forces:
         least = HAND * self.largest / 100.0 if sheet.instrument not in ON_PAPER else 0.0
         fair = _fair(sheet, tolerance, whole, least if symbol.measure == "force" else 0.0)
         floor = max(relative, 1e-12) * whole
+        if relative > SLIGHT and 0.0 < abs(exact) <= floor:
+            fair = False
         return Compared(reading, exact, error, tolerance, turned, expected, floor, fair)
 
 
@@ -314,7 +370,7 @@ def _fair(sheet: Sheet, tolerance: float, most: float, least: float) -> bool:
 
 def _position(
     sheet: Sheet, reading: Reading, exact: float, predicted: Mapping[Symbol, Uncertainty] | None,
-    rounding: Mapping[DiagramName, float] | None,
+    lost: Lost,
 ) -> Compared:  # fmt: skip
     """A length is judged by the size of the mechanism, an angle by a radian, a number by itself."""
     off = reading.value.real - exact
@@ -323,20 +379,23 @@ def _position(
     size, length = sheet.scene.size, reading.symbol.measure == "length"
     most = max(size if length else 1.0, abs(exact))
     expected = (predicted or {}).get(reading.symbol)
-    rounded = (rounding or {}).get("mechanism", 0.0) / (1.0 if length else size)
+    rounded = lost.mechanism / (1.0 if length else size)
     tolerance = max(_allowed(sheet, predicted, expected), EXACT_TOLERANCE * most, rounded)
     floor, fair = max(rounded, ROUNDING * most), _fair(sheet, tolerance, most, 0.0)
     return Compared(reading, exact, abs(off), tolerance, 0.0, expected, floor, fair)
 
 
+def _of(lost: Lost, diagram: DiagramName) -> float:
+    return {"velocity": lost.velocity, "acceleration": lost.acceleration}[diagram]
+
+
 _TOLD_APART = (1.0 + math.sqrt(2.0)) ** 2  # v^2 > 2 v d + d^2 from v = (1 + sqrt 2) d on
 
 
-def _floor(sheet: Sheet, reading: Reading, rounding: Mapping[DiagramName, float], unknown: float) -> float:
+def _floor(sheet: Sheet, reading: Reading, rounding: Lost, unknown: float) -> float:
     """What rounding alone may amount to in a value (SI), ``unknown`` where nothing is known of it: of a rate by the bar
     that it is measured at, of a normal component by the velocity whose square it is."""
-    symbol, lost = reading.symbol, rounding.get(reading.diagram, math.inf)
-    slow = rounding.get("velocity", math.inf)
+    symbol, lost, slow = reading.symbol, _of(rounding, reading.diagram), rounding.velocity
     if not (math.isfinite(lost) and math.isfinite(slow)):
         return unknown
     if symbol.kind == "an" and symbol.of is not None and symbol.to is not None:

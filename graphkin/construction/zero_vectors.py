@@ -6,7 +6,7 @@ v squared over a length, and so is as certain as the velocity that it comes from
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from graphkin.construction.as_seen import vectors_seen
@@ -15,7 +15,8 @@ from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Aid, Stroke, Vector
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import greatest_before
 
 __all__ = ["MOST_LOST", "without_residues"]
 
@@ -47,23 +48,24 @@ def without_residues(sheet: Sheet) -> Sheet:
 def _residues(sheet: Sheet) -> frozenset[Symbol]:
     scales, size = sheet.scales, sheet.scene.size
     velocity, acceleration = _drawn(sheet, "velocity"), _drawn(sheet, "acceleration")
-    fastest = _largest(velocity.values())
-    # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
-    pushed = _largest(acceleration.values())
-    push = max(pushed, (fastest * scales.velocity) ** 2 / size / scales.acceleration)
-    lost = _lost(sheet, ("mechanism", "velocity"))
-    zero = {symbol for symbol, vector in velocity.items() if 0.0 < abs(vector.span) <= lost * fastest}
-    residue = _lost(sheet, ("mechanism", "velocity", "acceleration")) * push
-    if pushed > residue:
-        # beside a dead point v squared over a length far exceeds all accelerations
-        residue = min(residue, MOST_LOST * pushed)
+    fastest, pushed = _largest(sheet, velocity), _largest(sheet, acceleration)
+    lost_before, lost = _lost(sheet, ("mechanism", "velocity")), _lost(sheet, ("mechanism", "velocity", "acceleration"))
+    zero = {s for s, vector in velocity.items() if 0.0 < abs(vector.span) <= lost_before(s) * fastest(s)}
     still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
     fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+
+    def residue(symbol: Symbol) -> float:
+        # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
+        most = pushed(symbol)
+        carried = max(most, (fastest(symbol) * scales.velocity) ** 2 / size / scales.acceleration) * lost(symbol)
+        # beside a dead point v squared over a length far exceeds all accelerations
+        return min(carried, MOST_LOST * most) if most > carried else carried
+
     for symbol, vector in acceleration.items():
         # at a contact the curvatures give a normal part where nothing slides too
         squares = () if symbol.of is not None and symbol.of.point in touching else _speeds(symbol, fixed)
         speed = next((s for s in squares if s in velocity), None)
-        nothing = abs(vector.span) <= residue if speed is None else speed in still
+        nothing = abs(vector.span) <= residue(symbol) if speed is None else speed in still
         if nothing and vector.span != 0.0:
             zero.add(symbol)
     return frozenset(zero)
@@ -74,14 +76,27 @@ def _drawn(sheet: Sheet, diagram: DiagramName) -> dict[Symbol, Vector | Aid]:
     return {**{one.symbol: one for one in vectors_seen(sheet, diagram)}, **sheet.vectors(diagram)}
 
 
-def _largest(vectors: Iterable[Vector | Aid]) -> float:
-    return max((abs(vector.span) for vector in vectors), default=0.0)
+def _largest(sheet: Sheet, vectors: Mapping[Symbol, Vector | Aid]) -> Callable[[Symbol], float]:
+    """The largest vector that leads to one (mm)."""
+    return greatest_before(sheet.structure, ((symbol, abs(vector.span)) for symbol, vector in vectors.items()))
 
 
-def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> float:
-    """What rounding may have cost, as a part of the largest vector."""
-    sines = [r.sine for name, r in sheet.noticed if name in diagrams and isinstance(r, SharpCrossing)]
-    return min(MOST_LOST, LOST / max(min(sines, default=1.0), 1e-9) ** 2)
+def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> Callable[[Symbol], float]:
+    """What rounding may have cost of a vector, as a part of the largest that leads to it."""
+    sharp = [(_crossing(r), 1.0 / max(r.sine, 1e-9))
+             for name, r in sheet.noticed if name in diagrams and isinstance(r, SharpCrossing)]  # fmt: skip
+    sharpest = greatest_before(sheet.structure, sharp)
+    return lambda symbol: min(MOST_LOST, LOST * max(sharpest(symbol), 1.0) ** 2)
+
+
+def _crossing(remark: SharpCrossing) -> Symbol:
+    """What a crossing finds, as a quantity: its own, or the velocity of a point or of links."""
+    if not isinstance(remark.of, str):
+        return Symbol("omega", link=str(remark.of.args[0]).split(", ")[0])
+    try:
+        return Symbol.parse(remark.of)
+    except ValueError:
+        return Symbol("v", PointRef(remark.of))
 
 
 def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:

@@ -386,11 +386,10 @@ class Motion:
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
 
     @cached_property
-    def floors(self) -> Mapping[Measure, Array]:
-        """What is not above it is nothing but rounding, by measure, shape (n,) (SI): the bound of the error, as far as
-        that is slight beside the motion of the drivers.  Where it is more, beside a dead point, nothing is called 0."""
+    def driven(self) -> tuple[Array, Array]:
+        """How fast the drivers move, and how their rates change with the square of that, of slides over the size; shape
+        (n,) (rad/s, rad/s2)."""
         size = self.scene.size
-        # of the drivers (rad/s, rad/s2), of slides over the size
         rate, second = np.zeros(len(self)), np.zeros(len(self))
         for driver in self.scene.drivers:
             if isinstance(driver, AngleDriver):
@@ -399,7 +398,14 @@ class Motion:
             else:
                 slide = self.slide(driver.key)
                 rate, second = rate + np.abs(slide.velocity) / size, second + np.abs(slide.acceleration) / size
-        second = second + rate**2
+        return rate, second + rate**2
+
+    @cached_property
+    def floors(self) -> Mapping[Measure, Array]:
+        """What is not above it is nothing but rounding, by measure, shape (n,) (SI): the bound of the error, as far as
+        that is slight beside the motion of the drivers.  Where it is more, beside a dead point, nothing is called 0."""
+        size = self.scene.size
+        rate, second = self.driven
         pairs: dict[Measure, tuple[Array, Array | float]] = {
             "length": (self.bound.position, size), "velocity": (self.bound.velocity, rate * size),
             "acceleration": (self.bound.acceleration, second * size), "angle": (self.bound.angle, 1.0),

@@ -29,7 +29,7 @@ __all__ = ["as_drawn", "solve", "sweep_in_blocks"]
 
 
 def solve(
-    scene: Mechanism | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None
+    scene: Mechanism | Structure, at: Mapping[str, float] | None = None, sweep: int | None = None, fine: bool = True
 ) -> Motion:
     """Solve a scene, or its structure, analytically.
 
@@ -39,6 +39,8 @@ def solve(
     sweep : this many positions: over a full turn of the first driver, in the sense of its omega (counter-clockwise if
         it is 0), from the scene's own value (or that of ``at``) on; for a slide driver, in the same sense, spread
         evenly inside the range of travel that the motion reaches
+    fine : False leaves 16 digits where they are rough, with the bounds of each link alone, as a drawing has them; of
+        one position only
 
     Returns
     -------
@@ -65,7 +67,7 @@ def solve(
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in forms.items()}
-    found = motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool))
+    found = motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool), fine=fine)
     return replace(found, passed=passed)
 
 

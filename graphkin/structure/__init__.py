@@ -22,7 +22,7 @@ from graphkin.structure.model import (
     links_of,
     outside_of,
 )
-from graphkin.structure.needed_elements import by_drivers_alone, in_stages, links_for, needed, part_of
+from graphkin.structure.needed_elements import by_drivers_alone, greatest_before, in_stages, links_for, needed, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
@@ -47,6 +47,7 @@ __all__ = [
     "analyse",
     "by_drivers_alone",
     "driver_pair",
+    "greatest_before",
     "in_stages",
     "links_for",
     "links_of",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
@@ -12,7 +12,7 @@ from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure, links_of
 from graphkin.words import Phrase
 
-__all__ = ["by_drivers_alone", "in_stages", "links_for", "needed", "part_of"]
+__all__ = ["by_drivers_alone", "greatest_before", "in_stages", "links_for", "needed", "part_of"]
 
 
 def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
@@ -45,6 +45,44 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
         return links_for(structure, symbol).isdisjoint(structure.found_by_groups)
     except CallError:  # a special point of the drawing
         return False
+
+
+def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
+    """For a quantity of the motion the greatest of sizes: of its own, and of those of the links that it hangs on.
+
+    What is greater farther on in the order of solution has no part in it: beside a dead point of the last group the
+    rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
+    link that is held still, all sizes count; theirs count from the first larger group on.
+    """
+
+    def places(symbol: Symbol) -> list[int] | None:
+        try:
+            found = None if symbol.seen else links_for(structure, symbol)
+        except CallError:
+            return None
+        return None if found is None else [place for n in found if (place := structure.place_of.get(n)) is not None]
+
+    count = len(structure.elements)
+    special = next((i for i, e in enumerate(structure.elements) if isinstance(e, Cluster)), count - 1)
+    before = [0.0] * count
+    for symbol, size in sizes:
+        at = places(symbol)
+        if count and at != []:
+            last = special if at is None else max(at)
+            before[last] = max(before[last], size)
+    whole, grows = max(before, default=0.0), True
+    while grows:  # what rolls may follow through links that come later
+        grows = False
+        for i, links in enumerate(structure.hangs_on):
+            most = max((before[structure.place_of[n]] for n in links if n in structure.place_of), default=0.0)
+            if most > before[i]:
+                before[i], grows = most, True
+
+    def greatest(symbol: Symbol) -> float:
+        at = places(symbol)
+        return whole if at is None else max((before[place] for place in at), default=0.0)
+
+    return greatest
 
 
 def in_stages(elements: Sequence[Element]) -> bool:

@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare
+from graphkin.checking.report import Lost, compare
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import draft
 from graphkin.construction.steps import ReadOff
@@ -50,7 +50,7 @@ def test_agreement_within_a_tolerance_that_accepts_anything_is_none() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = read_off(sheet)
     exact = {r.symbol: r.value for r in readings}
-    report = compare(sheet, readings, exact.__getitem__, rounding={"velocity": 1e3})
+    report = compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(velocity=1e3))
     led = {"v_B", "omega_1", "omega_3"}  # by the crank and the guide alone
     assert {None} == {row.ok for row in report.rows if row.reading.diagram == "velocity" and str(row.symbol) not in led}
 
@@ -60,7 +60,7 @@ def test_a_report_of_readings_of_which_none_is_determined_is_not_ok() -> None:
     sheet = draft(mechanism_of("slider-crank-offset"))
     readings = [r for r in read_off(sheet) if str(r.symbol) in ("v_C", "v_C/B", "omega_2")]
     exact = {r.symbol: r.value for r in readings}
-    assert not compare(sheet, readings, exact.__getitem__, rounding={"velocity": 1e3}).ok
+    assert not compare(sheet, readings, exact.__getitem__, rounding=lambda symbol: Lost(velocity=1e3)).ok
 
 
 @pytest.mark.quick
@@ -187,3 +187,39 @@ def test_small_accelerations_beside_a_dead_point_are_drawn_as_they_are(angle: fl
     (row,) = (row for row in result.report.rows if str(row.symbol) == "a_B")
     assert whole == pytest.approx(abs(row.reading.value), rel=1e-5)
     assert [] == [str(row.symbol) for row in result.report.rows if row.ok is False]
+
+
+def stephenson(angle: float) -> dict[str, Any]:
+    """Links 3 and 4 move quietly where 5 and 6, which hang on them, come into line."""
+    return {
+        "units": {"length": "mm"},
+        "frame": {"name": "1", "points": {"A0": [0, 0], "B0": [120, 0], "D0": [200, 40]}},
+        "links": {
+            "2": {"points": ["A0", "A"], "length": 40},
+            "3": {"points": ["A", "B"], "length": 110,
+                  "at": {"C": {"from": ["A", "B"], "r": [90, 70], "side": "left"}}},
+            "4": {"points": ["B0", "B"], "length": 80},
+            "5": {"points": ["C", "D"], "length": 100},
+            "6": {"points": ["D0", "D"], "length": 70},
+        },
+        "driver": {"link": "2", "angle": angle, "omega": 10},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("angle", [83.8756, 83.875642, -13.66839])
+def test_what_comes_before_a_group_at_its_dead_point_is_drawn_and_judged_as_without_it(angle: float) -> None:
+    whole = stephenson(angle)
+    before = dict(whole, links={name: link for name, link in whole["links"].items() if name in "234"})
+    rows = {str(row.symbol): row for row in graphkin.check(whole).report.rows}
+    for alone in graphkin.check(before).report.rows:
+        row = rows[str(alone.symbol)]
+        assert alone.measured == pytest.approx(row.measured, rel=1e-9)
+        assert alone.true == pytest.approx(row.true, rel=1e-9)
+        assert row.tolerance == pytest.approx(alone.tolerance, rel=0.1)
+    assert 15 < abs(rows["alpha_3"].measured)
+
+
+def test_a_value_that_rounding_may_have_made_is_not_called_zero_beside_a_dead_point() -> None:
+    rows = graphkin.check(stephenson(83.8756421)).report.rows
+    called_zero = [str(row.symbol) for row in rows if row.ok and row.exact != 0.0 and 0.0 in (row.measured, row.true)]
+    assert [] == called_zero
