@@ -20,7 +20,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
@@ -97,12 +97,13 @@ class CamMade:
         ):
             if most is None:
                 continue
-            said = Phrase(f"cam pressure {kind}", (_degrees(most.value), _degree(most)))
+            said = Phrase(f"cam pressure {kind}", size=Neutral(f"{_degrees(most.value)}°"), place=_place(most))
             if kept is not None and allowed is not None:
-                said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}"))
+                said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}°"))
             made.append(said)
         if study.radius is not None:
-            made.append(Phrase("cam radius", (self._length(study.radius.value), unit, _degree(study.radius))))
+            size = Neutral(f"{self._length(study.radius.value)} {unit}")
+            made.append(Phrase("cam radius", size=size, place=_place(study.radius)))
         made += [self._undercut(start, end) for start, end in study.undercut]
         if self.wanted_base is not None:
             made.append(Phrase("cam base wanted", (self._length(self.wanted_base), unit)))
@@ -136,7 +137,8 @@ class CamMade:
                 value, name = value / units.metres, units.length + per[order - 1]
             if order == 2 and any(jump.order == 1 for jump in self.study.jumps):
                 key = "acceleration beside impacts"
-            found.append(Phrase(f"cam {key}", (true_minus(f"{value:.6g}"), name, _degree(most))))
+            size = Neutral(f"{true_minus(f'{value:.6g}')} {name}")
+            found.append(Phrase(f"cam {key}", size=size, place=_place(most)))
         return found
 
     def sentences(self, language: str) -> list[str]:
@@ -176,8 +178,7 @@ class CamMade:
         """The cam by inversion, on a page of its own."""
         from graphkin.drawing.cam import cam_figure
 
-        told = {each: self.sentences(each) for each in languages(language)}
-        return cam_figure(self.mechanism, self.sheet, told, language)
+        return cam_figure(self.mechanism, self.sheet, self.phrases(), language)
 
     def profile_dxf(self) -> bytes:
         """The profile true to size, in mm, as a closed curve of arcs.  Raises CallError without the extra ``cad``."""
@@ -186,8 +187,8 @@ class CamMade:
         return profile_dxf(self.cam)
 
 
-def _degree(at: AtDegree) -> str:
-    return _degrees(at.degree)
+def _place(at: AtDegree) -> Neutral:
+    return Neutral(f"φ = {_degrees(at.degree)}°")
 
 
 def _degrees(angle: float) -> str:

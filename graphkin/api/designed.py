@@ -31,7 +31,7 @@ from graphkin.scene.synthesis import (
     scene_table,
 )
 from graphkin.scene.written import Scene
-from graphkin.words import LANGUAGES, Phrase, languages, say, word
+from graphkin.words import LANGUAGES, Neutral, Phrase, say
 
 if TYPE_CHECKING:
     from graphkin.drawing import ChartPage, Drawing
@@ -224,18 +224,21 @@ class Designed(Result):
             Column("exact", np.array([row.exact for row in self.rows]), unit),
         ))  # fmt: skip
 
-    def sentences(self, language: str) -> list[str]:
+    def phrases(self) -> list[Phrase]:
         """What is to be said of the result."""
-        made = [say(Phrase("turned bar", (name,)), language) for name in self.found.turned]
-        made += [say(Phrase("other assembly", (one.what,)), language) for one in self.confirmed if not one.ok]
+        made = [Phrase("turned bar", (name,)) for name in self.found.turned]
+        made += [Phrase("other assembly", (one.what,)) for one in self.confirmed if not one.ok]
         if self.found.least is not None:
-            made.append(f"{word('least angle', language)}{word('colon', language)}{self.found.least:.2f}°")
+            made.append(Phrase("least angle is", (Neutral(f"{self.found.least:.2f}°"),)))
         free = self.choice
         if free is not None and self.found.least is not None and free.least > self.found.least + 0.005:
             numbers = f"{free.low:.5g}", f"{free.high:.5g}", self.given.units.length, f"{free.least:.2f}"
-            args = word(f"datum {free.key}", language), *numbers, f"{free.best:.5g}", f"{self.found.least:.2f}"
-            made.append(say(Phrase("best choice", args), language))
+            args = Phrase(f"datum {free.key}"), *numbers, f"{free.best:.5g}", f"{self.found.least:.2f}"
+            made.append(Phrase("best choice", args))
         return made
+
+    def sentences(self, language: str) -> list[str]:
+        return [say(phrase, language) for phrase in self.phrases()]
 
     @cached_property
     def figures(self) -> dict[str, Drawing | ChartPage]:
@@ -243,9 +246,8 @@ class Designed(Result):
         from graphkin.drawing.synthesis import choice_chart, design_figure
 
         spoken = self.language or self.given.sheet.language
-        notes = {each: self.sentences(each) for each in languages(spoken)}
         made: dict[str, Drawing | ChartPage] = {
-            "design": design_figure(self.given, self.sheet, self.rows, self.confirmed, notes, spoken)
+            "design": design_figure(self.given, self.sheet, self.rows, self.confirmed, self.phrases(), spoken)
         }
         if self.choice is not None and self.found.least is not None:
             free = self.choice

@@ -86,16 +86,16 @@ def _forces(checked: Checked, language: str) -> list[str]:
     letters = letters_of(sheet, sheet.scene.sheet.convention)
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += [inertia_line(sheet, one, letters, language) for one in forces.inertias.values()]
+    lines += [inertia_line(sheet, one, letters) for one in forces.inertias.values()]
     for number, state in enumerate(forces.states):
         if len(forces.states) > 1:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
-            lines.append(group_caption(sheet, group, count, language))
-            lines += [f"    {x}" for told in moment_sentences(sheet, group, letters, language) for x in told.lines]
+            lines.append(say(group_caption(group, count), language))
+            lines += [f"    {say(x, language)}" for told in moment_sentences(sheet, group, letters) for x in told.lines]
             if group.way == "drawn system":
                 lines.append(f"    {say(Phrase('force reason system', (', '.join(group.links),)), language)}")
-            lines += [f"    {x}" for told in couple_sentences(sheet, group, letters, language) for x in told.lines]
+            lines += [f"    {say(x, language)}" for told in couple_sentences(sheet, group, letters) for x in told.lines]
     return [*(re.sub(r"[${}]", "", line) for line in lines), ""]
 
 
@@ -112,8 +112,8 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
             moment = lever.balance.kind == "M"
             unit = f"{units.force} m" if moment else units.force
             values = lever.value if moment else abs(lever.vector), row.measured if moment else abs(row.measured)
-            shown = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
-            found.append(say(Phrase("lever balance", (str(row.symbol), *shown)), language))
+            by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)
+            found.append(say(Phrase("lever balance", (f"{row.symbol} = {by_lever}", by_polygons)), language))
     return list(dict.fromkeys(found))
 
 

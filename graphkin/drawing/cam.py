@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.sheet import Extent, fitting_scale
@@ -56,12 +56,12 @@ def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
     return cam_sheet(cam, fitting_scale(Extent(box.width, box.height), room, natural.scale / per) * per)
 
 
-def cam_figure(scene: Mechanism, sheet: CamSheet, told: Mapping[str, Sequence[str]], language: str) -> Drawing:
+def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], language: str) -> Drawing:
     """Draw a cam on a page of its own.
 
     Parameters
     ----------
-    told : what is found of it, by language
+    told : what is found of it
     language : "en", "zh" or "both"
     """
     cam = sheet.cam
@@ -83,7 +83,7 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Mapping[str, Sequence[st
     words += foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", height - 6.0, 3.5, language)
     page = joined((diagram, drawn, Piece({"labels": tuple(words), "answers": table})))
     first = languages(language)[0]
-    spoken = " ".join(say(phrase, first) + "." for phrase in sheet.steps) + " " + " ".join(told[first])
+    spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(found, first) for found in told)])
     facts = {"figure": "cam", "scene": scene.name, "cam": cam.link, "units": {"length": unit, "paper": "mm"},
              "scales": {"length": per}, "instrument": "exact", "graphkin": __version__}  # fmt: skip
     return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('cam figure', first)}", spoken, first, facts)

@@ -14,7 +14,6 @@ import numpy as np
 
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
-from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
 from graphkin.drawing.font_widths import text_box
@@ -289,7 +288,7 @@ def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
     brief = [word(f"{phrase.key} briefly", each, "") for each in others]
     if others and all(brief):
         return (" ".join((said, *brief)),)
-    return in_both((said, *(_say(phrase, each, letters) for each in others)))
+    return tuple(dict.fromkeys((said, *(_say(phrase, each, letters) for each in others))))
 
 
 def _say(phrase: Phrase, language: str, letters: Letters) -> str:

@@ -7,7 +7,7 @@ from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, For
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, force_letters
 from graphkin.drawing.headings import written
-from graphkin.words import Phrase, say
+from graphkin.words import Neutral, Phrase
 from graphkin.words.written import amount, on_paper, pointing, to_lay_off
 
 __all__ = ["arm_lines", "closed_by", "corners", "laid_lines", "laid_off"]
@@ -63,28 +63,28 @@ def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Let
     return lines
 
 
-def closed_by(group: ForceGroup, letters: Letters, frame: str, language: str) -> str:
-    """Through which ends of the chain the lines of the unknown forces go; "" where that is not so."""
+def closed_by(group: ForceGroup, letters: Letters, frame: str) -> Phrase | None:
+    """Through which ends of the chain the lines of the unknown forces go; None where that is not so."""
     chain, unknown = laid_off(group), [v for v in group.polygon if not _known(group, v)]
     if not chain or not unknown or len(unknown) > 2:
-        return ""
+        return None
     first, last = chain[0], chain[-1]
     if len(unknown) == 1:
         (one,) = unknown
         joined = [_name(v, letters) for v in (last, first, one)]
         lettered = [corner_at(group, place) for place in (last.tip, first.tail)]
-        return say(Phrase("force closes", (*joined, *lettered)), language)
+        return Phrase("force closes", (*joined, *lettered))
     behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
     before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
     if behind is None or before is None:
-        return ""
+        return None
     ways = [_way(group, v, letters, frame) for v in (behind, before)]
     if not all(ways):
-        return ""
+        return None
     ends = (_name(last, letters), ways[0], _name(behind, letters))
     corner = [corner_at(group, place) for place in (last.tip, first.tail, behind.tip)]
     names = (*ends, _name(first, letters), ways[1], _name(before, letters))
-    return say(Phrase("force lines meet", (*names, *corner)), language)
+    return Phrase("force lines meet", (*names, *corner))
 
 
 def _ends(group: ForceGroup, vector: ForceVector) -> str:
@@ -93,12 +93,12 @@ def _ends(group: ForceGroup, vector: ForceVector) -> str:
     return f"${one}{two}$ = " if one != two else ""
 
 
-def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str, language: str) -> list[str]:
+def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> list[Phrase]:
     """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
     of = [(f"${force_letters(letters.convention, t.symbol, t.part)}$", t.arm) for t in one.terms]
     arms = [f"{force} {written(on_paper(abs(arm.mm)))} mm" for force, arm in (*of, (name, one.arm)) if arm is not None]
-    per = amount(sheet.scales.length, 12)
-    return [say(Phrase("force arms", (",  ".join(arms), per)), language)] if arms else []
+    scale = Neutral(f"× {amount(sheet.scales.length, 12)} m/mm")
+    return [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
 
 
 def _known(group: ForceGroup, vector: ForceVector) -> bool:

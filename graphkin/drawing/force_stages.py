@@ -3,13 +3,12 @@ group by group cut free, moments, polygon, forces inside, couples, at last the l
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.bilingual import all_in_both, in_both
 from graphkin.drawing.conventions import Letters, force_letters, pole
 from graphkin.drawing.force_chain import closed_by, laid_lines, laid_off
 from graphkin.drawing.force_words import (
@@ -24,7 +23,7 @@ from graphkin.drawing.force_words import (
 from graphkin.drawing.given_loads import spring_lines
 from graphkin.drawing.lever import lever_on_page
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, about, languages, listed, say, word
+from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say
 
 __all__ = ["ForceStage", "ForceStep", "force_stages"]
 
@@ -85,30 +84,27 @@ class _StageWriter:
     sheet: Sheet
     forces: ForceSheet
     letters: Letters
-    spoken: tuple[str, ...]
+    language: str
     last: int
 
-    def step(self, words: Words, work: Sequence[str] = (), found: Sequence[Symbol] = ()) -> ForceStep:
+    def step(self, why: Phrase, work: Iterable[Wording] = (), found: Iterable[Symbol] = ()) -> ForceStep:
         self.last += 1
-        return ForceStep(self.last, words, tuple(work), tuple(found))
+        lines = (line for told in work for line in in_all(told, self.language))
+        return ForceStep(self.last, self.said(why), tuple(lines), tuple(found))
 
-    def said(self, key: str, *args: object) -> Words:
-        return tuple((each, say(Phrase(key, args), each)) for each in self.spoken)
+    def said(self, phrase: Phrase) -> Words:
+        return tuple((each, say(phrase, each)) for each in languages(self.language))
 
     def name(self, symbol: Symbol) -> str:
         return f"${force_letters(self.letters.convention, symbol)}$"
 
-    def sentences(self, of: Sequence[Sequence[ForceSentence]]) -> Iterator[tuple[ForceStep, ForceSentence]]:
-        """The same steps as they are told in each language."""
-        for each in zip(*of, strict=True):
-            words = tuple((language, one.reason) for language, one in zip(self.spoken, each, strict=True))
-            found = () if each[0].symbol is None else (each[0].symbol,)
-            yield self.step(words, all_in_both([one.work for one in each]), found), each[0]
+    def sentence(self, one: ForceSentence) -> ForceStep:
+        return self.step(one.reason, one.work, () if one.symbol is None else (one.symbol,))
 
 
 def force_stages(sheet: Sheet, forces: ForceSheet, letters: Letters, language: str) -> tuple[ForceStage, ...]:
     """All steps from the drawn accelerations to what balances; ``sheet`` with the scale of the forces."""
-    writer = _StageWriter(sheet, forces, letters, languages(language), sheet.steps[-1].number if sheet.steps else 0)
+    writer = _StageWriter(sheet, forces, letters, language, sheet.steps[-1].number if sheet.steps else 0)
     made = [*_known(writer)]
     count = 0
     for number, state in enumerate(forces.states):
@@ -126,18 +122,17 @@ def _known(writer: _StageWriter) -> Iterator[ForceStage]:
     state = writer.forces.states[0]
     inertia = [
         writer.step(
-            writer.said("force step inertia", link),
-            [inertia_line(writer.sheet, one, writer.letters, writer.spoken[0])],
+            Phrase("force step inertia", (link,)),
+            [inertia_line(writer.sheet, one, writer.letters)],
             [Symbol("Fi", link=link)],
         )
         for link, one in writer.forces.inertias.items()
     ]
     if inertia:
-        yield ForceStage("acceleration", writer.said("force inertia"), tuple(inertia), state)
-    lines = [spring_lines(writer.sheet, writer.forces, writer.letters, each) for each in writer.spoken]
-    pulls = [writer.step(tuple(zip(writer.spoken, each, strict=True))) for each in zip(*lines, strict=True)]
+        yield ForceStage("acceleration", writer.said(Phrase("force inertia")), tuple(inertia), state)
+    pulls = [writer.step(line) for line in spring_lines(writer.sheet, writer.forces, writer.letters)]
     if pulls:
-        yield ForceStage("mechanism", writer.said("force step springs"), tuple(pulls), state)
+        yield ForceStage("mechanism", writer.said(Phrase("force step springs")), tuple(pulls), state)
 
 
 def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: int, again: bool) -> ForceStage:
@@ -146,43 +141,41 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
     forces = list(dict.fromkeys(v.symbol for v in drawn if v.known and v.span))
     turning = [t.symbol for t in state.turning if t.moment and t.link in group.links]
     names = [writer.name(s) for s in dict.fromkeys((*forces, *turning))]
-    cut = writer.said("force step cut", links, listed(names)) if names else writer.said("force step cut bare", links)
+    cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
     steps = [writer.step(cut)]
     made = ForceStage("forces", (), (), state, group, again, known=steps[0].number)
     moments: dict[tuple[Symbol, str], int] = {}
-    for step, one in writer.sentences([moment_sentences(sheet, group, letters, each) for each in writer.spoken]):
-        steps.append(step)
+    for one in moment_sentences(sheet, group, letters):
+        steps.append(writer.sentence(one))
         if one.symbol is not None:
-            moments[one.symbol, one.part] = step.number
+            moments[one.symbol, one.part] = steps[-1].number
     read, inside = read_off(sheet, writer.forces, state, group, letters), dict[str, int]()
     laid = made.known
     if group.way == "drawn system":
-        steps.append(writer.step(writer.said("force reason system", links)))
+        steps.append(writer.step(Phrase("force reason system", (links,))))
     elif len(group.equation) > 1:
         if laid_off(group):
             lines = laid_lines(sheet, writer.forces, group, letters)
-            steps.append(writer.step(writer.said("force step lay"), lines))
+            steps.append(writer.step(Phrase("force step lay"), lines))
             laid = steps[-1].number
         own = [s for s in dict.fromkeys(v.symbol for v in group.polygon if not v.known) if s in read]
-        frame = sheet.scene.frame.name
-        closed = tuple(
-            (each, word("between sentences", each).join((why, closed_by(group, letters, frame, each))).strip())
-            for each, why in writer.said(about("force polygon closes", group.links), links)
-        )
+        why = Phrase(about("force polygon closes", group.links), (links,))
+        by = closed_by(group, letters, sheet.scene.frame.name)
+        closed = Phrase("two sentences", (why, by)) if by is not None else why
         steps.append(writer.step(closed, [read.pop(s) for s in own], own))
     closing = steps[-1].number
     for link, vectors in group.inner.items():
         own = [s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read]
         if own:
-            found = listed([writer.name(s) for s in own])
-            steps.append(writer.step(writer.said("force step inside", link, found), [read.pop(s) for s in own], own))
+            closed = Phrase("force step inside", (link, listed([writer.name(s) for s in own])))
+            steps.append(writer.step(closed, [read.pop(s) for s in own], own))
             inside[link] = steps[-1].number
     couples: dict[Symbol, int] = {}
-    for step, one in writer.sentences([couple_sentences(sheet, group, letters, each) for each in writer.spoken]):
-        steps.append(step)
+    for one in couple_sentences(sheet, group, letters):
+        steps.append(writer.sentence(one))
         if one.symbol is not None:
-            couples[one.symbol] = step.number
-    title = tuple((each, group_caption(sheet, group, count, each)) for each in writer.spoken)
+            couples[one.symbol] = steps[-1].number
+    title = writer.said(group_caption(group, count))
     return replace(
         made, title=title, steps=tuple(steps), laid=laid, closing=closing, moments=moments, inside=inside,
         couples=couples,
@@ -193,12 +186,10 @@ def _levers(writer: _StageWriter) -> Iterator[ForceStage]:
     forces, c = writer.forces, writer.letters.convention
     for k, state in enumerate(forces.states):
         for lever in forces.levers[k]:
-            first = writer.said("lever reason", f"${pole(c, 'velocity')}$")
-            if lever.virtual:
-                first = tuple((each, f"{a} {say(Phrase('lever virtual'), each)}") for each, a in first)
-            steps = [writer.step(first), writer.step(writer.said("lever step forces"))]
+            why = Phrase("lever reason", (f"${pole(c, 'velocity')}$",))
+            first = Phrase("two sentences", (why, Phrase("lever virtual"))) if lever.virtual else why
+            steps = [writer.step(first), writer.step(Phrase("lever step forces"))]
             shown, _ = lever_on_page(writer.sheet, lever)
-            sums = [lever_sum(writer.sheet, state, shown, writer.letters, each) for each in writer.spoken]
-            words = tuple((each, balance) for each, (_, balance) in zip(writer.spoken, sums, strict=True))
-            steps.append(writer.step(words, in_both([total for total, _ in sums]), [lever.balance]))
-            yield ForceStage("lever", writer.said("lever"), tuple(steps), state, again=bool(k))
+            total, balance = lever_sum(writer.sheet, state, shown, writer.letters)
+            steps.append(writer.step(balance, [total], [lever.balance]))
+            yield ForceStage("lever", writer.said(Phrase("lever")), tuple(steps), state, again=bool(k))

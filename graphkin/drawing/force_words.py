@@ -25,7 +25,7 @@ from graphkin.drawing.force_chain import arm_lines
 from graphkin.drawing.headings import number, written
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, about, listed, say, word
+from graphkin.words import Neutral, Phrase, Wording, about, listed
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
@@ -37,13 +37,13 @@ DIGITS = 5
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 
 
-def group_caption(sheet: Sheet, group: ForceGroup, count: int, language: str) -> str:
+def group_caption(group: ForceGroup, count: int) -> Phrase:
     """``1. Links 5, 6 (RRP) cut free``."""
     kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}.get(group.way, group.kind)
-    return say(Phrase(about("force group", group.links), (str(count), listed(group.links), kind)), language)
+    return Phrase(about("force group", group.links), (str(count), listed(group.links), kind))
 
 
-def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) -> str:
+def inertia_line(sheet: Sheet, one: Inertia, letters: Letters) -> str:
     """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
     units, c = sheet.scene.units, letters.convention
     mass, push = amount(one.mass / units.kilograms, DIGITS), amount(abs(one.push), DIGITS)
@@ -66,38 +66,38 @@ def inertia_line(sheet: Sheet, one: Inertia, letters: Letters, language: str) ->
 class ForceSentence(NamedTuple):
     """A step in words with symbols: why it is taken, what is computed, and what it finds (``part`` of it)."""
 
-    reason: str
-    work: tuple[str, ...] = ()
+    reason: Phrase
+    work: tuple[Wording, ...] = ()
     symbol: Symbol | None = None
     part: str = ""
 
     @property
-    def lines(self) -> tuple[str, ...]:
+    def lines(self) -> tuple[Wording, ...]:
         return self.reason, *self.work
 
 
-def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[ForceSentence]:
+def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:
     """The moment equations that give parts of forces, each with its reason."""
     lines = list[ForceSentence]()
     held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
     if held is not None:
         name = f"${force_letters(letters.convention, held.symbol, 'n')}$"
-        said = say(Phrase("force reason along", (held.link.split("/")[0], name)), language)
+        said = Phrase("force reason along", (held.link.split("/")[0], name))
         lines.append(ForceSentence(said, (), held.symbol, "n"))
     for one in group.moments:
         links = _links(one.links)
         if not one.terms and group.way == "polygon" and group.kind != "RPR":
             name = f"${force_letters(letters.convention, one.symbol)}$"
             args = links, name, f"${letters.point(one.about)}$"
-            lines.append(ForceSentence(say(Phrase("force two-force member", args), language), (), one.symbol, one.part))
+            lines.append(ForceSentence(Phrase("force two-force member", args), (), one.symbol, one.part))
             continue
         name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(group, one) else '')}$"
         key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
             "force reason pin"
         )  # fmt: skip
         about = f"${letters.point(one.about)}$"
-        said = say(Phrase(key, (about, links, name)), language)
-        work = (*arm_lines(sheet, one, letters, name, language), _equation(sheet, one, letters, name))
+        said = Phrase(key, (about, links, name))
+        work: tuple[Wording, ...] = (*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name))
         lines.append(ForceSentence(said, work, one.symbol, one.part))
     return lines
 
@@ -112,7 +112,7 @@ def _parted(group: ForceGroup, one: MomentEquation) -> bool:
     return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1
 
 
-def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language: str) -> list[ForceSentence]:
+def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:
     """Couples of sliding pairs with the lines of their forces, and moments that balance."""
     lines = list[ForceSentence]()
     units = sheet.scene.units
@@ -121,16 +121,16 @@ def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters, language
             continue
         name = f"${force_letters(letters.convention, one.symbol)}$"
         if one.symbol.other and not one.value:
-            lines.append(ForceSentence(say(Phrase("force no couple", (name,)), language), (), one.symbol))
+            lines.append(ForceSentence(Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), one.symbol))
             continue
         key = "force reason couple" if one.symbol.other else "force reason balance"
-        work = [*arm_lines(sheet, one, letters, name, language), _equation(sheet, one, letters, name)]
+        work: list[Wording] = [*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name)]
         for line in group.lines:
             if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
                 force = f"${force_letters(letters.convention, line.symbol)}$"
                 shift = number(abs(line.shifted) / units.metres, DIGITS)
-                work.append(say(Phrase("force line shifted", (force, shift, units.length)), language))
-        lines.append(ForceSentence(say(Phrase(key, (_links(one.links), name)), language), tuple(work), one.symbol))
+                work.append(Phrase("force line shifted", (force, shift, units.length)))
+        lines.append(ForceSentence(Phrase(key, (_links(one.links), name)), tuple(work), one.symbol))
     return lines
 
 
@@ -178,9 +178,7 @@ def _sum_term(sheet: Sheet, one: ForceTerm, letters: Letters) -> SumTerm:
     return SumTerm(vector, one.size_known, one.direction_known, way)
 
 
-def lever_sum(
-    sheet: Sheet, state: ForceState, lever: Lever, letters: Letters, language: str
-) -> tuple[str, str]:
+def lever_sum(sheet: Sheet, state: ForceState, lever: Lever, letters: Letters) -> tuple[Phrase, Phrase]:
     """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
     units = sheet.scene.units
     name = f"${force_letters(letters.convention, lever.balance)}$"
@@ -193,10 +191,10 @@ def lever_sum(
     lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), DIGITS)}"
     rest = f"{'+' if total >= 0 else '−'} {number(abs(total), DIGITS)}"
     unit = f"{units.force}·m" if moment else units.force
-    shown = (f"{number(v / units.newtons, DIGITS)} {unit}" for v in values)
+    by_lever, by_polygons = (f"{number(v / units.newtons, DIGITS)} {unit}" for v in values)
     return (
-        f"{say(Phrase('lever sum'), language)}{word('between sentences', language)}{lead} {rest} = 0",
-        say(Phrase("lever balance", (name, *shown)), language),
+        Phrase("lever sum", (Neutral(f"{lead} {rest} = 0"),)),
+        Phrase("lever balance", (Neutral(f"{name} = {by_lever}"), Neutral(by_polygons))),
     )
 
 

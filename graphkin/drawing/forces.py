@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.equations import write_sum
@@ -29,7 +28,7 @@ from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, about, languages, listed, say
+from graphkin.words import Phrase, about, in_all, languages, listed, say
 
 __all__ = ["forces_figure", "group_equation", "group_picture"]
 
@@ -158,12 +157,11 @@ def _given(sheet: Sheet, forces: ForceSheet, letters: Letters, spoken: str, widt
     lines: list[tuple[str, bool]] = []
     every = languages(spoken)
     lines.append((term("given", spoken), True))
-    lines += [(text, False) for text in all_in_both([given_loads(sheet, letters, each) for each in every])]
+    lines += [(text, False) for told in given_loads(sheet, letters) for text in in_all(told, spoken)]
     if forces.inertias:
         lines += [(say(Phrase("force inertia"), each), True) for each in every]
-        lines += [(inertia_line(sheet, one, letters, spoken), False) for one in forces.inertias.values()]
-    springs = [list(spring_lines(sheet, forces, letters, each)) for each in every]
-    lines += [(text, False) for text in all_in_both(springs)]
+        lines += [(inertia_line(sheet, one, letters), False) for one in forces.inertias.values()]
+    lines += [(text, False) for told in spring_lines(sheet, forces, letters) for text in in_all(told, spoken)]
     yield _words(lines, width)
 
 
@@ -260,27 +258,21 @@ def _below(
 ) -> _Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     blocks = []
-    lists = []
-    for each in languages(spoken):
-        said = [text for told in moment_sentences(sheet, group, letters, each) for text in told.lines]
-        if group.way == "drawn system":
-            said.append(say(Phrase("force reason system", (listed(group.links),)), each))
-        elif len(group.equation) > 1 and group.way == "polygon":
-            said.append(say(Phrase(about("force reason polygon", group.links), (listed(group.links),)), each))
-        lists.append(said)
-    if any(lists):
-        blocks.append(_words([(text, False) for text in all_in_both(lists)], width))
+    said = [line for told in moment_sentences(sheet, group, letters) for line in told.lines]
+    if group.way == "drawn system":
+        said.append(Phrase("force reason system", (listed(group.links),)))
+    elif len(group.equation) > 1 and group.way == "polygon":
+        said.append(Phrase(about("force reason polygon", group.links), (listed(group.links),)))
+    if said:
+        blocks.append(_words([(text, False) for told in said for text in in_all(told, spoken)], width))
     if group.way != "drawn system" and len(group.equation) > 1:
         written = write_sum(sum_terms(sheet, group, letters), letters, spoken, width)
         blocks.append(_Block(Piece({"labels": (Group(written.children, id=""),)}), written.height))
-    couples = [
-        [text for told in couple_sentences(sheet, group, letters, each) for text in told.lines]
-        for each in languages(spoken)
-    ]
+    couples = [line for told in couple_sentences(sheet, group, letters) for line in told.lines]
     read = read_off(sheet, forces, stage.state, group, letters)
-    last = [*all_in_both(couples), *([";  ".join(read.values())] if read else [])]
+    last = [*couples, *([";  ".join(read.values())] if read else [])]
     if last:
-        blocks.append(_words([(text, False) for text in last], width))
+        blocks.append(_words([(text, False) for told in last for text in in_all(told, spoken)], width))
     return _stacked(blocks)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from functools import reduce
 
 from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import Sheet
@@ -19,24 +20,25 @@ from graphkin.drawing.text import plain
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase, say
+from graphkin.words import Neutral, Phrase
 from graphkin.words.written import FINER, MOST, amount
 
 __all__ = ["given_loads", "spring_lines", "springs"]
 
 
-def given_loads(sheet: Sheet, letters: Letters, language: str) -> list[str]:
+def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
     """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
     scene, loading = sheet.scene, sheet.scene.loading
+    masses = list(_masses(scene, letters))
     return [
-        *filter(None, [";  ".join(_masses(scene, letters, language))]),
-        *(_load(scene, load, letters, language) for load in loading.loads),
-        *(spring_given(scene, spring, letters, language) for spring in loading.springs),
-        _balance(scene, letters, language),
+        *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
+        *(_load(scene, load, letters) for load in loading.loads),
+        *(_spring_given(scene, spring, letters) for spring in loading.springs),
+        _balance(scene, letters),
     ]
 
 
-def _masses(scene: Mechanism, letters: Letters, language: str) -> Iterator[str]:
+def _masses(scene: Mechanism, letters: Letters) -> Iterator[Phrase]:
     units, loading = scene.units, scene.loading
     for mass in loading.masses:
         point = next((p for p, z in scene.by_name[mass.link].points.items() if z == mass.at), "")
@@ -51,38 +53,38 @@ def _masses(scene: Mechanism, letters: Letters, language: str) -> Iterator[str]:
         if mass.inertia:
             square = "ft²" if units.mass == "lb" else "m²"
             said += f", $J_{{{mass.link}}}$ = {number(mass.inertia / units.inertias, 5)} {units.mass}·{square}"
-        yield say(Phrase("given mass", (said, where)), language)
+        yield Phrase("given mass", (Neutral(said), where))
 
 
-def _load(scene: Mechanism, load: LoadOn, letters: Letters, language: str) -> str:
+def _load(scene: Mechanism, load: LoadOn, letters: Letters) -> Phrase:
     units = scene.units
     name = f"${force_letters(letters.convention, Symbol('P', name=load.name, turning=not load.is_force))}$"
-    size = f"{name} = {number(load.size / units.newtons)} {units.force}" + ("" if load.is_force else "·m")
+    size = Neutral(f"{name} = {number(load.size / units.newtons)} {units.force}" + ("" if load.is_force else "·m"))
     if not load.is_force:
-        said = say(Phrase("given moment", (size, load.link)), language)
+        said = Phrase("given moment", (size, load.link))
     elif load.against:
-        said = say(Phrase("given against", (size, load.link, load.against)), language)
+        said = Phrase("given against", (size, load.link, load.against))
     else:
         angle = number(math.degrees(math.atan2(load.turn.imag, load.turn.real)), 5)
         key = "given following" if load.follows else "given force"
-        said = say(Phrase(key, (size, load.link, angle, load.follows)), language)
-    return said + ("" if load.phase is None else _phase(scene, load.phase, language))
+        said = Phrase(key, (size, load.link, angle, load.follows))
+    return said if load.phase is None else Phrase("given while", (said, _phase(scene, load.phase)))
 
 
-def _phase(scene: Mechanism, phase: Phase, language: str) -> str:
+def _phase(scene: Mechanism, phase: Phase) -> Phrase:
     if phase.stroke:
         key = "given on stroke" if phase.sense > 0 else "given on stroke back"
-        return say(Phrase(key, (phase.stroke, number(phase.start), number(phase.end))), language)
+        return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))
     driver = scene.drivers[0]
     if isinstance(driver, AngleDriver):
         ends = (number(math.degrees(phase.start)) + "°", number(math.degrees(phase.end)) + "°")
     else:
         metres, unit = scene.units.metres, scene.units.length
         ends = (number(phase.start / metres), f"{number(phase.end / metres)} {unit}")
-    return say(Phrase("given while driver", ends), language)
+    return Phrase("given while driver", ends)
 
 
-def _balance(scene: Mechanism, letters: Letters, language: str) -> str:
+def _balance(scene: Mechanism, letters: Letters) -> Phrase:
     said = scene.loading.balance
     found = []
     if said is not None:
@@ -95,7 +97,7 @@ def _balance(scene: Mechanism, letters: Letters, language: str) -> str:
                 of = next((p.of for p in scene.pins if p.key == driver.key), driver.key.partition("/")[0])
                 found.append(Symbol("F", link=of))
     names = ", ".join(f"${force_letters(letters.convention, s)}$" for s in found)
-    return say(Phrase("given balance", (names,)), language)
+    return Phrase("given balance", (names,))
 
 
 def springs(here: MechanismOnPaper) -> Piece:
@@ -112,16 +114,16 @@ def springs(here: MechanismOnPaper) -> Piece:
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
 
 
-def spring_given(scene: Mechanism, spring: SpringOn, letters: Letters, language: str) -> str:
+def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:
     """What is given of a spring, in words with symbols."""
     units = scene.units
     one, two = (f"${letters.point(point)}$" for point in spring.points)
-    rate = f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}"
-    free = f"{number(spring.free / units.metres)} {units.length}"
-    preload = f"{number(spring.preload / units.newtons)} {units.force}"
+    rate = Neutral(f"{number(spring.rate * units.metres / units.newtons)} {units.force}/{units.length}")
+    free = Neutral(f"{number(spring.free / units.metres)} {units.length}")
+    preload = Neutral(f"{number(spring.preload / units.newtons)} {units.force}")
     name = f"${force_letters(letters.convention, Symbol('P', name=spring.name))}$"
     told = (spring.name, one, spring.links[0], two, spring.links[1], rate, free, preload, name)
-    return say(Phrase("given spring", told), language)
+    return Phrase("given spring", told)
 
 
 def _pull(start: str, rate: str, length: str, free: str) -> float:
@@ -129,7 +131,7 @@ def _pull(start: str, rate: str, length: str, free: str) -> float:
     return float(amount(float(start) + float(rate) * (float(length) - float(free)), MOST))
 
 
-def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters, language: str) -> Iterator[str]:
+def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters) -> Iterator[Phrase]:
     """The force of each spring from its length as it was measured."""
     units = sheet.scene.units
     for spring in sheet.scene.loading.springs:
@@ -146,6 +148,6 @@ def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters, language: s
         size = f"{written(pull)} {units.force}"
         markup = force_letters(letters.convention, name)
         ends = "".join(letters.point(p) for p in spring.points)
-        told = (f"${markup}$ = {preload}{rate} × {stretch} = {size}", ends, spring.links[0])
+        total = Neutral(f"${markup}$ = {preload}{rate} × {stretch} = {size}")
         key = "force spring" if force >= 0 else "force spring pushes"
-        yield say(Phrase(key, told), language)
+        yield Phrase(key, ends=ends, sum=total, link=spring.links[0])

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Extent, Sheet, fitting_scale
-from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import INSIDE, Block, FigurePage, column, table
 from graphkin.drawing.conventions import Letters, as_vector, force_letters, pole
@@ -24,7 +23,7 @@ from graphkin.drawing.text import symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import languages, word
+from graphkin.words import in_all, languages, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["lever_figure", "lever_on_page"]
@@ -80,9 +79,8 @@ def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Itera
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
     yield table(heads, [_row(row, units.newtons, page.letters) for row in scaled.rows if row.force], COLUMNS)
-    sums = [lever_sum(page.sheet, state, scaled, page.letters, each) for each in languages(page.language)]
-    totals, balances = zip(*sums, strict=True)
-    yield column(page.prose(in_both(totals)), page.prose(in_both(balances), bold=True))
+    total, balance = (in_all(said, page.language) for said in lever_sum(page.sheet, state, scaled, page.letters))
+    yield column(page.prose(total), page.prose(balance, bold=True))
 
 
 def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:

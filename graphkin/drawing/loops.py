@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet, next_of_series
-from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
 from graphkin.drawing.conventions import letters_of
@@ -27,7 +26,7 @@ from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
-from graphkin.words import Phrase, languages, say
+from graphkin.words import Neutral, Phrase, in_all, languages, say
 
 __all__ = ["loop_blocks", "loops_figure"]
 
@@ -188,14 +187,16 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
 def _lines(page: FigurePage, loop: LoopValue, block: LoopBlock) -> Iterator[tuple[str, bool]]:
     """What is written of a loop, and whether it is bold."""
     scene = page.sheet.scene
-    head = page.said("loop heading", loop.loop.name, ", ".join(loop.loop.links), equation(loop, page.convention))
-    yield from ((text, True) for text in in_both(head))
+    sum_ = Neutral(equation(loop, page.convention))
+    head = Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), sum_))
+    yield from ((text, True) for text in in_all(head, page.language))
     x, y = projections(loop, block, scene)
     yield from ((f"x:  {x}", False), (f"y:  {y}", False))
     gap = _gap(page.sheet, loop)
     if gap is not None:
-        size = f"{number(gap / scene.units.metres, 4)} {scene.units.length}"
-        yield from ((text, False) for text in in_both(page.said("loop open", loop.loop.name, size)))
+        size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
+        told = Phrase("loop open", (loop.loop.name, size))
+        yield from ((text, False) for text in in_all(told, page.language))
     if loop.root is not None:
         yield root(loop.root, loop, scene, languages(page.language)[0]), False
 

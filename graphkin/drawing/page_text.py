@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.bilingual import all_in_both
 from graphkin.drawing.headings import term, titles
 from graphkin.drawing.ink.primitives import Primitive, Run, Text, map_tree, walk
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.text import plain, rich, wrapped
-from graphkin.words import languages
+from graphkin.words import Phrase, in_all
 from graphkin.words.written import in_markup
 
 __all__ = [
@@ -73,10 +72,10 @@ def step_lines(steps: Iterable[tuple[int, str]], y: float) -> tuple[list[Primiti
     return words, y
 
 
-def note_lines(notes: Mapping[str, Sequence[str]], language: str, y: float) -> tuple[list[Primitive], float]:
-    """Sentences by language (markup), and where they end."""
+def note_lines(notes: Iterable[Phrase], language: str, y: float) -> tuple[list[Primitive], float]:
+    """Sentences, and where they end."""
     words: list[Primitive] = []
-    for note in all_in_both([notes[each] for each in languages(language)]):
+    for note in (line for said in notes for line in in_all(said, language)):
         for line in wrapped(note.replace(" -", " −"), LETTER, WIDTH - 2 * MARGIN):
             words.append(Text(complex(MARGIN, y), line, classes=("told",)))
             y += LINE

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.bilingual import in_both
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.headings import facts, figure_title, number, term, titles
@@ -28,7 +27,7 @@ from graphkin.drawing.text import plain, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
-from graphkin.words import Phrase, Wording, languages, say
+from graphkin.words import Neutral, Phrase, Wording, in_all, languages
 
 __all__ = ["Shown", "positions_figure"]
 
@@ -300,8 +299,7 @@ def _measured_lines(shown: Shown, spoken: str) -> list[str]:
                 "stroke": f"{number(value / metres, 7)} {unit}", "K": number(value, 7),
             }.get(kind, f"{number(math.degrees(value), 7)}°")  # fmt: skip
             values.append(f"${letter}$ = {text}")
-        told = Phrase("positions of", (pair, ",  ".join(values)))
-        said += in_both([say(told, each) for each in languages(spoken)])
+        said += in_all(Phrase("positions of", (Neutral(pair), Neutral(",  ".join(values)))), spoken)
     for output, why in shown.without.items():
-        said += in_both([say(Phrase("no limits", (output, why)), each) for each in languages(spoken)])
+        said += in_all(Phrase("no limits", (output, why)), spoken)
     return said

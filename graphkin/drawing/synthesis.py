@@ -6,7 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -101,14 +101,14 @@ def _content(sheet: DesignSheet) -> Box:
 
 def design_figure(
     design: Design, sheet: DesignSheet, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed],
-    notes: Mapping[str, Sequence[str]], language: str,
+    notes: Iterable[Phrase], language: str,
 ) -> Drawing:  # fmt: skip
     """Draw a synthesis on a page of its own.
 
     Parameters
     ----------
     rows : the lengths measured and compared
-    notes : sentences to be said of the result, by language
+    notes : sentences to be said of the result
     language : "en", "zh" or "both"
     """
     content = _content(sheet)

@@ -245,9 +245,8 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     if starts := rolling_starts(lesson.sheet):
         yield Paragraph(_labelled(lesson, "rolling starts", starts, "list comma"))
     if scene.loading:
-        lines = {each: given_loads(lesson.sheet, letters, each) for each in languages(lesson.language)}
-        for texts in zip(*lines.values(), strict=True):
-            yield Paragraph(tuple((each, whole_sentence(text, each)) for each, text in zip(lines, texts, strict=True)))
+        for load in given_loads(lesson.sheet, letters):
+            yield Paragraph(tuple((each, whole_sentence(say(load, each), each)) for each in languages(lesson.language)))
     asked = [f"${letters.vector(s)}$" for s in lesson.questions]
     if asked:
         yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))

@@ -7,17 +7,18 @@ same keys, and every command knows it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, reduce
 from pathlib import Path
+from string import Formatter
 from typing import TYPE_CHECKING, TypeAlias
 
 if TYPE_CHECKING:
     import re
 
 __all__ = [
-    "BOTH", "LANGUAGES", "Phrase", "Wording", "about", "alternatives", "area", "class_of", "clauses", "from_others",
-    "languages", "listed", "say", "word",
+    "BOTH", "LANGUAGES", "Neutral", "Phrase", "Wording", "about", "alternatives", "area", "class_of", "clauses",
+    "from_others", "in_all", "languages", "listed", "parts", "say", "word",
 ]  # fmt: skip
 
 
@@ -95,6 +96,80 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = s
 
     named = {name: filled(gap) for name, gap in phrase.gaps.items()}
     return _table(language)[phrase.key].format(*map(filled, phrase.args), **named)
+
+
+class Neutral(str):
+    """A formula or a value with its unit: the same in every language, so that a sheet in two languages has it once."""
+
+
+def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> Iterator[str]:
+    """A sentence taken apart: the words of the table, and what ``show`` makes of each gap, in their order.
+
+    >>> list(parts(Phrase("points", ("2", "B, C")), "en"))
+    ['mark ', 'B, C', ' on link ', '2']
+    """
+    if isinstance(said, str):
+        yield said
+        return
+    for words, gap in _pieces(said.key, language):
+        if words:
+            yield words
+        if gap is not None:
+            fill = said.args[int(gap)] if gap.isdigit() else said.gaps[gap]
+            if isinstance(fill, Phrase):
+                yield from parts(fill, language, show)
+            else:
+                yield show(fill)
+
+
+@cache
+def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
+    """The words of a key, each with the name of the gap behind it."""
+    return tuple((words, gap) for words, gap, _, _ in Formatter().parse(_table(language)[key]))
+
+
+def in_all(said: Wording, language: str) -> tuple[str, ...]:
+    """A statement in every language of a sheet, as lines: one where what is `Neutral` in it stands in one order, with
+    the words of both languages around it, else a line for each language.
+
+    >>> in_all(Phrase("force line shifted", ("$F$", "2", "mm")), "both")
+    ('The line of action of $F$ lies 2 mm off that point.', '$F$ 的作用线偏离该点 2 mm。')
+    >>> in_all(Phrase("given moment", (Neutral("$M$ = 2 N·m"), "3")), "both")
+    ('$M$ = 2 N·m on link 3 作用于构件 3',)
+    """
+    every = languages(language)
+    lines = tuple(dict.fromkeys("".join(parts(said, each)) for each in every))
+    if len(lines) == 1:
+        return lines
+    (ours, shared), (theirs, others) = (_around_neutral(said, each) for each in every)
+    if not shared or shared != others:
+        return lines
+    around = [_both(one, other) for one, other in zip(ours, theirs, strict=True)]
+    return ("".join(a + b for a, b in zip(around, (*shared, ""), strict=True)).strip(),)
+
+
+def _around_neutral(said: Wording, language: str) -> tuple[list[str], list[str]]:
+    """The words around what is neutral, one more than that, and what is neutral."""
+    words, neutral = [""], list[str]()
+    for part in parts(said, language, lambda gap: gap if isinstance(gap, str) else str(gap)):
+        if isinstance(part, Neutral):
+            neutral.append(part)
+            words.append("")
+        else:
+            words[-1] += part
+    return words, neutral
+
+
+_MARKS = " ;:,.()；：，。、（）"
+
+
+def _both(one: str, other: str) -> str:
+    """Words in both languages, with the marks of the first."""
+    more = other.strip(_MARKS)
+    if not more or more == one.strip(_MARKS):
+        return one
+    head = one.rstrip(" :;,=")
+    return f"{head} {more}{one[len(head):] or ' '}" if head.strip(_MARKS) else f"{one or ' '}{more} "
 
 
 def about(key: str, names: Sequence[object]) -> str:
