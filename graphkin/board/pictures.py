@@ -21,9 +21,10 @@ from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.in_motion import figure_in_motion
+from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
-from graphkin.papers.html import figure_svg, words_html
+from graphkin.papers.html import words_html
 from graphkin.papers.speaker import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import parsed
@@ -230,7 +231,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     words = {"language": options.language, "convention": options.convention}
     there = [name for name in options.figures if name in _IN_MOTION and _is_there(sheet, name)]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
-    figures = {name: figure_svg(figure, named=True) for name, figure in drawn.items()}
+    figures = {name: svg_element(figure, named=True) for name, figure in drawn.items()}
     unit = sheet.scales.length / scene.units.metres
     pulls = movable(scene)
     points = {ref.point: z * unit for ref, z in sheet.points.items() if not ref.link}
@@ -295,9 +296,9 @@ def _figures(drawn: Drawn) -> dict[str, str]:
             found[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
             continue
         if made is not None:
-            found[name] = figure_svg(made, named=True)
+            found[name] = svg_element(made, named=True)
             for number, page in enumerate(made.further, 2):
-                found[f"{name}-{number}"] = figure_svg(page, named=True)
+                found[f"{name}-{number}"] = svg_element(page, named=True)
     return found
 
 

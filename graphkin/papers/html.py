@@ -6,7 +6,6 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from functools import cache
 from html import escape, unescape
 from typing import TYPE_CHECKING
@@ -14,34 +13,18 @@ from typing import TYPE_CHECKING
 from markupsafe import Markup
 
 from graphkin.drawing.font import Style
-from graphkin.drawing.ink.primitives import Group, Line, Primitive, Stroke
 from graphkin.drawing.text import Atom, is_italic, parsed
-from graphkin.drawing.write.drawing import Drawing
-from graphkin.drawing.write.svg import svg_bytes
+from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.blocks import Block, Said, clean
 from graphkin.words import Phrase, area, say, word
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-__all__ = ["blocks_html", "figure_svg", "rendered", "said_html", "spoken_words", "used_characters", "words_html"]
+__all__ = ["blocks_html", "rendered", "said_html", "spoken_words", "used_characters", "words_html"]
 
-HIT = 3.0  # mm
 ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"')}
 PIXEL = 25.4 / 96  # mm
-_PROLOG = re.compile(r"^<\?xml[^>]*\?>\s*")
-_LAYER = re.compile(r' inkscape:(?:groupmode|label)="[^"]*"| xmlns:(?:inkscape|ev|xlink)="[^"]*"| baseProfile="[^"]*"')
-_NEEDLESS = re.compile(r' version="1\.1"| xml:lang="[^"]*"| xmlns="[^"]*"')  # inside a page
-_BLACK = re.compile(r'(<(?:text|polygon|circle)\b[^>]*?) fill="#000000"')  # what they are unless something else is said
-_DOUBLED = re.compile(r'"#(\w)\1(\w)\2(\w)\3"')
-_ID = re.compile(r' id="[^"]*"')
-_LAYER_ID = re.compile(r' id="(?:construction|mechanism|velocity|acceleration|forces|centres|answers|labels)"')
-_LENGTH = re.compile(' (?:lengthAdjust|textLength)="[^"]*"')  # the page has the faces, and many thousands of runs
-_FIRST_RUN = re.compile(
-    '(?P<text><text[^>]*?(?P<size> font-size="[^"]*")[^>]*?(?P<place> x="[^"]*" y="[^"]*")><tspan)'
-    "(?P=size)(?P<face>[^>]*?)(?P=place)"
-)
-_DATA = re.compile(r"<(metadata|title|desc)>.*?</\1>", re.DOTALL)
 
 
 def words_html(markup: str, language: str = "en") -> str:
@@ -75,24 +58,6 @@ def said_html(said: Said, tag: str = "span") -> str:
     )
 
 
-def figure_svg(drawing: Drawing, named: bool = False) -> str:
-    """A drawing as an SVG element for a page; ``named`` keeps the names of vectors, points and links (once in a page).
-
-    Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the page.
-    """
-    children = tuple(map(_dashed, drawing.children))
-    bare = replace(drawing, metadata={}, children=tuple(map(_wide, children)) if named else children)
-    text = _PROLOG.sub("", svg_bytes(bare, embed=False).decode()).strip()
-    head, body = text.split(">", 1)
-    head = _NEEDLESS.sub("", _LAYER.sub("", head))
-    body = _LENGTH.sub("", _LAYER.sub("", _DATA.sub("", body)))
-    body = (_LAYER_ID if named else _ID).sub("", body)
-    body = _DOUBLED.sub(r'"#\1\2\3"', _BLACK.sub(r"\1", body))
-    body = _FIRST_RUN.sub(r"\g<text>\g<face>", body.replace(" />", "/>"))  # it has size and place of its text
-    label = escape(clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}".strip(". "))))
-    return f'{head} aria-label="{label}" focusable="false">{body}'
-
-
 _BOLD = re.compile(
     r'<(h[1-6]|th)\b.*?</\1>|<tr class="asked">.*?</tr>|<tspan[^>]*font-weight="bold".*?</tspan>', re.DOTALL
 )
@@ -111,26 +76,6 @@ def used_characters(body: str) -> dict[Style, set[str]]:
     seen = set(_TAG.sub("", plain))
     letters = {c for c in seen if c.isalpha() and ord(c) < 0x400}
     return {"regular": seen, "italic": found["italic"] | letters, "bold": found["bold"]}
-
-
-def _dashed(thing: Primitive) -> Primitive:
-    if isinstance(thing, Group):
-        return replace(thing, children=tuple(map(_dashed, thing.children)))
-    if isinstance(thing, Line) and thing.covered:
-        inked = abs(thing.inked_end - thing.start)
-        return Line(thing.start, thing.end, replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0)))
-    return thing
-
-
-def _wide(thing: Primitive) -> Primitive:
-    """Vectors with a band of a finger's width that is not seen but felt by the pointer."""
-    if not isinstance(thing, Group):
-        return thing
-    children = tuple(map(_wide, thing.children))
-    shaft = children[0] if "vector" in thing.classes else None
-    if isinstance(shaft, Line) and shaft.start != shaft.end:
-        children += (Group((Line(shaft.start, shaft.end, Stroke(HIT)),), classes=("hit",)),)
-    return replace(thing, children=children)
 
 
 def blocks_html(blocks: Iterable[Block], language: str = "en") -> str:
@@ -158,7 +103,7 @@ def _templates() -> Environment:
         "kind": lambda block: type(block).__name__,
         "pixels": lambda mm: f"{mm / PIXEL:.0f}",
         "said": lambda said, tag="span": Markup(said_html(said, tag)),
-        "svg": lambda drawing: Markup(figure_svg(drawing)),
+        "svg": lambda drawing: Markup(svg_element(drawing)),
         "words": lambda markup, language: Markup(words_html(markup, language)),
     }
     return made

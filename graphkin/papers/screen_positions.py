@@ -31,9 +31,10 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, m
 from graphkin.drawing.stepwise import births, stepped
 from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Said, capital, said
-from graphkin.papers.html import blocks_html, figure_svg, said_html, spoken_words, words_html
+from graphkin.papers.html import blocks_html, said_html, spoken_words, words_html
 from graphkin.papers.lesson import Lesson, Stage, force_found, found_in, plain_words
 from graphkin.papers.pictures import ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import equation_words, given
@@ -147,7 +148,7 @@ class _Frames:
             caption = f"{words_html(_title(lesson, name), first)} "
             figures.append({
                 "name": name,
-                "svg": figure_svg(layers, named=name != "centres"),
+                "svg": svg_element(layers, named=name != "centres"),
                 "caption": caption + f'<span class="scale">{words_html(self._scale(lesson, name), first)}</span>',
             })  # fmt: skip
         stages = lesson.stages
@@ -190,9 +191,9 @@ class _Frames:
                 )  # fmt: skip
                 links = said(about("force on links", stage.group.links), lesson.language, ", ".join(stage.group.links))
                 caption = f'{said_html(links)} <span class="scale">{scale}</span>'
-                figures.append({"name": name, "svg": figure_svg(drawn, named=True), "caption": caption})
+                figures.append({"name": name, "svg": svg_element(drawn, named=True), "caption": caption})
                 equation = group_equation(sheet, stage.group, lesson.letters, lesson.language, WIDE)
-                svg = "" if equation is None else figure_svg(equation)
+                svg = "" if equation is None else svg_element(equation)
             title = said_html(stage.title)
             if len(forces.states) > 1 and stage.group is not None:
                 load = said("force with load" if stage.again else "force without load", lesson.language)
@@ -208,7 +209,7 @@ class _Frames:
         lever = lever_figure(sheet, forces, language=lesson.language, convention=lesson.convention)
         if lever is not None:
             caption = said_html(said("lever", lesson.language))
-            figures.append({"name": "lever", "svg": figure_svg(lever), "caption": caption})
+            figures.append({"name": "lever", "svg": svg_element(lever), "caption": caption})
         return figures, numbers, steps
 
     def _stage(self, lesson: Lesson, stage: Stage) -> int:
@@ -216,7 +217,7 @@ class _Frames:
         svg = ""
         if stage.equation is not None:
             words = equation_words(lesson, stage.equation)
-            svg = figure_svg(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+            svg = svg_element(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
         return self._place_in_table({"title": said_html(stage_title(lesson, stage)), "svg": svg})
 
     def _place_in_table(self, whole: dict[str, str]) -> int:
@@ -274,14 +275,14 @@ def _plans(lesson: Lesson) -> Iterator[dict[str, str]]:
         bare = bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{own[-1]}",)),)) if own else bare
         told = said("plan" if plan.order == "velocity" else "plan accelerations", language)
-        yield {"name": f"plan-{plan.order}", "svg": figure_svg(drawn), "caption": _caption(told)}
+        yield {"name": f"plan-{plan.order}", "svg": svg_element(drawn), "caption": _caption(told)}
 
 
 def _cams(lesson: Lesson) -> list[dict[str, str]]:
     """Displacement diagram and inversion of each cam that is drawn by its law."""
     scene, language = lesson.sheet.scene, lesson.language
     return [
-        {"name": f"{key.replace(' ', '-')}-{i}", "svg": figure_svg(picture), "caption": _caption(said(key, language))}
+        {"name": f"{key.replace(' ', '-')}-{i}", "svg": svg_element(picture), "caption": _caption(said(key, language))}
         for i, cam in enumerate(scene.cams)
         for key, picture in zip(
             ("cam diagram", "cam figure"), cam_pictures(scene, scaled_cam(scene, cam), language), strict=True

@@ -18,7 +18,7 @@ from graphkin.drawing.ink.strokes import CONSTRUCTION, DIRECTION, LINK
 from graphkin.drawing.ink.symbols import vector_group
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.drawing.write.svg import number, svg_bytes
+from graphkin.drawing.write.svg import number, svg_bytes, svg_element
 
 pytestmark = pytest.mark.quick
 
@@ -177,3 +177,38 @@ def test_what_is_no_number_is_never_drawn(value):
 def test_an_arc_turns_the_way_of_its_angles(end, flags):
     path = root(Arc(30 + 30j, 9.0, 0.0, end, CONSTRUCTION)).find(f"{SVG}path")
     assert f" 0 {flags} " in path.get("d")
+
+
+def in_page(named=False):
+    return ET.fromstring(svg_element(drawing(*EVERYTHING), named))
+
+
+def test_in_a_page_a_line_ends_under_its_arrowhead_by_a_dash_and_not_by_a_clip():
+    (vector,) = (g for g in in_page(True).iter("g") if g.get("id") == "v_B")
+    dash, gap = map(float, vector[0].get("stroke-dasharray").split())
+    length, shaft = math.hypot(60.0, 20.0), EVERYTHING[0].children[0].children[0]
+    assert (round(length - shaft.covered, 3), True) == (dash, gap > length)
+    assert shaft.covered > 2.0
+    assert [] == [e for e in in_page().iter() if e.get("clip-path") or e.tag == "clipPath"]
+
+
+def test_in_a_page_vectors_have_a_band_for_the_pointer_where_they_have_names_and_layers_have_none():
+    ids = {named: [e.get("id") for e in in_page(named).iter() if e.get("id")] for named in (False, True)}
+    assert {False: [], True: ["v_B", "v_C"]} == ids
+    bands = {named: [e for e in in_page(named).iter("g") if e.get("class") == "hit"] for named in (False, True)}
+    assert ([], 1) == (bands[False], len(bands[True]))
+    line = bands[True][0][0]
+    assert ("20", "50", "80", "30", "3") == tuple(line.get(key) for key in ("x1", "y1", "x2", "y2", "stroke-width"))
+
+
+def test_words_of_a_figure_in_a_page_stay_as_they_are_though_they_look_like_its_markup():
+    words = 'id="a" fill="#000000" textLength="3" /> <title>x</title>'
+    svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, plain(words)),), words, "\u202etfel"))
+    page = ET.fromstring(svg)
+    assert (words, f"{words}. tfel") == ("".join(page.itertext()), page.get("aria-label"))
+
+
+def test_what_goes_without_saying_is_not_said_in_a_page():
+    svg = svg_element(Drawing(9.0, 9.0, (Text(1 + 1j, plain("B", 3.5)), Polygon((0j, 1j, 1 + 0j)))))
+    assert svg.endswith('<text font-size="3.5" x="1" y="1"><tspan>B</tspan></text>'
+                        '<polygon points="0,0 0,1 1,0"/></svg>')  # fmt: skip

@@ -9,7 +9,8 @@ import json
 import math
 import re
 from base64 import b64encode
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cache, lru_cache, partial
 from html import escape
 from itertools import count
@@ -42,12 +43,17 @@ if TYPE_CHECKING:
 
     import svgwrite
 
-__all__ = ["number", "svg_bytes"]
+__all__ = ["number", "svg_bytes", "svg_element"]
 
 # What XML 1.0 cannot hold, and other control characters.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+_HIDING = re.compile("[\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069\ufeff]")  # what could hide what stands beside it
 _MARKUP = re.compile('[&<>"\\r\\n\\t]')
 _IN_QUOTES = str.maketrans({'"': "&quot;", "\r": "&#13;", "\n": "&#10;", "\t": "&#09;"})
+_DOUBLED = re.compile(r"#(\w)\1(\w)\2(\w)\3")
+_SPACES = re.compile(r"\s+")
+BLACK = "#000000"  # what is filled unless something else is said
+HIT = Stroke(3.0)  # mm: the breadth of a finger
 _INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
 
 
@@ -81,17 +87,12 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
     ------
     ValueError : a coordinate is not finite
     """
-    import svgwrite
-
-    page = svgwrite.Drawing(size=(f"{number(drawing.width)}mm", f"{number(drawing.height)}mm"), debug=debug)
+    page = _page(debug)
     if debug:
         _allow_accessibility(page)
-    page["viewBox"] = f"0 0 {number(drawing.width)} {number(drawing.height)}"
+    page.attribs |= _head(drawing)
     page["xmlns:inkscape"] = _INKSCAPE
-    page["role"] = "img"
-    page["lang"] = page["xml:lang"] = drawing.lang
-    page["stroke-linejoin"] = "round"
-    page["text-rendering"] = "geometricPrecision"
+    page["xml:lang"] = drawing.lang
     page.elements.remove(page.defs)  # empty; the title comes first
     ink = _Ink(page, drawing.lang, outlines)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
@@ -99,11 +100,7 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
         if words:
             page.elements.append(ink.made(tag, {}, _clean(words)))
     places = len(page.elements)
-    # white paper, so that black lines show on a dark screen too
-    whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
-    page.add(ink.made("rect", {**whole, "fill": "#ffffff", "class": "paper"}))
-    for child in drawing.children:
-        ink.draw(page, child)
+    ink.fill(drawing)
     if embed:
         name, rules = face_rules({} if outlines else ink.used)
         page["font-family"] = families(name)
@@ -111,6 +108,48 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
             page.elements.insert(places, ink.made("style", {}, rules))
     text: str = page.tostring() if debug else _written(page)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
+
+
+def svg_element(drawing: Page, named: bool = False) -> str:
+    """The drawing as an element of a page, which brings the letters; its title and description are read aloud.
+
+    It is as short as can be, for a page may hold hundreds: no layers, no lengths of texts, nothing that goes without
+    saying.  Lines end under their arrowheads by a dash and not by a clip, whose name would have to be unique in the
+    page.
+
+    Parameters
+    ----------
+    drawing : sizes and places in mm
+    named : whether vectors, points and links keep their names, which stand once in a page, and vectors have a band of a
+        finger's breadth that is not seen but felt by the pointer
+
+    Raises
+    ------
+    ValueError : a coordinate is not finite
+    """
+    page = _page(False)
+    page.elements.clear()
+    _InPage(page, drawing.lang, named).fill(drawing)
+    words = _clean(_HIDING.sub("", _SPACES.sub(" ", f"{drawing.title}. {drawing.desc}".strip(". "))))
+    out = [_tag("svg", {**_head(drawing), "aria-label": words, "focusable": "false"}), ">"]
+    for element in page.elements:
+        _write(element, out, "/>")
+    return "".join([*out, "</svg>"])
+
+
+def _page(debug: bool) -> svgwrite.Drawing:
+    import svgwrite
+
+    return svgwrite.Drawing(debug=debug)
+
+
+def _head(drawing: Page) -> dict[str, str]:
+    """What the outermost element says of a page."""
+    width, height = number(drawing.width), number(drawing.height)
+    return {
+        "width": f"{width}mm", "height": f"{height}mm", "viewBox": f"0 0 {width} {height}", "role": "img",
+        "lang": drawing.lang, "stroke-linejoin": "round", "text-rendering": "geometricPrecision",
+    }  # fmt: skip
 
 
 class _Element(Protocol):
@@ -142,6 +181,21 @@ class _Ink:
         self.ids: set[str] = set()
         self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
+    def fill(self, drawing: Page) -> None:
+        """Put everything on the page."""
+        # white paper, so that black lines show on a dark screen too
+        whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
+        self.page.add(self.made("rect", {**whole, **self.filled("#ffffff"), "class": "paper"}))
+        for child in drawing.children:
+            self.draw(self.page, child)
+
+    def colour(self, colour: str) -> str:
+        return colour
+
+    def filled(self, colour: str) -> dict[str, str]:
+        """The attribute of an area, empty for none."""
+        return {"fill": self.colour(colour) or "none"}
+
     def draw(self, parent: _Element, thing: Primitive) -> None:
         element = parent.add(self._element(thing))
         if isinstance(thing, Line) and thing.covered:
@@ -162,29 +216,44 @@ class _Ink:
             return self._text(thing)
         if isinstance(thing, Scan):
             return self._scan(thing)
-        stroke = _stroke(thing.stroke)
+        stroke = self._stroke(thing.stroke)
         if isinstance(thing, Line):
             (x1, y1), (x2, y2) = _pair(thing.start), _pair(thing.end)
             return self.made("line", {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **stroke})
         if isinstance(thing, Polyline):
             return self.made("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
         if isinstance(thing, Polygon):
-            return self.made("polygon", {"points": _points(thing.points), "fill": thing.fill or "none", **stroke})
+            return self.made("polygon", {"points": _points(thing.points), **self.filled(thing.fill), **stroke})
         if isinstance(thing, Circle):
             x, y = _pair(thing.centre)
-            look = {"cx": x, "cy": y, "r": number(thing.radius), "fill": thing.fill or "none"}
-            return self.made("circle", {**look, **stroke})
+            look = {"cx": x, "cy": y, "r": number(thing.radius)}
+            return self.made("circle", {**look, **self.filled(thing.fill), **stroke})
         return self.made("path", {"d": _arc(thing), "fill": "none", **stroke})
 
+    def _stroke(self, stroke: Stroke | None) -> dict[str, str]:
+        if stroke is None:
+            return {}
+        dashes = {"stroke-dasharray": " ".join(map(number, stroke.dash))} if stroke.dash else {}
+        return {"stroke": self.colour(stroke.colour), "stroke-width": number(stroke.width), **dashes}
+
     def _group(self, group: Group) -> _Element:
-        layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
-        element = self.made("g", {**self._named(group.id, class_names(group)), **layer})
+        element = self.made("g", self._called(group))
         inner = element if group.motion is None else self._moving(element, group.motion)
         for child in group.children:
             self.draw(inner, child)
-        if group.title:  # last, because the first child of a vector's group is its line
-            element.elements.append(self.made("title", {}, _clean(group.title)))
+        last = self._last_of(group)  # last, because the first child of a vector's group is its line
+        if last is not None:
+            element.elements.append(last)
         return element
+
+    def _called(self, group: Group) -> dict[str, str]:
+        """Id, classes and layer of a group."""
+        layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
+        return {**self._named(group.id, class_names(group)), **layer}
+
+    def _last_of(self, group: Group) -> _Element | None:
+        """What stands in a group behind its children: its title."""
+        return self.made("title", {}, _clean(group.title)) if group.title else None
 
     def _moving(self, element: _Element, motion: Travel) -> _Element:
         """Have an element move; returns the one that turns in it."""
@@ -231,7 +300,8 @@ class _Ink:
             anchor = text.anchor
             share = 0.5 if anchor == "middle" else 1.0
             places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
-        look = {"x": places[0][0], "y": places[0][1], "fill": text.colour, **self._named(text.id, class_names(text))}
+        look = {"x": places[0][0], "y": places[0][1], **self.filled(text.colour)}
+        look |= self._named(text.id, class_names(text))
         look["font-size"] = number(max(run.size for run in runs))
         if anchor:
             look["text-anchor"] = anchor
@@ -240,16 +310,19 @@ class _Ink:
         element = self.made("text", look)
         for run, (x, y) in zip(runs, places, strict=True):
             words = _clean(run.text)
-            self.used[style_of(run.italic, run.bold)].update(words)
-            long = number(width(words, run.size, run.italic, run.bold))
-            face = {"x": x, "y": y, "font-size": number(run.size), "textLength": long}
-            face["lengthAdjust"] = "spacingAndGlyphs"
+            face = {"x": x, "y": y, "font-size": number(run.size)}
             if run.italic:
                 face["font-style"] = "italic"
             if run.bold:
                 face["font-weight"] = "bold"
-            element.add(self.made("tspan", face, words))
+            element.add(self._run(run, face, words, look))
         return self._outlined(element, runs) if self.outlines else element
+
+    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> _Element:
+        """A run of a text of these attributes, with its length."""
+        self.used[style_of(run.italic, run.bold)].update(words)
+        long = number(width(words, run.size, run.italic, run.bold))
+        return self.made("tspan", {**face, "textLength": long, "lengthAdjust": "spacingAndGlyphs"}, words)
 
     def _outlined(self, element: _Element, runs: tuple[Run, ...]) -> _Element:
         """A text as paths, with itself unseen over them."""
@@ -272,6 +345,44 @@ class _Ink:
         return named
 
 
+class _InPage(_Ink):
+    """Turns primitives into the elements of a figure in a page."""
+
+    def __init__(self, page: _Page, lang: str, named: bool) -> None:
+        super().__init__(page, lang)
+        self.named = named
+
+    def colour(self, colour: str) -> str:
+        return _DOUBLED.sub(r"#\1\2\3", colour)
+
+    def filled(self, colour: str) -> dict[str, str]:
+        return {} if colour == BLACK else super().filled(colour)
+
+    def draw(self, parent: _Element, thing: Primitive) -> None:
+        if isinstance(thing, Line) and thing.covered:
+            inked = abs(thing.inked_end - thing.start)
+            dashed = replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0))
+            thing = Line(thing.start, thing.end, dashed)
+        super().draw(parent, thing)
+
+    def _called(self, group: Group) -> dict[str, str]:
+        return self._named("" if group.layer else group.id, class_names(group))
+
+    def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
+        return super()._named(id if self.named else "", classes)
+
+    def _last_of(self, group: Group) -> _Element | None:
+        shaft = group.children[0] if self.named and "vector" in group.classes and group.children else None
+        if not isinstance(shaft, Line) or shaft.start == shaft.end:
+            return None
+        return self._group(Group((Line(shaft.start, shaft.end, HIT),), classes=("hit",)))
+
+    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> _Element:
+        if face["font-size"] == text["font-size"] and (face["x"], face["y"]) == (text["x"], text["y"]):
+            face = {key: value for key, value in face.items() if key not in ("font-size", "x", "y")}  # of its text
+        return self.made("tspan", face, words)
+
+
 def _clean(text: str) -> str:
     # what is printable is fit, and that is told at once
     return text if text.isprintable() else _UNFIT.sub("", text)
@@ -283,13 +394,6 @@ def _pair(point: complex) -> tuple[str, str]:
 
 def _points(points: tuple[complex, ...]) -> str:
     return " ".join(f"{number(z.real)},{number(z.imag)}" for z in points)
-
-
-def _stroke(stroke: Stroke | None) -> dict[str, str]:
-    if stroke is None:
-        return {}
-    dashes = {"stroke-dasharray": " ".join(map(number, stroke.dash))} if stroke.dash else {}
-    return {"stroke": stroke.colour, "stroke-width": number(stroke.width), **dashes}
 
 
 def _arc(arc: Arc) -> str:
@@ -333,28 +437,33 @@ def _written(page: _Page) -> str:
     """The text that ``page.tostring()`` gives, which makes a tree of it first and takes several times as long."""
     children, page.elements = page.elements, []
     out = [page.tostring().removesuffix(" />"), ">"]
-
-    def write(element: _Element) -> None:
-        tag, attributes = element.elementname, element.attribs
-        if "" in attributes.values():
-            attributes = {key: value for key, value in attributes.items() if value}
-        if _MARKUP.search("".join(attributes.values())):
-            attributes = {key: _quoted(value) for key, value in attributes.items()}
-        opening = _opening(tag, tuple(attributes)) % attributes
-        if element.elements:
-            out.append(f"{opening}>{_escaped(element.text)}")
-            for child in element.elements:
-                write(child)
-            out.append(f"</{tag}>")
-        elif element.text:
-            out.append(f"{opening}>{_escaped(element.text)}</{tag}>")
-        else:
-            out.append(f"{opening} />")
-
     for child in children:
-        write(child)
+        _write(child, out)
     page.elements = children
     return "".join([*out, "</svg>"])
+
+
+def _write(element: _Element, out: list[str], end: str = " />") -> None:
+    """An element as text, one that holds nothing closed by ``end``."""
+    opening = _tag(element.elementname, element.attribs)
+    if element.elements:
+        out.append(f"{opening}>{_escaped(element.text)}")
+        for child in element.elements:
+            _write(child, out, end)
+        out.append(f"</{element.elementname}>")
+    elif element.text:
+        out.append(f"{opening}>{_escaped(element.text)}</{element.elementname}>")
+    else:
+        out.append(f"{opening}{end}")
+
+
+def _tag(tag: str, attributes: dict[str, str]) -> str:
+    """How an element begins."""
+    if "" in attributes.values():
+        attributes = {key: value for key, value in attributes.items() if value}
+    if _MARKUP.search("".join(attributes.values())):
+        attributes = {key: _quoted(value) for key, value in attributes.items()}
+    return _opening(tag, tuple(attributes)) % attributes
 
 
 @cache
