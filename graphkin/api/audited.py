@@ -7,21 +7,20 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.api.answers import Answers, AnswersLike, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed, write_files
+from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed
 from graphkin.api.checked import solved_here
 from graphkin.api.class_results import Scheme, people_of, quantities_of, scheme_of
 from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.reading_rows import JudgedValue
-from graphkin.api.results import OfScene, Result
+from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.audit import Judged, judge, with_gaps
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.construction import execute, plan
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
@@ -37,7 +36,7 @@ MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps 
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Audited(Result, OfScene):
+class Audited(OfScene, Result):
     """The values of each person with their verdicts; of a scene's ``[printed]`` values the person is "".
 
     ``unused`` are heads of the table of answers that are no quantities, ``scheme`` how many points there are, ``scans``
@@ -137,12 +136,9 @@ class Audited(Result, OfScene):
     def __getitem__(self, name: str) -> tuple[JudgedValue, ...]:
         """What was judged of a symbol, one for each person who gave it, in the file's units.  Raises CallError for one
         that nobody gave."""
-        name = as_text("name", name)
         judged = [j for _, own in self.people for j in own]
-        found = tuple(j for j in judged if str(j.printed.symbol) == name)
-        if not found:
-            known = [str(j.printed.symbol) for j in judged]
-            raise CallError(Problem(f'"{name}"', Phrase("no value of this name"), did_you_mean(str(name), known)))
+        symbol = named({str(j.printed.symbol): j.printed.symbol for j in judged}, name, Phrase("no value of this name"))
+        found = (j for j in judged if j.printed.symbol == symbol)
         return tuple(JudgedValue.of(self.mechanism, one, self.language) for one in found)
 
     @cached_property
@@ -176,13 +172,13 @@ class Audited(Result, OfScene):
         heads = [word("quantity" if k == "symbol" else k.replace("_", " "), self.language) for k in keys]
         return Table.of(heads, [[_cell(row.get(k)) for k in keys] for row in rows])
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write audit.csv into a folder, of a class also students.csv and quantities.csv.  Raises CallError where they
-        cannot be written."""
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """audit.csv, of a class also students.csv and quantities.csv, as a spreadsheet opens them."""
         tables = {"audit.csv": self.table}
         if self.is_class:
             tables |= {"students.csv": self.students, "quantities.csv": self.matrix}
-        return write_files(path_of(folder), {n: t.harmless().csv().encode("utf-8-sig") for n, t in tables.items()})
+        return {name: table.harmless().csv().encode("utf-8-sig") for name, table in tables.items()}
 
     def __repr__(self) -> str:
         return (

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words, own_folder, write_files
+from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
@@ -237,7 +236,7 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Cams(Result, OfScene):
+class Cams(OfScene, Result):
     """The cams of a scene: what is found of each, the table of their points, and their figures; ``discs`` are discs
     that the driver turns, measured as cams.
 
@@ -319,29 +318,23 @@ class Cams(Result, OfScene):
         spoken = self.language or self.mechanism.sheet.language
         return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
 
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the figures of cams by their law, cam.csv, and with the format "dxf" each profile true to size as
-        profile-LINK.dxf.
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"cam.csv": self.table}
 
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
-        known_words(formats)
-        files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
-        files["cam.csv"] = self.table.csv().encode()
+    def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
+        """The figures of cams by their law, and with the format "dxf" each profile true to size (profile-LINK.dxf).
+        Raises CallError."""
+        pages = super().pages(formats, text)
         if "dxf" in formats:
             from graphkin.drawing.cam_dxf import outline_dxf
 
-            files |= {f"profile-{disc.link}.dxf": outline_dxf(*disc.outline) for disc in self.discs}
-            files |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
-        return write_files(own_folder(folder, self.mechanism.name), files)
+            pages |= {f"profile-{disc.link}.dxf": outline_dxf(*disc.outline) for disc in self.discs}
+            pages |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}
+        return pages
 
     def __repr__(self) -> str:
         return f"<Cams {self.mechanism.name}: {self._links}>"
-
-    def _repr_svg_(self) -> str:
-        return self.figures["cam"]._repr_svg_() if self.made else ""
 
 
 def cam(

@@ -146,7 +146,7 @@ class PlacedCentre:
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Centred(Result, OfScene):
+class Centred(OfScene, Result):
     """All instant centres of a scene at one position, with their check.
 
     ``errors`` holds for each centre how far it lies from the exact one, as an angle seen from the middle of the
@@ -301,35 +301,29 @@ class Centred(Result, OfScene):
         for_paper(self.mechanism)
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)
 
+    @cached_property
+    def figures(self) -> Mapping[str, Drawing]:
+        """``figure`` ("centres"), and the pages on which it goes on ("centres-2")."""
+        return {"centres": self.figure, **{f"centres-{n}": page for n, page in enumerate(self.figure.further, 2)}}
+
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"centres.csv": self.table}
+
     def write(
         self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs",
         motion: bool = False,
     ) -> list[Path]:  # fmt: skip
-        """Write centres.svg (or other formats), with centres-2.svg where it goes on, centres.csv, and with ``motion``
-        centres-motion.svg, which plays; returns the paths.  Files appear whole or not at all.
-
-        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
-
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
-        known_words(formats, text=text)
-        files = {f"centres.{kind}": self.figure.content(kind, text=text) for kind in formats}
-        for number, page in enumerate(self.figure.further, 2):  # in a PDF they follow the first
-            files |= {f"centres-{number}.{kind}": page.content(kind, text=text) for kind in formats if kind != "pdf"}
-        files["centres.csv"] = self.table.csv().encode()
+        """Write figures and table as every result does, and with ``motion`` centres-motion.svg, which plays; returns
+        the paths.  Raises CallError for an unknown format or a folder that cannot be written."""
+        paths = super().write(folder, formats, text)
         if motion:
-            files["centres-motion.svg"] = self.in_motion.content("svg", text=text)
-        return write_files(own_folder(folder, self.mechanism.name), files)
+            playing = self.in_motion.content("svg", text=text)
+            paths += write_files(own_folder(folder, self.name), {"centres-motion.svg": playing})
+        return paths
 
     def __repr__(self) -> str:
         return f"<Centred {self.mechanism.name}: {len(self.centres.table)} centres>"
-
-    def _repr_svg_(self) -> str:
-        from graphkin.drawing import svg_bytes
-
-        return svg_bytes(self.figure).decode()
 
 
 def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None) -> Centres:

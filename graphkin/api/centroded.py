@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, own_folder, placed, write_files
+from graphkin.api.arguments import ON_SHEETS, At, SceneLike, as_scene, known_words, placed
 from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
@@ -35,7 +34,7 @@ STILL = 1e-9
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Centroded(Result, OfScene):
+class Centroded(OfScene, Result):
     """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
 
     centres: Centres
@@ -102,29 +101,16 @@ class Centroded(Result, OfScene):
             convention=self.convention,
         )
 
-    def write(
-        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
-    ) -> list[Path]:
-        """Write centrode.svg (or other formats) and centrode.csv; returns the paths.
+    @property
+    def figures(self) -> Mapping[str, Drawing]:
+        return {"centrode": self.figure}
 
-        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
-
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
-        known_words(formats, text=text)
-        files = {f"centrode.{kind}": self.figure.content(kind, text=text) for kind in formats}
-        files["centrode.csv"] = self.table.csv().encode()
-        return write_files(own_folder(folder, self.mechanism.name), files)
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"centrode.csv": self.table}
 
     def __repr__(self) -> str:
         return f"<Centroded {self.mechanism.name}: link {self.link}>"
-
-    def _repr_svg_(self) -> str:
-        from graphkin.drawing import svg_bytes
-
-        return svg_bytes(self.figure).decode()
 
 
 def _branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:

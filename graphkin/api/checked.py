@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import (
@@ -20,15 +18,14 @@ from graphkin.api.arguments import (
     placed,
     value_at,
     whole_number,
-    write_files,
 )
 from graphkin.api.reading_rows import ReadValue, reading_row, without_residues
-from graphkin.api.results import OfScene, Result
+from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
-from graphkin.files import Json, path_of
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, part_of
@@ -51,7 +48,7 @@ _FORMS = {
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Checked(Result, OfScene):
+class Checked(OfScene, Result):
     """A drawing, its readings, and how they compare with the exact values.
 
     ``advice`` names the least certain reading of a drawing with finite tools, and what would help it; ``asked`` is
@@ -98,11 +95,8 @@ class Checked(Result, OfScene):
 
     def __getitem__(self, name: str) -> ReadValue:
         """A reading by its symbol beside the exact value, in the file's units.  Raises CallError for one not drawn."""
-        name = as_text("name", name)
         rows = {str(row.symbol): row for row in self.report.rows}
-        if name not in rows:
-            raise CallError(Problem(f'"{name}"', Phrase("no reading of this name"), did_you_mean(str(name), rows)))
-        return ReadValue.of(self.mechanism, rows[name])
+        return ReadValue.of(self.mechanism, named(rows, name, Phrase("no reading of this name")))
 
     @cached_property
     def table(self) -> Table:
@@ -116,9 +110,9 @@ class Checked(Result, OfScene):
             rows.append([cells.get(key) for key in _FORMS])
         return Table.of(list(_FORMS), rows, list(_FORMS.values()))
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write readings.csv; returns its path.  Raises CallError where it cannot be written."""
-        return write_files(path_of(folder), {"readings.csv": self.table.csv().encode()})
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"readings.csv": self.table}
 
     @cached_property
     def data(self) -> dict[str, Json]:

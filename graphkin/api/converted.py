@@ -56,9 +56,9 @@ class Converted(Result):
             rows.append((name, " ".join((*link.points, *link.at)), link.length, " ".join(on)))
         return Table.of(("link", "points", "length", "on"), rows)
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write the converted file into a folder; returns its path.  Raises CallError where it cannot be written."""
-        return write_files(path_of(folder), self.files)
+    @property
+    def name(self) -> str:
+        return self.scene.name
 
     def __repr__(self) -> str:
         return f"<Converted {self.scene.name}: {len(self.scene.links)} moving links, {len(self.left)} left out>"

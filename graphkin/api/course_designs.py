@@ -22,7 +22,7 @@ from graphkin.api.checked import solved_here
 from graphkin.api.course_schemes import asked_in_tables, dealt_out, read_at, scheme_name, scheme_of
 from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
-from graphkin.api.results import FilesOfScene
+from graphkin.api.results import OfScene, Result
 from graphkin.api.sweep import sweep
 from graphkin.drawing import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable
@@ -44,7 +44,7 @@ __all__ = ["CourseDesigns", "course_design"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class CourseDesigns(FilesOfScene):
+class CourseDesigns(OfScene, Result):
     """The reports of a course project: a file for each student, and the table of the class.
 
     ``rows`` are the lines of that table: who, which scheme and position, what was read off there.

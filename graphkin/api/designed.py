@@ -4,19 +4,18 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, own_folder, whole_number, write_files
-from graphkin.api.results import Result
+from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_number
+from graphkin.api.results import Result, named
 from graphkin.checking.closed_form import FoundLength, compare_lengths
 from graphkin.construction import EXACT, Cad, Instrument, pencil
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
-from graphkin.errors import CallError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction
 from graphkin.scene.design_file import DesignLike, design_of
@@ -59,6 +58,10 @@ class Designed(Result):
     language: str | None = None
 
     @property
+    def name(self) -> str:
+        return self.given.name
+
+    @property
     def ok(self) -> bool:
         """Whether every length drawn agrees with the exact one, and a turn confirms what was asked; a position that
         belongs to the other assembly of the links is told, and no fault."""
@@ -67,11 +70,8 @@ class Designed(Result):
 
     def __getitem__(self, name: str) -> FoundLength:
         """A length by its name.  Raises CallError for one that there is not."""
-        name = as_text("name", name)
-        known = {row.symbol: row for row in self.rows}
-        if name not in known:
-            raise CallError(Problem("length", f'"{name}"', did_you_mean(str(name), known)))
-        return replace(known[name], unit=self.given.units.length)
+        length = named({row.symbol: row for row in self.rows}, name, where="length")
+        return replace(length, unit=self.given.units.length)
 
     @cached_property
     def scene(self) -> Scene:
@@ -256,26 +256,16 @@ class Designed(Result):
                                           (free.best, free.least), self._language)  # fmt: skip
         return made
 
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the figures and scene.toml; returns the paths.
-
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """The scene with the found lengths."""
         from graphkin.scene.mapping import toml_text
 
-        known_words(formats)
-        files = {f"{name}.{kind}": page.content(kind) for name, page in self.figures.items() for kind in formats}
-        files["scene.toml"] = toml_text(self.scene.to_dict()).encode()
-        return write_files(own_folder(folder, self.given.name), files)
+        return {"scene.toml": toml_text(self.scene.to_dict()).encode()}
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name} {length:.6g}" for name, length in self.found.lengths.items())
         return f"<Designed {self.given.name}: {told}>"
-
-    def _repr_svg_(self) -> str:
-        return self.figures["design"]._repr_svg_()
 
 
 def design(

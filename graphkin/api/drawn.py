@@ -6,7 +6,6 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphkin.api.arguments import (
@@ -16,16 +15,14 @@ from graphkin.api.arguments import (
     as_scene,
     for_paper,
     known_words,
-    own_folder,
     placed,
-    write_files,
 )
 from graphkin.api.cams import cam_table
 from graphkin.api.checked import Checked, asked_here, checked, drawn_symbols, hand_of, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
-from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -42,7 +39,7 @@ __all__ = ["Drawn", "draw", "known_figures"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Drawn(Result, OfScene):
+class Drawn(OfScene, Result):
     """The figures of a scene by name, with the check of everything on them.
 
     In a notebook it shows the sheet.  ``wanted`` are the figures asked for.  ``figures["velocity"].save("v.pdf")``
@@ -99,7 +96,6 @@ class Drawn(Result, OfScene):
 
     def __getitem__(self, name: str) -> ReadValue:
         """A reading by its symbol beside the exact value, in the file's units.  Raises CallError for one not drawn."""
-        name = as_text("name", name)
         return self.checked[name]
 
     @cached_property
@@ -114,48 +110,31 @@ class Drawn(Result, OfScene):
                 made.update({f"{name}-{number}": page for number, page in enumerate(figure.further, 2)})
         return made
 
-    def write(
-        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
-    ) -> list[Path]:
-        """Write figures, readings.csv and report.txt; returns the paths.  Files appear whole or not at all.
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        cams = {"cam.csv": cam_table(self.mechanism)} if self.mechanism.cams and "cam" in self.wanted else {}
+        return {**cams, "readings.csv": self.table}
 
-        ``text`` says how the letters of an SVG come along: as text with its "glyphs", or as "outlines".
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        spoken = languages(self.language or self.mechanism.sheet.language)[0]
+        return {"report.txt": report_text(self.checked, spoken).encode()}
 
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        Disagreement : a value that was drawn exactly is out of tolerance
-        """
+    def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
+        """The files of its figures.  Raises Disagreement for a value that was drawn exactly and is out of tolerance."""
         known_words(formats, text=text)
         if self.checked.sheet.instrument == EXACT.name:
             forces = self.with_forces if {"forces", "lever"}.intersection(self.wanted) else None
             for made in (self.checked, forces):
                 if made is not None:
                     made.report.must_agree(self.mechanism)
-        target = own_folder(folder, self.checked.mechanism.name)
-        files: dict[str, bytes] = {}
-        figures = self.figures
-        overleaf = {id(page) for figure in figures.values() for page in figure.further}
-        for name, figure in figures.items():
-            for kind in formats:
-                if kind == "pdf" and id(figure) in overleaf:
-                    continue  # a page of the PDF that it goes on
-                files[f"{name}.{kind}"] = figure.content(kind, text=text)
-        if self.mechanism.cams and "cam" in self.wanted:
-            files["cam.csv"] = cam_table(self.mechanism).csv().encode()
-        files["readings.csv"] = self.table.csv().encode()
-        spoken = languages(self.language or self.checked.mechanism.sheet.language)[0]
-        files["report.txt"] = report_text(self.checked, spoken).encode()
-        return write_files(target, files)
+        return super().pages(formats, text)
 
     def __repr__(self) -> str:
         return f"<Drawn {self.mechanism.name}: {', '.join(self.wanted)}>"
 
-    def _repr_svg_(self) -> str:
-        from graphkin.drawing import svg_bytes
-
-        shown = "sheet" if "sheet" in self.wanted else next(iter(self.figures), "")
-        return svg_bytes(self.figures[shown]).decode() if shown else ""
+    def _repr_svg_(self) -> str | None:
+        return self.figures["sheet"]._repr_svg_() if "sheet" in self.wanted else super()._repr_svg_()
 
 
 @dataclass(frozen=True)

@@ -5,19 +5,17 @@ from __future__ import annotations
 import cmath
 import json
 import math
-import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
-from graphkin.api.arguments import SceneLike, as_scene, known_words, write_files
+from graphkin.api.arguments import SceneLike, as_scene, known_words
 from graphkin.api.report_text import plain_said
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.files import Json, path_of
+from graphkin.files import Json
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, mobility_of
@@ -31,7 +29,7 @@ Sentence = tuple[str, Phrase]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Explained(Result, OfScene):
+class Explained(OfScene, Result):
     """What a scene says: its units, links, joints, mobility, drivers, groups with their assembly, and what is asked.
 
     ``why`` is the reason why it cannot move as it is written, "" where it can; ``exit_code`` is the
@@ -74,11 +72,10 @@ class Explained(Result, OfScene):
             found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
         return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": str(self.why)} if self.why else {})}
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write explanation.txt and explanation.json; returns the paths.  Raises CallError where it cannot be done."""
+    @property
+    def files(self) -> Mapping[str, bytes]:
         data = json.dumps(self.data, ensure_ascii=False) + "\n"
-        files = {"explanation.txt": f"{self.text}\n".encode(), "explanation.json": data.encode()}
-        return write_files(path_of(folder), files)
+        return {"explanation.txt": f"{self.text}\n".encode(), "explanation.json": data.encode()}
 
     def __repr__(self) -> str:
         return f"<Explained {self.mechanism.name}: {len(self.sentences)} sentences>"

@@ -21,8 +21,8 @@ from graphkin.api.arguments import (
     whole_number,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.results import FilesOfScene
-from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.api.results import OfScene, Result, named
+from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
@@ -43,7 +43,7 @@ __all__ = ["Handout", "handout", "papers_of"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Handout(FilesOfScene):
+class Handout(OfScene, Result):
     """A handout: its lesson, and its files by name (`files`).  In a notebook it shows the answer key."""
 
     lesson: Lesson
@@ -75,11 +75,7 @@ class Handout(FilesOfScene):
 
     def __getitem__(self, name: str) -> KeyRow:
         """A row of the key by its symbol.  Raises CallError for one that it does not have."""
-        name = as_text("name", name)
-        rows = {row.symbol: row for row in self.key}
-        if name not in rows:
-            raise CallError(Problem(f'"{name}"', Phrase("no answer of this name"), did_you_mean(str(name), rows)))
-        return rows[name]
+        return named({row.symbol: row for row in self.key}, name, Phrase("no answer of this name"))
 
     @cached_property
     def table(self) -> Table:

@@ -25,8 +25,8 @@ from graphkin.api.arguments import (
     whole_number,
     write_files,
 )
-from graphkin.api.results import OfScene, Result
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_text, did_you_mean
+from graphkin.api.results import OfScene, Result, named
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.answer_key import answers_template
@@ -54,7 +54,7 @@ MOST_OF_A_TURN = 355.0  # degrees: a driver that goes farther is free to stand a
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class ProblemSet(Result, OfScene):
+class ProblemSet(OfScene, Result):
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
     mechanism: Mechanism
@@ -98,15 +98,12 @@ class ProblemSet(Result, OfScene):
 
     def __getitem__(self, name: str) -> tuple[Answer, ...]:
         """The answers of a variant by its name.  Raises CallError for one that was not made."""
-        name = as_text("name", name)
-        answers = self.made.answers
-        if name not in answers:
-            raise CallError(Problem(f'"{name}"', Phrase("no variant of this name"), did_you_mean(str(name), answers)))
-        return tuple(answers[name])
+        return tuple(named(self.made.answers, name, Phrase("no variant of this name")))
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write answers.csv; returns its path.  Raises CallError where it cannot be written."""
-        return write_files(path_of(folder), {"answers.csv": self.table.csv().encode("utf-8-sig")})
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """answers.csv, as a spreadsheet opens it."""
+        return {"answers.csv": self.table.csv().encode("utf-8-sig")}
 
     def __repr__(self) -> str:
         return f"<ProblemSet {self.mechanism.name}>"

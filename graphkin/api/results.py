@@ -4,24 +4,28 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
-from graphkin.errors import CallError, as_text
+from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
+    from graphkin.drawing import ChartPage, Drawing
     from graphkin.scene.model import Mechanism
     from graphkin.scene.written import Scene
     from graphkin.table import Table
+    from graphkin.words import Wording
 
-__all__ = ["FilesOfScene", "OfScene", "Result", "Tabled"]
+__all__ = ["OfScene", "Result", "Tabled", "named"]
+
+T = TypeVar("T")
 
 
 class Tabled(ABC):
@@ -96,6 +100,11 @@ class _OfMechanism(Protocol):
 class OfScene:
     """What has a mechanism, and so the scene that says it."""
 
+    @property
+    def name(self: _OfMechanism) -> str:
+        """The name of the scene."""
+        return self.mechanism.name
+
     @cached_property
     def scene(self: _OfMechanism) -> Scene:
         """The scene, as it was given: to be changed by key (``scene.replace("links.1.length", 60)``) and saved."""
@@ -112,6 +121,9 @@ class Result(Tabled):
     be pickled and sent to other processes; figures and tables are made anew there.
     """
 
+    figure_formats: ClassVar[Sequence[str]] = ("svg", "pdf", "png", "dxf")
+    """What its figures can be written as."""
+
     @property
     @abstractmethod
     def ok(self) -> bool:
@@ -122,9 +134,65 @@ class Result(Tabled):
     def data(self) -> Json:
         """Plain dicts, lists, texts and numbers, as the command of the same name prints them under ``--json``."""
 
+    @property
     @abstractmethod
-    def write(self, folder: str | os.PathLike[str]) -> Sequence[Path]:
-        """Write its files into a folder; returns their paths.  Raises CallError where it cannot be written."""
+    def name(self) -> str:
+        """What it is of; its files go to a folder of that name where none is given."""
+
+    @property
+    def figures(self) -> Mapping[str, Drawing | ChartPage]:
+        """Its figures by name, with the pages on which they go on."""
+        return {}
+
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        """The tables that it writes, by the names of their files."""
+        return {}
+
+    @property
+    def files(self) -> Mapping[str, bytes | Iterable[bytes]]:
+        """Its further files by name, each in one piece or in many."""
+        return {}
+
+    def write(
+        self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",), text: str = "glyphs"
+    ) -> list[Path]:
+        """Write its figures, tables and further files into a folder, the one of its name if None; returns the paths.
+        Each file appears whole or not at all.
+
+        Parameters
+        ----------
+        formats : of the figures: "svg", "pdf", "png", and of drawings "dxf"
+        text : how the letters of an SVG come along: as text with its "glyphs", or as "outlines"
+
+        Raises
+        ------
+        CallError : an unknown format, a folder that cannot be written
+        """
+        from graphkin.api.arguments import own_folder, write_files
+
+        pages = self.pages(formats, text)
+        target = own_folder(folder, self.name)
+        paths = write_files(target, pages)
+        paths += [table.write(target / name) for name, table in self.tables.items()]
+        return paths + write_files(target, self.files)
+
+    def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
+        """The files of its figures; on what page of a PDF a figure goes on, that page is no file.  Raises CallError."""
+        from graphkin.api.arguments import known_words
+
+        known_words(formats, text=text, known_formats=self.figure_formats)
+        overleaf = {id(page) for figure in self.figures.values() for page in getattr(figure, "further", ())}
+        return {
+            f"{name}.{kind}": figure.content(kind, text=text)
+            for name, figure in self.figures.items()
+            for kind in formats
+            if kind != "pdf" or id(figure) not in overleaf
+        }
+
+    def _repr_svg_(self) -> str | None:
+        """The first of its figures."""
+        return next((figure._repr_svg_() for figure in self.figures.values()), None)
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
@@ -140,21 +208,20 @@ class Result(Tabled):
         return {field.name: getattr(self, field.name) for field in fields(self)}  # type: ignore[arg-type]
 
 
-class _FilesOfMechanism(_OfMechanism, Protocol):
-    @property
-    def files(self) -> Mapping[str, bytes]: ...
+def named(rows: Mapping[str, T], name: str, why: Wording = "", where: str = "") -> T:
+    """What has a name among the rows of a result.
 
+    Parameters
+    ----------
+    why : what is said of a name that none of them has
+    where : what is asked for, where that is said before the name
 
-class FilesOfScene(Result, OfScene):
-    """A result that is files, made of one scene."""
-
-    def write(self: _FilesOfMechanism, folder: str | os.PathLike[str] | None = None) -> list[Path]:
-        """Write the files into a folder (one named after the scene if none is given); returns their paths.
-
-        Raises
-        ------
-        CallError : the folder cannot be written
-        """
-        from graphkin.api.arguments import own_folder, write_files
-
-        return write_files(own_folder(folder, self.mechanism.name), self.files)
+    Raises
+    ------
+    CallError : there is none of that name, with the nearest one
+    """
+    name = as_text(where or "name", name)
+    if name not in rows:
+        told = (where, f'"{name}"') if where else (f'"{name}"', why)
+        raise CallError(Problem(*told, did_you_mean(name, rows)))
+    return rows[name]

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import write_files
-from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
-from graphkin.files import Json, path_of
+from graphkin.api.results import Result, named
+from graphkin.files import Json
 from graphkin.scene.source import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
 from graphkin.words import Phrase
@@ -29,6 +25,8 @@ class Listed(Result):
 
     rows: tuple[tuple[str, str, str, int], ...]
 
+    name = "scenes"
+
     @property
     def ok(self) -> bool:
         return bool(self.rows)
@@ -39,13 +37,8 @@ class Listed(Result):
         return [{"name": n, "title": t, "title_zh": z, "mobility": f} for n, t, z, f in self.rows]
 
     def __getitem__(self, name: str) -> Scene:
-        name = as_text("name", name)
-        names = [row[0] for row in self.rows]
-        if name not in names:
-            raise CallError(
-                Problem(f'"{name}"', Phrase("no scene of this name comes along"), did_you_mean(str(name), names))
-            )
-        return read(name)
+        names = {row[0]: row[0] for row in self.rows}
+        return read(named(names, name, Phrase("no scene of this name comes along")))
 
     def __iter__(self) -> Iterator[str]:
         """Their names."""
@@ -61,9 +54,10 @@ class Listed(Result):
 
         return Table.of(("scene", "title", "title_zh", "mobility"), self.rows)
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write each scene as a file, as it comes along; returns the paths.  Raises CallError."""
-        return write_files(path_of(folder), {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows})
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """Each scene as it comes along."""
+        return {f"{row[0]}.toml": library_text(row[0]).encode() for row in self.rows}
 
     def __repr__(self) -> str:
         return f"<Listed: {len(self.rows)} scenes>"

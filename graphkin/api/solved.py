@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, islice
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,11 +19,10 @@ from graphkin.api.arguments import (
     placed,
     quantity_shown,
     whole_number,
-    write_files,
 )
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
-from graphkin.files import Json, path_of
+from graphkin.files import Json
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
@@ -45,7 +42,7 @@ BALANCE_IDLE = Phrase("the balance does no work in this position")
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Solved(Result, OfScene):
+class Solved(OfScene, Result):
     """The motion of every link, point and sliding pair at one position or over a turn.
 
     ``solved["v_C"]`` is a quantity by its name as an array with its unit, shape (positions,): complex for vectors, in
@@ -157,9 +154,13 @@ class Solved(Result, OfScene):
         """Whether one position at least is solved."""
         return bool(self.motion.ok.any())
 
-    def write(self, folder: str | os.PathLike[str]) -> list[Path]:
-        """Write solution.json and solution.csv; returns the paths.  Raises CallError where that cannot be done."""
-        return write_files(path_of(folder), {"solution.json": self.json(), "solution.csv": [self.table.csv().encode()]})
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"solution.csv": self.table}
+
+    @property
+    def files(self) -> Mapping[str, Iterable[bytes]]:
+        return {"solution.json": self.json()}
 
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""

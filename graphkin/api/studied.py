@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import TYPE_CHECKING, ClassVar, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
-from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number, write_files
-from graphkin.api.results import Result
-from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number
+from graphkin.api.results import Result, named
+from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.words import Phrase
 
@@ -30,33 +29,15 @@ T = TypeVar("T")
 class _Charted(Result):
     """What both studies can be asked for: charts and one table, written to files or shown in a notebook."""
 
-    name: ClassVar[str]
+    figure_formats = CHART_FORMATS
 
     @property
-    def figures(self) -> Mapping[str, ChartPage]:
-        raise NotImplementedError
-
-    def write(self, folder: str | os.PathLike[str] | None = None, formats: Sequence[str] = ("svg",)) -> list[Path]:
-        """Write the charts and the table (CSV) into a folder, the one of the study's name if None; returns the paths.
-
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
-        known_words(formats, known_formats=CHART_FORMATS)
-        files = {f"{n}.{kind}": f.content(kind) for n, f in self.figures.items() for kind in formats}
-        return write_files(path_of(folder or self.name), {**files, f"{self.name}.csv": self.table.csv().encode()})
+    def tables(self) -> Mapping[str, Table]:
+        return {f"{self.name}.csv": self.table}
 
     def _repr_html_(self) -> str:
         return "".join(f"<figure>{f._repr_svg_()}<figcaption>{html.escape(f.title)}</figcaption></figure>"
-                       for f in self.figures.values())
-
-
-def _named(what: str, name: str, found: Mapping[str, T]) -> T:
-    """What bears a name.  Raises CallError where nothing does."""
-    if name not in found:
-        raise CallError(Problem(what, f'"{name}"', did_you_mean(str(name), found)))
-    return found[name]
+                       for f in self.figures.values())  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -69,9 +50,9 @@ class SpeedAccuracy(_Charted):
 
     def __getitem__(self, method: str) -> tuple[Entry, ...]:
         """What a method gives, by its name in the table: several entries where it has steps, scales or sizes."""
-        method = as_text("method", method)
         entries = self.race.entries
-        return _named("method", method, {e.key: tuple(o for o in entries if o.key == e.key) for e in entries})
+        rows = {e.key: tuple(o for o in entries if o.key == e.key) for e in entries}
+        return named(rows, method, where="method")
 
     @cached_property
     def figures(self) -> Mapping[str, ChartPage]:
@@ -144,8 +125,7 @@ class Stability(_Charted):
 
     def __getitem__(self, kind: str) -> Singularity:
         """One kind of singular position, by its name."""
-        kind = as_text("kind", kind)
-        return _named("kind", kind, {one.key: one for one in self.singularities})
+        return named({one.key: one for one in self.singularities}, kind, where="kind")
 
     @cached_property
     def figures(self) -> Mapping[str, ChartPage]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.api.arguments import CHART_FORMATS, known_words, write_files
+from graphkin.api.arguments import CHART_FORMATS, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import as_text
 from graphkin.files import Json, path_of
@@ -40,13 +40,15 @@ __all__ = ["Swept"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Swept(Result, OfScene):
+class Swept(OfScene, Result):
     """The motion over a turn of one scene, or of many designs of it.
 
     ``swept["v_C"]`` is what is asked by its name, as an array: complex for vectors, in the scene's length unit, degrees
     for angles; over designs of shape (designs, positions).  ``table`` has the drivers' values and the status of each
     position besides.  Table, study and figures are made when they are first asked for.
     """
+
+    figure_formats = CHART_FORMATS
 
     over: Sweep
     found: Found
@@ -198,36 +200,25 @@ class Swept(Result, OfScene):
         data = self.table.to_xarray()
         return data.assign_coords({key: ("design", data[key].values[:, 0]) for key in self.over.designs.keys})
 
-    def write(
-        self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",), text: str = "glyphs"
-    ) -> list[Path]:
-        """Write table.csv (and table.parquet where pyarrow is installed), designs.csv and the figures; returns the
-        paths.
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        """table.csv, and table.parquet where pyarrow is installed; over designs designs.csv."""
+        designs = {"designs.csv": self.designs} if self.designs is not None else {}
+        return {"table.csv": self.table, **designs, **({"table.parquet": self.table} if have("pyarrow") else {})}
 
-        Raises
-        ------
-        CallError : an unknown format, a folder that cannot be written
-        """
-        target = path_of(folder)
-        known_words(formats, text=text, known_formats=CHART_FORMATS)
-        write_files(target, {})
-        tables = {"table.csv": self.table} | ({"designs.csv": self.designs} if self.designs is not None else {})
-        if have("pyarrow"):
-            tables["table.parquet"] = self.table
-        paths = [table.write(target / name) for name, table in tables.items()]
-        return paths + self.write_figures(target, formats, text)
+    @property
+    def files(self) -> Mapping[str, bytes]:
+        """The tables of what was differentiated or integrated on paper."""
+        from graphkin.study.graphical_page import chords_table
+
+        return {f"{name}.csv": chords_table(chords, self.over.base.reach) for name, chords in self.chords.items()}
 
     def write_figures(
         self, folder: str | os.PathLike[str], formats: Sequence[str] = ("svg",), text: str = "glyphs"
     ) -> list[Path]:
-        """Write the figures, letters of an SVG as text with its "glyphs" or as "outlines"; returns the paths.  Raises
-        CallError for an unknown format or a folder that cannot be written."""
-        known_words(formats, text=text, known_formats=CHART_FORMATS)
-        from graphkin.study.graphical_page import chords_table
-
-        files = {f"{n}.{kind}": f.content(kind, text=text) for n, f in self.figures.items() for kind in formats}
-        files |= {f"{n}.csv": chords_table(one, self.over.base.reach) for n, one in self.chords.items()}
-        return write_files(path_of(folder), files)
+        """Write what ``write`` does, but for the tables; returns the paths.  Raises CallError for an unknown format or
+        a folder that cannot be written."""
+        return write_files(path_of(folder), {**self.pages(formats, text), **self.files})
 
     @property
     def text(self) -> str:

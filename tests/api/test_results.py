@@ -9,6 +9,7 @@ import pickle
 import re
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -89,6 +90,23 @@ def test_every_result_writes_the_table_that_it_shows(kind, tmp_path):
     if kind != "scenes":
         (path,) = (p for p in paths if p.suffix == ".csv")
         assert made(kind).table.csv() == path.read_text(encoding="utf-8-sig")
+
+
+@pytest.mark.parametrize("kind", [k for k in MAKE if k not in ("handout", "draw")])
+def test_every_result_writes_the_figures_tables_and_files_it_declares_into_a_folder_of_its_name(
+    kind, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    result = made(kind)
+    figures = [f"{name}.svg" for name in result.figures]
+    assert [*figures, *result.tables, *result.files] == [path.name for path in result.write()]
+    assert sorted([*figures, *result.tables, *result.files]) == sorted(p.name for p in Path(result.name).iterdir())
+
+
+def test_a_figure_that_goes_on_overleaf_is_one_pdf_and_several_pictures():
+    result = graphkin.centres("shaper-scheme-2", language="both")
+    assert ["centres.svg", "centres-2.svg"] == list(result.pages(("svg",)))[:2]
+    assert ["centres.pdf"] == list(result.pages(("pdf",)))
 
 
 @pytest.mark.parametrize("name", ["v_D", "omega_3", "a_B@3", "D", "theta_3", "s_2/3", "v_2/3", "driver_1"])
