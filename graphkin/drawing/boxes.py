@@ -18,15 +18,15 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
-from graphkin.drawing.text import fitted, rich, wrapped
+from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Convention
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, Wording, in_all, languages
 
 __all__ = [
-    "GAP", "INSIDE", "MARGIN", "SIZE", "Block", "FigurePage", "column", "foot", "framed", "heading", "page", "panel",
-    "prose", "row", "rows", "table", "words_of",
+    "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "TOLD", "Block", "FigurePage", "column", "foot", "framed",
+    "heading", "numbered", "numeral", "page", "panel", "prose", "row", "rows", "table",
 ]  # fmt: skip
 
 MARGIN = 8.0  # of a page
@@ -37,6 +37,9 @@ LEADING, BASE = 1.55, 0.7  # a line of text by the size of its letters; its base
 TITLE, GIVEN, SCALE = 4.0, 3.2, 3.5  # letters of titles, of what stands below them, of the scale
 HEAD_LINE = 5.0  # from line to line of a heading
 GAP = 2.0  # between heading and body, body and foot
+LEAST = 114.0  # least width of a page between its margins
+INDENT = 8.0  # of a paragraph behind its number
+TOLD = ("told",)  # the class of what is said of a figure
 BAR = 50.0  # length of the check bar
 
 
@@ -65,6 +68,20 @@ def prose(
     bases = (complex(0.0, height * (k + BASE)) for k in range(len(rows)))
     texts = tuple(Text(at, runs, classes=classes, step=step) for at, runs in zip(bases, rows, strict=True))
     return Block(Piece({"labels": texts} if texts else {}), height * len(rows), width)
+
+
+def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False, step: int | None = None,
+            classes: tuple[str, ...] = ()) -> Block:  # fmt: skip
+    """A number at the left of what it numbers, which begins after a width."""
+    line = LEADING * size
+    at, runs = complex(width - 2.5, BASE * line), plain(str(number), size, bold=bold)
+    return Block(Piece({"labels": (Text(at, runs, "end", classes=classes, step=step),)}), line, width)
+
+
+def numbered(number: int, text: str, width: float, size: float = SIZE, *, step: int | None = None) -> Block:
+    """A paragraph behind its number."""
+    told = prose((text,), width - INDENT, size, classes=TOLD, step=step)
+    return row(numeral(number, INDENT, size, bold=True, step=step, classes=TOLD), told)
 
 
 def column(*blocks: Block | None, gap: float = 0.0) -> Block:
@@ -139,11 +156,6 @@ def table(
     return Block(Piece({layer: tuple(drawn)}), low, edges[-1])
 
 
-def words_of(keys: Sequence[str], language: str) -> list[list[str]]:
-    """Heads of a table by keys of the table of words, a line a language."""
-    return [[word(key, each) for key in keys] for each in languages(language)]
-
-
 def _fitting(text: str, size: float, width: float) -> float:
     """The size, down to 2 mm, at which a head fits a width."""
     wide = runs_width(rich(text, size))
@@ -215,6 +227,10 @@ class FigurePage:
         letters = letters_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
         return cls(sheet, name, language or wish.language, letters, width)
 
+    def wide_enough(self, width: float) -> FigurePage:
+        """The page as wide as a drawing wants it, and not narrower than its words do."""
+        return replace(self, width=max(LEAST, width))
+
     @property
     def convention(self) -> Convention:
         return self.letters.convention
@@ -222,12 +238,13 @@ class FigurePage:
     def term(self, key: str) -> str:
         return term(key, self.language)
 
-    def said(self, key: str, *arguments: object) -> list[str]:
-        """A phrase in each language of the page."""
-        return [say(Phrase(key, arguments), each) for each in languages(self.language)]
+    def said(self, key: str, *arguments: object) -> tuple[str, ...]:
+        """A phrase in each language of the page, one line where its formulas can stand once."""
+        return in_all(Phrase(key, arguments), self.language)
 
-    def prose(self, lines: Iterable[str], size: float = SIZE, *, bold: bool = False) -> Block:
-        return prose(lines, self.width, size, bold=bold)
+    def prose(self, said: Iterable[Wording], size: float = SIZE, *, bold: bool = False) -> Block:
+        """What is said in every language of the page."""
+        return prose((line for one in said for line in in_all(one, self.language)), self.width, size, bold=bold)
 
     def panel(self, height: float, draw: Callable[[Box], Piece]) -> Block:
         return panel(self.width, height, draw)

@@ -8,27 +8,39 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, in_counting_order, letters_of, scale_statement
+from graphkin.drawing.boxes import (
+    GAP,
+    HEAD_LINE,
+    TOLD,
+    Block,
+    FigurePage,
+    column,
+    numeral,
+    panel,
+    prose,
+    row,
+)  # fmt: skip
+from graphkin.drawing.conventions import Letters, in_counting_order
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import describe, drivers, facts, figure_title, punctuation, term, titles
+from graphkin.drawing.headings import describe, drivers, punctuation, term
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.ink.strokes import colour_of_link, pale
 from graphkin.drawing.parts.centre_marks import centre_marks, line_name, mark_of, near_box
 from graphkin.drawing.parts.centre_steps import centre_steps, named_centres, untold
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
-from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import plain
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
@@ -38,6 +50,7 @@ __all__ = ["background", "centres_figure", "circle_diagram", "stroke_of"]
 
 HALF = 1.9  # mm of a line left out to either side of its number
 CLEAR = 1.55  # mm from a number's middle to anything else
+LEGEND = ("legend",)
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 
 
@@ -117,12 +130,11 @@ def _knots(
     return drawn
 
 
-MARGIN, ROOM, LINE, FOOT = 8.0, 9.0, 5.0, 14.0
+ROOM = 9.0  # mm around the centres, for names
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
 SMALLEST = (70.0, 60.0)
 SMALL = Room(mechanism=(60.0, 50.0))  # mm, of the mechanism where each centre is drawn by itself
-SIDE = 62.0  # width of the column beside the mechanism
-ROW = 4.4
+SIDE, BESIDE = 62.0, 2.0  # width of the column beside the mechanism, and between the two
 RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
 
 
@@ -139,62 +151,43 @@ def centres_figure(
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
     sheet = centres.sheet
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    page = FigurePage.of(sheet, "centres", language, convention)
+    spoken, letters = page.language, page.letters
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
         back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     content = near_box(centres, mechanism, MOST)
-    width = max(content.width, SMALLEST[0]) + 2 * ROOM + SIDE + 2 * MARGIN
-    head = _heading(centres, drivers(sheet, letters), spoken, width - 2 * MARGIN)
-    top = MARGIN + LINE * len(head) + 2.0
-    side = _Side(centres, letters, spoken, complex(width - MARGIN - SIDE, top))
-    tall = max(content.height, SMALLEST[1], side.height - 2 * ROOM)
-    panel = Box(MARGIN, top, width - MARGIN - SIDE - 2.0, top + tall + 2 * ROOM)
-    origin = panel.centre - content.centre
-    around = panel.moved(-origin)  # about the world's origin, as the mechanism is drawn
-    piece = named_centres(joined((back, centre_marks(centres, letters, around, back.drawn))), around, centres)
-    piece = moved_piece(piece, origin)
-    report = _report(centres, turning, letters, spoken, width - 2 * MARGIN)
-    below = panel.bottom + 6.0
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
-    ]
-    words += [Text(complex(MARGIN, below + ROW * i), runs, classes=("told",)) for i, runs in enumerate(report)]
-    height = below + ROW * len(report) + FOOT
-    statement = scale_statement(sheet, letters.convention, "mechanism")
-    words.append(Text(complex(MARGIN, height - 6.0), rich(statement, 3.5)))
-    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
-    page = joined((piece, Piece({"centres": side.drawn, "labels": (*side.words, *words)})))
-    some = untold(centres, piece.drawn)
-    further: tuple[Drawing, ...] = ()
-    if some:
-        small = centres.in_room(SMALL)
-        further = centre_steps(
-            small, [small.of(*c.pair) for c in some], _mechanism_behind(small, letters), letters, spoken
-        )
-    return Drawing(
-        width,
-        height,
-        layer_groups(page),
-        figure_title(sheet, "centres", spoken),
-        describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
-        languages(spoken)[0],
-        facts(sheet, "centres"),
-        further,
-    )
+    side = _side(centres, letters, spoken)
+    wide = max(content.width, SMALLEST[0]) + 2 * ROOM - BESIDE
+    high = max(content.height + 2 * ROOM, SMALLEST[1] + 2 * ROOM, side.height)
+    page = page.wide_enough(wide + BESIDE + SIDE)
+
+    def drawn(room: Box) -> Piece:
+        origin = room.centre - content.centre
+        around = room.moved(-origin)  # about the world's origin, as the mechanism is drawn
+        whole = joined((back, centre_marks(centres, letters, around, back.drawn)))
+        return moved_piece(named_centres(whole, around, centres), origin)
+
+    figure = panel(wide, high, drawn)
+    report = _report(centres, turning, letters, spoken, page.width)
+    made = page.drawing(
+        page.term("centres") + punctuation("colon", spoken) + drivers(sheet, letters),
+        column(row(figure, side, gap=BESIDE), report, gap=GAP), page.scale("mechanism"), title="centres",
+        said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
+    )  # fmt: skip
+    some = untold(centres, figure.piece.drawn)
+    if not some:
+        return made
+    small = centres.in_room(SMALL)
+    again = [small.of(*centre.pair) for centre in some]
+    return replace(made, further=centre_steps(small, again, _mechanism_behind(small, letters), letters, spoken))
 
 
 def _mechanism_behind(centres: Centres, letters: Letters) -> Piece:
     """The mechanism of a drawing, pale, without names."""
     pale = background(bare_mechanism(centres.sheet, letters), "touch")
     return Piece(pale.layers)
-
-
-def _heading(centres: Centres, at: str, language: str, width: float) -> list[tuple[Run, ...]]:
-    lines = [line for title in titles(centres.sheet, language) for line in wrapped(title, 4.0, width, bold=True)]
-    return lines + wrapped(term("centres", language) + punctuation("colon", language) + at, 3.2, width)
 
 
 def background(piece: Piece, *also: str) -> Piece:
@@ -207,49 +200,39 @@ def background(piece: Piece, *also: str) -> Piece:
     return Piece({"mechanism": pale(kept)}, names, piece.marks)
 
 
-class _Side:
+def _side(centres: Centres, letters: Letters, language: str) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the order in which centres were found."""
+    radius = RADIUS.get(len(centres.links.names), 23.0)
+    circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
+        {"centres": circle_diagram(centres, room.centre, radius)}))
+    title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
+    legend, order = column(*_legend(centres, language), gap=0.8), column(*_order(centres, letters, language))
+    return column(title, circle, legend, order, gap=1.5)
 
-    def __init__(self, centres: Centres, letters: Letters, language: str, corner: complex) -> None:
-        self.centres, self.letters, self.language = centres, letters, language
-        radius = RADIUS.get(len(centres.links.names), 23.0)
-        middle = corner + complex(SIDE / 2, 8.0 + radius + 7.0)
-        self.words: list[Primitive] = [self._text(corner + 3.5j, term("circle diagram", language), 3.2, bold=True)]
-        self.drawn: tuple[Primitive, ...] = circle_diagram(centres, middle, radius)
-        y = middle.imag + radius + 11.0
-        y = self._legend(corner.real, y)
-        y = self._rows(corner.real, y + 2.5)
-        self.height = y - corner.imag
 
-    def _text(self, at: complex, words: str, size: float = 2.8, bold: bool = False) -> Text:
-        return Text(at, rich(words, size, bold), classes=("legend",))
+def _legend(centres: Centres, language: str) -> Iterator[Block]:
+    """The mark of each kind of centre."""
+    frame = centres.links.scene.frame.name
+    kinds: dict[str, Callable[[Centre], bool]] = {
+        "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
+        "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
+        "by Kennedy": lambda c: c.kind == "found" and not c.way,
+        "otherwise": lambda c: bool(c.way),
+    }
+    for kind, holds in kinds.items():
+        one = next((c for c in centres.found if holds(c)), None)
+        if one is not None:
+            mark = Block(Piece({"centres": tuple(mark_of(one, frame, 3.0 + 2.0j))}), 0.0, 8.0)
+            yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
 
-    def _legend(self, x: float, y: float) -> float:
-        frame = self.centres.links.scene.frame.name
-        kinds: dict[str, Callable[[Centre], bool]] = {
-            "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
-            "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
-            "by Kennedy": lambda c: c.kind == "found" and not c.way,
-            "otherwise": lambda c: bool(c.way),
-        }
-        for kind, holds in kinds.items():
-            one = next((c for c in self.centres.found if holds(c)), None)
-            if one is not None:
-                self.drawn += mark_of(one, frame, complex(x + 3.0, y - 1.0))
-                self.words.append(self._text(complex(x + 8.0, y), term(kind, self.language)))
-                y += 5.2
-        return y
 
-    def _rows(self, x: float, y: float) -> float:
-        for centre in self.centres.found:
-            if not centre.number:
-                continue
-            self.words.append(Text(complex(x + 4.5, y), rich(str(centre.number), 2.5), "end", classes=("legend",)))
-            self.words.append(self._text(complex(x + 7.0, y), f"${self.letters.centre(centre.pair)}$", 3.0))
-            for line in wrapped(how_found(centre, self.letters, self.language, self.centres), 2.8, SIDE - 17.0):
-                self.words.append(Text(complex(x + 16.0, y), line, classes=("legend",)))
-                y += ROW
-        return y
+def _order(centres: Centres, letters: Letters, language: str) -> Iterator[Block]:
+    """The centres in the order in which they were found, and how."""
+    for centre in (one for one in centres.found if one.number):
+        how = how_found(centre, letters, language, centres)
+        name = prose((f"${letters.centre(centre.pair)}$",), 9.0, classes=LEGEND)
+        told = prose((how,), SIDE - 16.0, classes=LEGEND)
+        yield row(numeral(centre.number, 7.0, classes=LEGEND), name, told)
 
 
 def how_found(centre: Centre, letters: Letters, language: str, centres: Centres) -> str:
@@ -261,24 +244,21 @@ def how_found(centre: Centre, letters: Letters, language: str, centres: Centres)
     return term("way none", language)
 
 
-def _report(
-    centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str, width: float
-) -> list[tuple[Run, ...]]:
-    """What Kennedy's theorem does not give and why, and the velocities by centres, as lines of text."""
-    lines: list[tuple[Run, ...]] = []
+def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str, width: float) -> Block:
+    """What Kennedy's theorem does not give and why, and the velocities by centres."""
+    lines: list[str] = []
     for each in languages(language):
         for centre in centres.indeterminate:
             sentences = [_say(centre.why, each, letters)] if centre.why else []
             if centre.way:
                 kept = ", ".join(centres.kept)
                 sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
-            lines += wrapped(word("sentence joint", each).join(sentences), 3.0, width)
+            lines.append(word("sentence joint", each).join(sentences))
     spoken = velocity_sentences(centres, turning)
-    if spoken:
-        lines += wrapped(term("velocities by centres", language), 3.2, width, bold=True)
-    for phrase in spoken:
-        lines += (runs for said in _in_all(phrase, language, letters) for runs in wrapped(said, 3.0, width))
-    return lines
+    head = [term("velocities by centres", language)] if spoken else []
+    found = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
+    return column(prose(lines, width, 3.0, classes=TOLD), prose(head, width, 3.2, bold=True, classes=TOLD),
+                  prose(found, width, 3.0, classes=TOLD))  # fmt: skip
 
 
 def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:

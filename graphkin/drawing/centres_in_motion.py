@@ -14,24 +14,23 @@ from numpy.typing import NDArray
 from graphkin.construction.centres import Centres
 from graphkin.construction.centres.pairs import LinkPair
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
 from graphkin.drawing.centres import background
-from graphkin.drawing.conventions import letters_of, scale_statement
-from graphkin.drawing.headings import drivers, facts, figure_title, punctuation, term, titles
+from graphkin.drawing.headings import drivers, punctuation
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.parts.centre_marks import mark_of
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["centres_in_motion", "centrodes_figure"]
 
-MARGIN, ROOM, LINE, FOOT = 8.0, 8.0, 5.0, 14.0
+ROOM, KEY = 8.0, 17.0  # mm around the figure, and of a line in the legend
 AROUND = 0.6  # of the mechanism's size: how far around it paths are shown
 SECONDS = 8.0
 STANDS = 0.05  # mm: what moves less has no path
@@ -60,8 +59,8 @@ def centres_in_motion(
         centre is NaN where it is at infinity.  The first frame is the position of ``centres``.
     """
     sheet = centres.sheet
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    page = FigurePage.of(sheet, "centres", language, convention)
+    letters = page.letters
     back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     everywhere = np.concatenate([*points.values()]) if points else np.zeros(0, complex)
@@ -73,33 +72,21 @@ def centres_in_motion(
     for path in shown.values():
         if len(good := path[np.isfinite(path)]):
             content = content.joined(Box.around(np.conj(good).tolist()).grown(3.0))
-    width = max(130.0, content.width + 2 * (ROOM + MARGIN))
-    head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
-    head += wrapped(term("centres in motion", spoken), 3.2, width - 2 * MARGIN)
-    top = MARGIN + LINE * len(head) + 2.0
-    panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
-    origin = panel.centre - content.centre
     fixed = {f"point-{name}" for name in sheet.scene.holders if name not in points}
     gone = fixed - {f"point-{name}" for name in sheet.scene.frame.points}  # what stands for a cam at one position
-    bodies = [thing for thing in moved_piece(back, origin).layers["mechanism"] if getattr(thing, "id", "") not in gone]
-    links = [_moving(thing, origin, origins, turned, points) for thing in bodies]
+    bodies = [thing for thing in back.layers["mechanism"] if getattr(thing, "id", "") not in gone]
+    links = [_moving(thing, origins, turned, points) for thing in bodies]
     drawn: list[Primitive] = []
     for pair, path in shown.items():
-        drawn += _paths(pair, path, origin, colour_of_link(sheet.scene, pair[0]))
+        drawn += _paths(pair, path, colour_of_link(sheet.scene, pair[0]))
     for k, (pair, path) in enumerate(shown.items()):
-        drawn += _centre(centres, pair, path, origin, f"${letters.centre(pair)}$", k)
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
-    ]
-    height = panel.bottom + FOOT
-    statement = rich(scale_statement(sheet, letters.convention, "mechanism"), 3.5)
-    words.append(Text(complex(MARGIN, height - 6.0), statement))
-    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
-    page = joined((Piece({"mechanism": tuple(links), "centres": tuple(drawn), "labels": tuple(words)}),))
-    return Drawing(
-        width, height, layer_groups(page), figure_title(sheet, "centres", spoken),
-        term("centres in motion", spoken) + punctuation("full stop", spoken), languages(spoken)[0],
-        facts(sheet, "centres"),
+        drawn += _centre(centres, pair, path, f"${letters.centre(pair)}$", k)
+    whole = Piece({"mechanism": tuple(links), "centres": tuple(drawn)})
+    page = page.wide_enough(content.width + 2 * ROOM)
+    figure = page.panel(content.height + 2 * ROOM, lambda room: moved_piece(whole, room.centre - content.centre))
+    return page.drawing(
+        page.term("centres in motion"), figure, page.scale("mechanism"), title="centres",
+        said=page.term("centres in motion") + punctuation("full stop", page.language),
     )  # fmt: skip
 
 
@@ -119,7 +106,7 @@ def _travel(path: Places, turned: NDArray[np.float64] | None = None, about: comp
 
 
 def _moving(
-    thing: Primitive, origin: complex, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
+    thing: Primitive, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
     points: Mapping[str, Places],
 ) -> Primitive:  # fmt: skip
     if not isinstance(thing, Group):
@@ -127,7 +114,7 @@ def _moving(
     kind, _, name = thing.id.partition("-")
     if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
-        return replace(thing, motion=_travel(path, turned[name], complex(path[0]).conjugate() + origin))
+        return replace(thing, motion=_travel(path, turned[name], complex(path[0]).conjugate()))
     return replace(thing, motion=_travel(points[name])) if kind == "point" and name in points else thing
 
 
@@ -136,27 +123,27 @@ def _moves(path: Places) -> bool:
     return len(good) > 1 and float(np.max(np.abs(good - good[0]))) > STANDS
 
 
-def _paths(pair: LinkPair, path: Places, origin: complex, colour: str) -> Sequence[Primitive]:
+def _paths(pair: LinkPair, path: Places, colour: str) -> Sequence[Primitive]:
     """The path in runs that a pen draws without lifting."""
     if not _moves(path):
         return ()
     runs: list[list[complex]] = [[]]
     for z in path.tolist():
         if math.isfinite(z.real):
-            runs[-1].append(z.conjugate() + origin)
+            runs[-1].append(z.conjugate())
         elif runs[-1]:
             runs.append([])
     lines = tuple(Polyline(tuple(run), Stroke(PATH, (), colour)) for run in runs if len(run) > 1)
     return (Group(lines, id="path-" + "-".join(sorted(pair)), classes=("centre-path",)),)
 
 
-def _centre(centres: Centres, pair: LinkPair, path: Places, origin: complex, name: str, k: int) -> Sequence[Primitive]:
+def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -> Sequence[Primitive]:
     """A centre with its name, moving along its path."""
     good = np.flatnonzero(np.isfinite(path))
     if not len(good):
         return ()
     base = complex(path[good[0]])
-    at = base.conjugate() + origin
+    at = base.conjugate()
     mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, at)
     off, anchor = NAMES[k % len(NAMES)]
     text = Text(at + off, rich(name, 3.0), anchor, classes=("label", "centre"))
@@ -192,8 +179,8 @@ def centrodes_figure(
     language, convention : as for `centres_figure`
     """
     sheet = centres.sheet
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    page = FigurePage.of(sheet, "centrodes", language, convention)
+    letters = page.letters
     back = background(bare_mechanism(sheet, letters))
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     around = mechanism.grown(CURVES_AROUND * max(mechanism.width, mechanism.height))
@@ -211,15 +198,6 @@ def centrodes_figure(
     content = mechanism
     for lines in drawn.values():
         content = content.joined(ink_box(lines) or content)
-    width = max(130.0, content.width + 2 * (ROOM + MARGIN))
-    head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
-    at = f"{term('centrodes', spoken)} {link}{punctuation('colon', spoken)}{drivers(sheet, letters)}"
-    head += wrapped(at, 3.2, width - 2 * MARGIN)
-    legend = [(say(Phrase(key, (name,)), each), stroke) for key, _, stroke, branches, name in kinds if branches
-              for each in languages(spoken)[:1]]
-    top = MARGIN + LINE * len(head) + 2.0
-    panel = Box(MARGIN, top, width - MARGIN, top + content.height + 2 * ROOM)
-    origin = panel.centre - content.centre
     groups = tuple(Group(lines, id=id, classes=("centrode",)) for id, lines in drawn.items() if lines)
     names: tuple[Label, ...] = ()
     if here is not None and content.distance(here) == 0.0:
@@ -227,25 +205,26 @@ def centrodes_figure(
         names = (Label(text, here),)
         mark = Group(mark_of(centre, sheet.scene.frame.name, here), id="centre-" + "-".join(sorted(centre.pair)))
         groups = (*groups, mark)
-    piece = with_labels(joined((back, Piece({"centres": groups}, names))), panel.moved(-origin))
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",)) for i, runs in enumerate(head)
-    ]
-    y = panel.bottom + 4.0
-    for said, stroke in legend:
-        words.append(Line(complex(MARGIN, y - 1.0), complex(MARGIN + 14.0, y - 1.0), stroke))
-        words.append(Text(complex(MARGIN + 17.0, y), rich(said, 3.0), classes=("legend",)))
-        y += LINE
-    height = y + FOOT - LINE
-    statement = rich(scale_statement(sheet, letters.convention, "mechanism"), 3.5)
-    words.append(Text(complex(MARGIN, height - 6.0), statement))
-    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
-    page = joined((moved_piece(piece, origin), Piece({"labels": tuple(words)})))
-    end = punctuation("full stop", spoken) + punctuation("between sentences", spoken)
-    return Drawing(
-        width, height, layer_groups(page), figure_title(sheet, "centrodes", spoken),
-        "".join(said + end for said, _ in legend).strip(), languages(spoken)[0], facts(sheet, "centrodes"),
+    page = page.wide_enough(content.width + 2 * ROOM)
+
+    def curves(room: Box) -> Piece:
+        origin = room.centre - content.centre
+        return moved_piece(with_labels(joined((back, Piece({"centres": groups}, names))), room.moved(-origin)), origin)
+
+    legend = [(say(Phrase(key, (name,)), languages(page.language)[0]), stroke)
+              for key, _, stroke, branches, name in kinds if branches]  # fmt: skip
+    keys = [row(_sample(stroke), prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend]
+    end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
+    return page.drawing(
+        f"{page.term('centrodes')} {link}{punctuation('colon', page.language)}{drivers(sheet, letters)}",
+        column(page.panel(content.height + 2 * ROOM, curves), *keys), page.scale("mechanism"), title="centrodes",
+        said="".join(said + end for said, _ in legend).strip(),
     )  # fmt: skip
+
+
+def _sample(stroke: Stroke) -> Block:
+    """A stretch of a line for the legend."""
+    return Block(Piece({"labels": (Line(2.2j, KEY - 3.0 + 2.2j, stroke),)}), 0.0, KEY)
 
 
 def _clipped(branches: Sequence[Branch], stroke: Stroke, box: Box) -> tuple[Primitive, ...]:

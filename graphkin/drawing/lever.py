@@ -23,7 +23,7 @@ from graphkin.drawing.text import symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import in_all, languages, word
+from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["lever_figure", "lever_on_page"]
@@ -50,13 +50,13 @@ def lever_figure(
     if not shown:
         return None
     page = FigurePage.of(sheet, "lever", language, convention)
-    why = page.said("lever reason", f"${pole(page.convention, 'velocity')}$")
-    why += page.said("lever couple") * any(row.pair for _, _, lever in shown for row in lever.rows)
-    why += page.said("lever virtual") * any(lever.virtual for _, _, lever in shown)
+    why = [Phrase("lever reason", (f"${pole(page.convention, 'velocity')}$",))]
+    why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
+    why += [Phrase("lever virtual")] * any(lever.virtual for _, _, lever in shown)
     body = [page.prose(why)]
     for number, (k, state, lever) in enumerate(shown):
         if len(forces.states) > 1:
-            body.append(page.prose(page.said("force with load" if k else "force without load"), bold=True))
+            body.append(page.prose((Phrase("force with load" if k else "force without load"),), bold=True))
         body += _lever(page, state, lever, str(number or ""))
     per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
     return page.drawing(
@@ -79,8 +79,8 @@ def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Itera
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
     yield table(heads, [_row(row, units.newtons, page.letters) for row in scaled.rows if row.force], COLUMNS)
-    total, balance = (in_all(said, page.language) for said in lever_sum(page.sheet, state, scaled, page.letters))
-    yield column(page.prose(total), page.prose(balance, bold=True))
+    total, balance = lever_sum(page.sheet, state, scaled, page.letters)
+    yield column(page.prose((total,)), page.prose((balance,), bold=True))
 
 
 def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:

@@ -11,29 +11,28 @@ from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.headings import facts, figure_title, number, term, titles
+from graphkin.drawing.boxes import GAP, FigurePage, column
+from graphkin.drawing.conventions import Letters
+from graphkin.drawing.headings import number
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.ink.symbols import BLOCK_LENGTH, BLOCK_WIDTH
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, check_bar, dimension
+from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, dimension
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.text import plain, rich, wrapped
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
-from graphkin.words import Neutral, Phrase, Wording, in_all, languages
+from graphkin.words import Neutral, Wording
 
 __all__ = ["Shown", "positions_figure"]
 
-MARGIN, ROOM, FOOT = 8.0, 16.0, 14.0
-LEAST_WIDTH = 130.0
-LINE = 5.0
+ROOM = 16.0  # mm around the figure, for names
 OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of an arc, where its number may stand
 # Radii of arcs: of theta and of the crank's ways, by the crank's length, and of a swing (mm).
@@ -77,9 +76,8 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     convention : letters of points; the scene's own if None
     """
     sheet = shown.own
-    scene = sheet.scene
-    spoken = language or scene.sheet.language
-    letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
+    page_ = FigurePage.of(sheet, "positions", language, convention)
+    letters = page_.letters
     numbered = [_position(one, letters, NUMBERED, f"position-{name}") for name, one in shown.numbered.items()]
     limits = [
         _position(one, letters, LIMIT, f"limit-{pair.replace('/', '-')}-{end}")
@@ -95,24 +93,13 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     drawn = joined((paths, *numbered, *limits, *least, _back(shown), bare_mechanism(sheet, letters)))
     whole = joined((drawn, _dimensions(shown, drawn), _numbers(shown)))
     box = ink_box(whole.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    width = max(LEAST_WIDTH, box.width + 2 * (ROOM + MARGIN))
-    head = [line for title in titles(sheet, spoken) for line in wrapped(title, 4.0, width - 2 * MARGIN, bold=True)]
-    told = [runs for text in _measured_lines(shown, spoken) for runs in wrapped(text, 3.0, width - 2 * MARGIN)]
-    top = MARGIN + LINE * (len(head) + len(told)) + 3.0
-    panel = Box(MARGIN, top, width - MARGIN, top + box.height + 2 * ROOM)
-    placed = with_labels(moved_piece(whole, panel.centre - box.centre), panel)
-    height = panel.bottom + FOOT
-    words: list[Primitive] = [
-        Text(complex(MARGIN, MARGIN + 3.5 + LINE * i), runs, classes=("heading",) if i < len(head) else ("told",))
-        for i, runs in enumerate((*head, *told))
-    ]
-    scale = scale_statement(sheet, letters.convention, "mechanism")
-    words.append(Text(complex(MARGIN, height - 6.0), rich(scale, 3.5)))
-    words += check_bar(complex(width - MARGIN - 50.0, height - 6.0), rich(term("check bar", spoken), 2.5))
-    return Drawing(
-        width, height, layer_groups(joined((placed, Piece({"labels": tuple(words)})))),
-        figure_title(sheet, "positions", spoken), ". ".join(t.replace("$", "") for t in _measured_lines(shown, spoken)),
-        languages(spoken)[0], facts(sheet, "positions"),
+    page_ = page_.wide_enough(box.width + 2 * ROOM)
+    told = _measured_lines(shown, page_)
+    figure = page_.panel(
+        box.height + 2 * ROOM, lambda room: with_labels(moved_piece(whole, room.centre - box.centre), room))
+    return page_.drawing(
+        page_.term("positions"), column(page_.prose(told, 3.0), figure, gap=GAP), page_.scale("mechanism"),
+        title="positions", said=". ".join(text.replace("$", "") for text in (page_.term("positions"), *told)),
     )  # fmt: skip
 
 
@@ -285,10 +272,10 @@ def _gamma(shown: Shown) -> Piece:
     return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
 
 
-def _measured_lines(shown: Shown, spoken: str) -> list[str]:
+def _measured_lines(shown: Shown, page_: FigurePage) -> list[str]:
     """What was measured of the whole turn, in words."""
     metres, unit = shown.own.scene.units.metres, shown.own.scene.units.length
-    said = [term("positions", spoken)]
+    said: list[str] = []
     for pair in shown.limits:
         values = []
         for kind, letter in (("stroke", "H"), ("swing", "ψ"), ("theta_lag", "θ"), ("K", "K")):
@@ -299,7 +286,7 @@ def _measured_lines(shown: Shown, spoken: str) -> list[str]:
                 "stroke": f"{number(value / metres, 7)} {unit}", "K": number(value, 7),
             }.get(kind, f"{number(math.degrees(value), 7)}°")  # fmt: skip
             values.append(f"${letter}$ = {text}")
-        said += in_all(Phrase("positions of", (Neutral(pair), Neutral(",  ".join(values)))), spoken)
+        said += page_.said("positions of", Neutral(pair), Neutral(",  ".join(values)))
     for output, why in shown.without.items():
-        said += in_all(Phrase("no limits", (output, why)), spoken)
+        said += page_.said("no limits", output, why)
     return said

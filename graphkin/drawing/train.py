@@ -19,7 +19,7 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.train_scheme import scheme
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = ["moving_plans", "train_figure"]
@@ -55,11 +55,8 @@ def moving_plans(sheet: Sheet) -> list[TrainPlan]:
 def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     sheet, velocity = page.sheet, plan.order == "velocity"
     name = "plan" if velocity else "plan accelerations"
-    why = [
-        text for each in languages(page.language)
-        for text in (say(Phrase("plan reason" if velocity else "plan reason accelerations"), each),
-                     *(say(Phrase("plan relative", (line.still,)), each) for line in plan.on if not line.in_frame))
-    ]  # fmt: skip
+    why = [Phrase("plan reason" if velocity else "plan reason accelerations")]
+    why += [Phrase("plan relative", (line.still,)) for line in plan.on if not line.in_frame]
     lines = [_train(page, plan, k) for k in range(len(plan.on))]
     rates = _rate_scale(sheet, plan, page.letters)
     least = min(0.0, *(one.foot for one in plan.lines))

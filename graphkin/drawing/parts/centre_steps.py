@@ -6,30 +6,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise, permutations
 
 from graphkin.construction.centres import Centre, Centres
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, scale_statement
+from graphkin.drawing.boxes import FigurePage, column, framed, numbered, panel, rows
+from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import facts, figure_title, term
-from graphkin.drawing.ink import strokes
+from graphkin.drawing.headings import figure_title
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Text, walk
-from graphkin.drawing.page_text import MARGIN, WIDTH, foot, titled
 from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, near_box
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, without
 from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece, renamed
-from graphkin.drawing.text import plain, rich
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, renamed
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import languages
 
 __all__ = ["centre_steps", "named_centres", "untold"]
 
-HEIGHT = 297.0
+WIDTH = 194.0  # mm of a page between its margins
 COLUMNS, ROWS = 2, 3
-GAP, CAPTION = 3.0, 6.0  # mm between pictures, and above each
+PICTURE, GAP = (95.5, 76.0), 3.0  # mm, width and height of a picture, and between pictures
 CLEAR, INSIDE = 1.0, 3.0  # mm from the frame of a picture to names, and to what it shows
 LETTER = 3.0
 ROUNDS = 4  # how often names are placed anew without those that have no clear place
@@ -90,52 +88,35 @@ def centre_steps(
     centres : on a drawing of a scale that a picture has room for
     behind : its mechanism, pale
     """
+    page = FigurePage(centres.sheet, "centres", language, letters, WIDTH)
     each = COLUMNS * ROWS
-    return tuple(
-        _page(centres, some[i : i + each], behind, letters, language) for i in range(0, len(some), each)
-    )
+    return tuple(_page(page, centres, some[i : i + each], behind) for i in range(0, len(some), each))
 
 
-def _page(
-    centres: Centres, some: Sequence[Centre], behind: Piece, letters: Letters, language: str
-) -> Drawing:
-    words, y = titled(centres.sheet, language, term("lines of centres", language))
-    top, rows = y + 4.0, -(-len(some) // COLUMNS)
-    wide = (WIDTH - 2 * MARGIN - (COLUMNS - 1) * GAP) / COLUMNS
-    high = (HEIGHT - top - MARGIN - ROWS * (CAPTION + GAP) - 6.0) / ROWS
-    pieces, said = [], []
-    for i, centre in enumerate(some):
-        corner = complex(MARGIN + (i % COLUMNS) * (wide + GAP), top + (i // COLUMNS) * (high + CAPTION + GAP))
-        by = " × ".join(line_name(line, letters) for line in centre.lines)
-        told = f"${letters.centre(centre.pair)}$ = {by}"
-        numeral = plain(str(centre.number), LETTER, bold=True)
-        words.append(Text(corner + complex(4.5, LETTER + 1.0), numeral, "end", classes=("told",)))
-        words.append(Text(corner + complex(6.5, LETTER + 1.0), rich(told, LETTER), classes=("told",)))
+def _page(page: FigurePage, centres: Centres, some: Sequence[Centre], behind: Piece) -> Drawing:
+    pictures, said = [], [figure_title(centres.sheet, "lines of centres", page.language)]
+    for centre in some:
+        by = " × ".join(line_name(line, page.letters) for line in centre.lines)
+        told = f"${page.letters.centre(centre.pair)}$ = {by}"
         said.append(f"{centre.number}. " + told.replace("$", "").replace("_{", "").replace("}", ""))
-        panel = Box(corner.real, corner.imag + CAPTION, corner.real + wide, corner.imag + CAPTION + high)
-        pieces.append(renamed(_picture(centres, centre, behind, letters, panel), f"-{centre.number}"))
-    end = top + rows * (high + CAPTION + GAP)
-    words += foot(scale_statement(centres.sheet, letters.convention, "mechanism"), end + 8.0, LETTER, language)
-    page = joined((*pieces, Piece({"labels": tuple(words)})))
-    title = figure_title(centres.sheet, "lines of centres", language)
-    described = title + "\n" + "\n".join(said)
-    return Drawing(
-        WIDTH, end + 14.0, layer_groups(page), title, described, languages(language)[0], facts(centres.sheet, "centres")
-    )
+        picture = panel(*PICTURE, partial(_picture, centres, centre, behind, page.letters))
+        pictures.append(column(numbered(centre.number, told, PICTURE[0], LETTER), framed(picture), gap=0.6))
+    return page.drawing(
+        page.term("lines of centres"), column(*rows(pictures, WIDTH, GAP), gap=GAP), page.scale("mechanism"),
+        title="lines of centres", said="\n".join(said),
+    )  # fmt: skip
 
 
-def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, panel: Box) -> Piece:
-    """One centre with its two lines and the centres through which they lead, in a frame."""
+def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, room: Box) -> Piece:
+    """One centre with its two lines and the centres through which they lead."""
     through = dict.fromkeys(pair for line in centre.lines for pair in line.through if not isinstance(pair, str))
     known = (centres.of(*pair) for pair in through)
     table = {c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre}
     alone = replace(centres, table=table)
-    inside = panel.grown(-INSIDE)
+    inside = room.grown(-INSIDE)
     content = near_box(alone, ink_box(behind.drawn) or Box(-10.0, -10.0, 10.0, 10.0), (inside.width, inside.height))
     origin = inside.centre - content.centre
-    around = panel.grown(-CLEAR).moved(-origin)
+    around = room.grown(-CLEAR).moved(-origin)
     piece, crowded = with_crowd(joined((behind, centre_marks(alone, letters, around, behind.drawn))), around)
     piece = without(piece, {label.text.id for label in crowded if label.rank > 2})  # told above the picture
-    corners = panel.corners
-    frame = tuple(Line(a, b, strokes.DIMENSION) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True))
-    return joined((moved_piece(piece, origin), Piece({"centres": frame})))
+    return renamed(moved_piece(piece, origin), f"-{centre.number}")
