@@ -90,11 +90,16 @@ class Scene(SceneTables):
 
     @classmethod
     def saying(cls, mechanism: Mechanism) -> Scene:
-        """The scene that says a mechanism: what it was read from, or else everything placed in the links' own axes."""
+        """The scene that says a mechanism: what it was read from, or else, and where links or drivers were replaced
+        since, everything placed in the links' own axes."""
         from graphkin.scene.reading import plain
 
-        tables = mechanism.written
-        return cls.of(as_mapping(mechanism) if tables is None else plain(tables), mechanism.name)
+        if mechanism.written is not None:
+            scene = cls.of(plain(mechanism.written), mechanism.name)
+            read = scene.mechanism
+            if (read.drivers, read.links, read.frame) == (mechanism.drivers, mechanism.links, mechanism.frame):
+                return scene
+        return cls.of(as_mapping(mechanism), mechanism.name)
 
     @property
     def mechanism(self) -> Mechanism:

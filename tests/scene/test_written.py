@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
+import math
 import pickle
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -155,3 +157,10 @@ def test_a_scene_can_be_pickled_copied_and_compared() -> None:
 def test_a_place_that_cannot_be_written_is_told(tmp_path: Path) -> None:
     with pytest.raises(graphkin.CallError, match="cannot be written"):
         crank().save(tmp_path / "no" / "x.toml")
+
+
+def test_a_mechanism_that_was_changed_is_said_as_it_is_and_not_as_its_file() -> None:
+    scene = crank()
+    turned = replace(scene.mechanism, drivers=(scene.mechanism.drivers[0].at_value(1.0),))
+    assert math.degrees(1.0) == pytest.approx(Scene.saying(turned).to_dict()["driver"][0]["angle"], abs=1e-9)
+    assert scene.to_dict() == Scene.saying(scene.mechanism).to_dict()
