@@ -17,7 +17,7 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Problem
 from graphkin.scene import reading
 from graphkin.scene.design_file import KINDS
-from graphkin.scene.file_table import keys_of
+from graphkin.scene.file_table import FileTable, keys_of
 from graphkin.scene.source import library_text
 from graphkin.words import Phrase, area, from_others, say
 from tests.command import run
@@ -61,7 +61,9 @@ def test_every_problem_has_other_words_in_chinese():
 
 def test_what_a_key_is_about_has_chinese():
     about = {
-        reading.clause_of(key.metadata.get("description", "")) for _, table in reading._TABLES for key in keys_of(table)
+        reading.clause_of(key.metadata.get("description", ""))
+        for table in FileTable.__subclasses__()
+        for key in keys_of(table)
     }
     about |= {key.metadata.get("description", "") for design in KINDS.values() for key in fields(design)}
     assert [] == sorted(text for text in about if text and isinstance(from_others(text), str))

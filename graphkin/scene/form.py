@@ -7,19 +7,20 @@ types of this module: so only reading a scene waits for pydantic.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import sys
+from collections.abc import Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Literal, TypeVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 from pydantic import Discriminator, Field, Strict, StringConstraints, Tag, TypeAdapter
 from pydantic_core.core_schema import CoreSchema, no_info_plain_validator_function
 
 from graphkin.files import Json
-from graphkin.scene.file_table import FileTable
+from graphkin.scene.file_table import FileTable, key_of, keys_of
 from graphkin.scene.tables import SMALLEST, SceneTables
 from graphkin.words import LANGUAGES
 
-__all__ = ["SCENE", "schema"]
+__all__ = ["SCENE", "schema", "table_at"]
 
 AnyTable = TypeVar("AnyTable", bound=FileTable)
 
@@ -178,6 +179,37 @@ _TABLES = {table.__name__: table for table in FileTable.__subclasses__()}
 _WHEN_MET = {name: Annotated[table, _WhenMet(table)] for name, table in _TABLES.items()}
 
 SCENE = _rules(SceneTables, _WHEN_MET)
+
+
+def table_at(loc: Sequence[str | int]) -> type[FileTable] | None:
+    """The table that stands at a place of a file, as pydantic names places: with a tag ("<one>") where a value has
+    several forms.  None where there is no table.
+
+    >>> table_at(("links", "2", "guides", "g")).__name__, table_at(("driver", "<list>", 1, "<slide>")).__name__
+    ('Guide', 'DrivenSlide')
+    """
+    return _within(SceneTables, tuple(loc))
+
+
+def _within(kind: object, loc: tuple[str | int, ...]) -> type[FileTable] | None:
+    """The table at ``loc`` inside of a value of a kind; of several kinds that of the tag, or the first that has it."""
+    if isinstance(kind, type) and issubclass(kind, FileTable):
+        field_type = _field_types(kind).get(str(loc[0])) if loc else None
+        return kind if not loc else _within(field_type, loc[1:]) if field_type is not None else None
+    if get_origin(kind) is Annotated:
+        bare, *marks = get_args(kind)
+        tags = [mark.tag for mark in marks if isinstance(mark, Tag)]
+        return None if tags and loc[:1] != (tags[0],) else _within(bare, loc[1:] if tags else loc)
+    if get_origin(kind) in (dict, list, tuple):
+        return _within(get_args(kind)[1 if get_origin(kind) is dict else 0], loc[1:]) if loc else None
+    return next((table for part in get_args(kind) if (table := _within(part, loc)) is not None), None)
+
+
+def _field_types(table: type[FileTable]) -> dict[str, object]:
+    """The types of a table's keys, by their names in the file."""
+    names = {**vars(sys.modules[table.__module__]), **globals(), **_TABLES, "ClassVar": ClassVar}
+    hints = get_type_hints(table, names, include_extras=True)
+    return {key_of(key): hints[key.name] for key in keys_of(table)}
 
 
 def _without_null(node: Json) -> Json:

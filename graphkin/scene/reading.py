@@ -20,10 +20,9 @@ from pydantic import ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
-from graphkin.scene import asked_tables, contact_tables, load_tables, sheet_tables, tables
 from graphkin.scene.file_keys import KeyPath, value_at
 from graphkin.scene.file_table import FileTable, entries, key_of, keys_of
-from graphkin.scene.form import SCENE
+from graphkin.scene.form import SCENE, table_at
 from graphkin.scene.names import Flaws
 from graphkin.scene.tables import SceneTables
 from graphkin.words import Phrase, Wording, from_others
@@ -173,51 +172,6 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
 
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_TABLES: tuple[tuple[tuple[str, ...], type[FileTable]], ...] = (
-    ((), tables.SceneTables),
-    (("units",), tables.Units),
-    (("frame",), tables.Frame),
-    (("frame", "points", "*", "<polar>"), tables.Polar),
-    (("frame", "points", "*", "<compass>"), tables.Compass),
-    (("frame", "guides", "*"), tables.Guide),
-    (("links", "*"), tables.Link),
-    (("links", "*", "guides", "*"), tables.Guide),
-    (("links", "*", "at", "*", "<polar>"), tables.Polar),
-    (("links", "*", "at", "*", "<compass>"), tables.Compass),
-    (("links", "*", "discs", "*"), contact_tables.Disc),
-    (("frame", "discs", "*"), contact_tables.Disc),
-    (("contacts", "*"), contact_tables.Contact),
-    (("gears", "*"), contact_tables.Gear),
-    (("pins", "*"), tables.Pin),
-    (("driver", "<one>", "<angle>"), tables.Driver),
-    (("driver", "<one>", "<slide>"), tables.DrivenSlide),
-    (("driver", "<list>", "*", "<angle>"), tables.Driver),
-    (("driver", "<list>", "*", "<slide>"), tables.DrivenSlide),
-    (("driver", "<one>", "<angle>", "law"), contact_tables.DriverLaw),
-    (("driver", "<one>", "<slide>", "law"), contact_tables.DriverLaw),
-    (("driver", "<list>", "*", "<angle>", "law"), contact_tables.DriverLaw),
-    (("driver", "<list>", "*", "<slide>", "law"), contact_tables.DriverLaw),
-    (("driver", "<one>", "<angle>", "law", "pieces", "*"), contact_tables.TimePiece),
-    (("driver", "<one>", "<slide>", "law", "pieces", "*"), contact_tables.TimePiece),
-    (("cams", "*"), contact_tables.Cam),
-    (("cams", "*", "base"), contact_tables.BaseCircle),
-    (("cams", "*", "allow"), contact_tables.AllowedPressure),
-    (("cams", "*", "law", "*"), contact_tables.LawPiece),
-    (("gravity",), load_tables.Gravity),
-    (("masses", "*"), load_tables.Mass),
-    (("loads", "*"), load_tables.Load),
-    (("loads", "*", "when"), load_tables.LoadPhase),
-    (("springs", "*"), load_tables.Spring),
-    (("balance",), load_tables.Balance),
-    (("flywheel",), load_tables.Flywheel),
-    (("sheet",), sheet_tables.SheetWishes),
-    (("sheet", "background"), sheet_tables.Background),
-    (("scans", "*"), sheet_tables.ReadScan),
-    (("positions",), asked_tables.Positions),
-    (("positions", "first", "<polar>"), asked_tables.StrokeStart),
-    (("positions", "also", "*", "<polar>"), asked_tables.StrokeStart),
-    (("printed_table",), asked_tables.PrintedTable),
-)
 _NOUNS = {"g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
 """What must be positive, where it is no length."""
 _KINDS = {
@@ -270,10 +224,8 @@ def written_path(loc: KeyPath) -> KeyPath:
 
 def keys_at(loc: KeyPath) -> dict[str, str]:
     """The keys that may stand in the table at ``loc``, with their descriptions."""
-    for pattern, table in _TABLES:
-        if len(pattern) == len(loc) and all(p in ("*", part) for p, part in zip(pattern, loc, strict=True)):
-            return {key_of(f): f.metadata.get("description", "") for f in keys_of(table)}
-    return {}
+    table = table_at(loc)
+    return {} if table is None else {key_of(f): f.metadata.get("description", "") for f in keys_of(table)}
 
 
 def clause_of(description: str) -> str:

@@ -7,6 +7,7 @@ import tomllib
 import pytest
 
 from graphkin.scene import library, library_text, schema
+from graphkin.scene.form import table_at
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -81,3 +82,12 @@ def test_every_key_is_described_or_has_its_choices() -> None:
 
 def test_no_key_may_be_null() -> None:
     assert "null" not in str(schema())
+
+
+@pytest.mark.parametrize(("table", "loc"), [
+    ("SceneTables", ()), ("Guide", ("links", "2", "guides", "g")), ("DrivenSlide", ("driver", "<list>", 1, "<slide>")),
+    ("TimePiece", ("driver", "<one>", "<angle>", "law", "pieces", 0)), ("Compass", ("frame", "points", "D", "<compass>")),
+    ("ReadScan", ("scans", "velocity")), ("Vary", ("vary",)), ("Tools", ("sheet", "tools")), ("NoneType", ("links", "2", "points")),
+])  # fmt: skip
+def test_the_table_at_a_place_follows_from_the_types_of_the_file(table, loc):
+    assert table == getattr(table_at(loc), "__name__", type(None).__name__)
