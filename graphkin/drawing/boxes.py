@@ -15,7 +15,7 @@ from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import facts, figure_title, term, titles
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
 from graphkin.drawing.text import fitted, plain, rich, wrapped
@@ -25,8 +25,8 @@ from graphkin.scene.sheet_tables import Convention
 from graphkin.words import Phrase, Wording, in_all, languages
 
 __all__ = [
-    "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "TOLD", "Block", "FigurePage", "column", "foot", "framed",
-    "heading", "numbered", "numeral", "page", "panel", "prose", "row", "rows", "table",
+    "BARE", "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "TOLD", "Block", "FigurePage", "column", "foot",
+    "framed", "heading", "numbered", "numeral", "page", "panel", "prose", "row", "rows", "table", "without_titles",
 ]  # fmt: skip
 
 MARGIN = 8.0  # of a page
@@ -197,12 +197,19 @@ def page(
     said : the figure in words, for those who do not see it
     language : "en", "zh" or "both"
     """
-    top = margin + head.height + GAP
+    top = margin + head.height + (GAP if head.height else 0.0)
     end = top + body.height
     parts = body.moved(complex(margin, top)), head.moved(complex(margin, margin)), low.moved(complex(margin, end))
     width = max(block.width for block in (head, body, low)) + 2 * margin
-    return Drawing(width, end + low.height + BELOW, layer_groups(joined(parts)), title, said, languages(language)[0],
-                   dict(metadata))  # fmt: skip
+    height = end + low.height + min(BELOW, margin)
+    return Drawing(
+        width, height, layer_groups(joined(parts)), title, said, languages(language)[0], dict(metadata)
+    )  # fmt: skip
+
+
+def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
+    """What a page shows without its heading, for a paper that tells the same."""
+    return map_tree(children, lambda one: None if isinstance(one, Text) and "heading" in one.classes else one)
 
 
 @dataclass(frozen=True)

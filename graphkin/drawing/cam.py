@@ -10,25 +10,40 @@ from collections.abc import Sequence
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import (
+    BARE,
+    TOLD,
+    Block,
+    column,
+    foot,
+    heading,
+    numbered,
+    page,
+    panel,
+    prose,
+    row,
+    table,
+)  # fmt: skip
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import number, once, term
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
+from graphkin.drawing.place.piece import Piece, ink_box, moved_piece
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.follower_law import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, in_all, languages, say, word
+from graphkin.words.written import in_markup
 
 __all__ = ["cam_figure", "cam_given", "cam_pictures", "scaled_cam"]
 
+WIDTH, MARGIN, GUTTER = 186.0, 12.0, 8.0  # mm of the page between its margins, and between columns of the table
+LETTER = 3.0
 PANEL = (150.0, 140.0)
 """mm that the cam may fill."""
 SMALL = 2.4
@@ -64,46 +79,43 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], langua
     told : what is found of it
     language : "en", "zh" or "both"
     """
-    cam = sheet.cam
-    title = " / ".join(dict.fromkeys(scene.title_in(each) or scene.name for each in languages(language)))
-    words = heading(title, _given(scene, cam, language))
-    top = MARGIN + 5.0 * len(words) + 4.0
-    diagram, y = _diagram(scene, sheet, top, language)
-    drawn, y = _cam(scene, sheet, y + 6.0)
-    y += 6.0
-    for each in languages(language):
-        steps, y = step_lines(((i, say(phrase, each)) for i, phrase in enumerate(sheet.steps, 1)), y)
-        words += steps
-        y += 2.0
-    table, y = _table(scene, sheet, language, y + 1.0)
-    notes, y = note_lines(told, language, y)
-    words += notes
-    height = y + FOOT
-    unit, per = scene.units.length, sheet.scale / scene.units.metres
-    words += foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", height - 6.0, 3.5, language)
-    page = joined((diagram, drawn, Piece({"labels": tuple(words), "answers": table})))
+    names = dict.fromkeys(in_markup(scene.title_in(each) or scene.name) for each in languages(language))
+    steps = [
+        column(*(numbered(k, say(step, each), WIDTH, LETTER, step=k) for k, step in enumerate(sheet.steps, 1)))
+        for each in languages(language)
+    ]  # fmt: skip
+    notes = [line.replace(" -", " −") for said in told for line in in_all(said, language)]
+    body = column(
+        _diagram(scene, sheet, language), _cam(scene, sheet), *steps, _table(scene, sheet, language),
+        prose(notes, WIDTH, LETTER, classes=TOLD), gap=3.0,
+    )  # fmt: skip
     first = languages(language)[0]
     spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(found, first) for found in told)])
-    facts = {"figure": "cam", "scene": scene.name, "cam": cam.link, "units": {"length": unit, "paper": "mm"},
-             "scales": {"length": per}, "instrument": "exact", "graphkin": __version__}  # fmt: skip
-    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('cam figure', first)}", spoken, first, facts)
+    per = sheet.scale / scene.units.metres
+    facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link,
+             "units": {"length": scene.units.length, "paper": "mm"}, "scales": {"length": per}, "instrument": "exact",
+             "graphkin": __version__}  # fmt: skip
+    return page(
+        heading(names, _given(scene, sheet.cam, language), WIDTH), body, _foot(scene, sheet, language),
+        title=f"{' / '.join(names)}: {word('cam figure', first)}", said=spoken, language=language, metadata=facts,
+        margin=MARGIN,
+    )  # fmt: skip
+
+
+def _foot(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
+    return foot(f"$μ_{{l}}$ = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm", WIDTH, language)
 
 
 def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
     """The displacement diagram and the cam, each by itself; ``begun`` leaves out all that is to be found."""
-    first = languages(language)[0]
-    diagram, low = _diagram(scene, sheet, 5.0, language, begun)
-    drawn, bottom = _cam(scene, sheet, 2.0, begun)
-    unit, per = scene.units.length, sheet.scale / scene.units.metres
-    scale = tuple(foot(f"$μ_{{l}}$ = {number(per)} {unit}/mm", bottom + 5.0, 3.0, language))
-    drawn = joined((drawn, Piece({"labels": scale})))
     facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
-    pages = []
-    for key, piece, height in (("cam diagram", diagram, low + 2.0), ("cam figure", drawn, bottom + 9.0)):
-        told = word(key, first)
-        piece = moved_piece(piece, -complex(MARGIN - 2.0, 0.0))
-        pages.append(Drawing(WIDTH - 2 * MARGIN + 4.0, height, layer_groups(piece), told, told, first, facts))
-    return pages[0], pages[1]
+
+    def alone(key: str, body: Block, low: Block) -> Drawing:
+        told = word(key, languages(language)[0])
+        return page(BARE, body, low, title=told, said=told, language=language, metadata=facts, margin=2.0)
+
+    return (alone("cam diagram", _diagram(scene, sheet, language, begun), BARE),
+            alone("cam figure", _cam(scene, sheet, begun), _foot(scene, sheet, language)))  # fmt: skip
 
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
@@ -143,16 +155,14 @@ def _lift(scene: Mechanism, cam: LawCam, lift: float) -> float:
     return math.degrees(lift) if isinstance(cam.motion, SwingingFollower) else lift / scene.units.metres
 
 
-def _diagram(
-    scene: Mechanism, sheet: CamSheet, top: float, language: str, begun: bool = False
-) -> tuple[Piece, float]:
-    """The displacement diagram, and where it ends; only ``begun``, its axes with the pieces of the law."""
+def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> Block:
+    """The displacement diagram; only ``begun``, its axes with the pieces of the law."""
     cam, law = sheet.cam, sheet.cam.law
     span = _lift(scene, cam, law.greatest - law.least) or 1.0
     own = (law.greatest - law.least) / sheet.scale
     same = isinstance(cam.motion, SlidingFollower) and HIGH[0] <= own <= HIGH[1]
     per = span / own if same else fitting_scale(Extent(span, span), (HIGH[1], HIGH[1]), 1.0)
-    left, floor = MARGIN + 5.0, top + (span / per) + 3.0
+    left, floor = 5.0, span / per + 6.0
     low = _lift(scene, cam, law.least)
 
     def at(degree: float, lift: float) -> complex:
@@ -190,7 +200,7 @@ def _diagram(
     labels.append(Text(complex(left + LONG + 5.5, floor - 1.0), symbol("φ", LETTER)))
     found = () if begun else (Polyline(tuple(curve), strokes.LINK),)
     shape = Group((*axes, *rules, *found), id="displacement", classes=("diagram",))
-    return Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0
+    return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WIDTH)
 
 
 def _closing(sheet: CamSheet) -> CamDivision:
@@ -198,9 +208,8 @@ def _closing(sheet: CamSheet) -> CamDivision:
     return CamDivision(0, TURN, first.lift, first.at, first.pressure)
 
 
-def _cam(scene: Mechanism, sheet: CamSheet, top: float, begun: bool = False) -> tuple[Piece, float]:
-    """The cam with all that finds it, its upper edge at ``top``; and where it ends.  Only ``begun``, the circles and
-    the follower where it starts."""
+def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
+    """The cam with all that finds it; only ``begun``, the circles and the follower where it starts."""
     cam = sheet.cam
     colour, other = strokes.colour_of_link(scene, cam.link), strokes.colour_of_link(scene, cam.follower)
     lines: list[Primitive] = [Circle(0j, sheet.base, stroke=THIN)]
@@ -261,9 +270,12 @@ def _cam(scene: Mechanism, sheet: CamSheet, top: float, begun: bool = False) -> 
                    "mechanism": piece.layers["mechanism"][1:]}, piece.labels)  # fmt: skip
     box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     box = box.joined(Box.around(map(_page, sheet.profile))).grown(6.0)
-    panel = Box(MARGIN, top, WIDTH - MARGIN, top + box.height)
-    origin = panel.centre - box.centre
-    return moved_piece(with_labels(piece, panel.moved(-origin)), origin), panel.bottom
+
+    def drawn(room: Box) -> Piece:
+        origin = room.centre - box.centre
+        return moved_piece(with_labels(piece, room.moved(-origin)), origin)
+
+    return panel(WIDTH, box.height, drawn)
 
 
 def _shown(sheet: CamSheet) -> list[CamDivision]:
@@ -308,27 +320,16 @@ def _page(z: complex) -> complex:
     return z.conjugate()
 
 
-def _table(scene: Mechanism, sheet: CamSheet, language: str, y: float) -> tuple[tuple[Primitive, ...], float]:
+def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     """Number, cam degree, lift and pressure angle of each division, in columns beside each other."""
-    cam = sheet.cam
-    swings = isinstance(cam.motion, SwingingFollower)
+    swings = isinstance(sheet.cam.motion, SwingingFollower)
     unit = "°" if swings else scene.units.length
     heads = ["", "$φ$ (°)", f"${'ψ' if swings else 's'}$ ({unit})", "$α$ (°)"]
     columns = -(-len(sheet.divisions) // ROWS)
-    rows = -(-len(sheet.divisions) // columns)
-    wide = (WIDTH - 2 * MARGIN) / columns
-    parts = [0.12 * wide, 0.24 * wide, 0.30 * wide, 0.26 * wide]
-    drawn: list[Primitive] = []
-    for column in range(columns):
-        x = MARGIN + column * wide
-        some = sheet.divisions[column * rows : (column + 1) * rows]
-        cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, cam, d.lift):.3f}",
-                  f"{math.degrees(d.pressure):.2f}"] for d in some]  # fmt: skip
-        for i, row in enumerate((heads, *cells)):
-            at, line = x, y + LINE * i + (1.2 if i else 0.0)
-            for text, width in zip(row, parts, strict=True):
-                at += width
-                if text:
-                    drawn.append(Text(complex(at, line), rich(text, 2.6), "end", classes=("cell",)))
-        drawn.append(Line(complex(x, y + 1.4), complex(x + added_up(parts) + 1.0, y + 1.4), strokes.DIMENSION))
-    return tuple(drawn), y + LINE * (rows + 1) + 3.0
+    count = -(-len(sheet.divisions) // columns)
+    cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
+              f"{math.degrees(d.pressure):.2f}"] for d in sheet.divisions]  # fmt: skip
+    wide = (WIDTH - GUTTER * (columns - 1)) / columns
+    widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
+    tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))
+    return row(*tables, gap=GUTTER)

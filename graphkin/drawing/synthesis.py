@@ -22,22 +22,33 @@ from graphkin.construction.design_sheet import (
 )
 from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import (
+    BARE,
+    TOLD,
+    Block,
+    column,
+    foot,
+    heading,
+    numbered,
+    page,
+    panel,
+    prose,
+    row,
+    table,
+)  # fmt: skip
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
-from graphkin.drawing.page_text import FOOT, LETTER, LINE, MARGIN, WIDTH, foot, heading, note_lines, step_lines
-from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, cut_to, joined, layer_groups, moved_piece
-from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.place.piece import Piece, cut_to, joined, moved_piece
+from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.plane import added_up
 from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__
-from graphkin.words import Phrase, languages, say, word
-from graphkin.words.written import amount, on_paper, product
+from graphkin.words import Phrase, in_all, languages, say, word
+from graphkin.words.written import amount, in_markup, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -47,7 +58,9 @@ __all__ = [
     "step_words",
 ]  # fmt: skip
 
-ROOM = 9.0
+WIDTH, MARGIN = 186.0, 12.0  # mm of the page between its margins
+LETTER = 3.0
+ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
 _KINDS: dict[LineKind, Stroke] = {
@@ -111,37 +124,46 @@ def design_figure(
     notes : sentences to be said of the result
     language : "en", "zh" or "both"
     """
-    content = _content(sheet)
-    content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
-    title = " / ".join(dict.fromkeys(design.title_in(each) or design.name for each in languages(language)))
-    words = heading(title, asked_words(design, language))
-    top = MARGIN + 5.0 * len(words) + 1.0
-    panel = Box(MARGIN, top, WIDTH - MARGIN, top + max(content.height, 40.0) + 2 * ROOM)
-    origin = panel.centre - content.centre
-    around = panel.moved(-origin)
-    piece = with_labels(joined([_strokes(step.strokes, step.number, around) for step in sheet.steps]), around)
-    drawn = moved_piece(piece, origin)
-    y = panel.bottom + 5.0
-    for each in languages(language):
-        steps, y = step_lines(((step.number, step_words(step.phrase, each)) for step in sheet.steps), y)
-        words += steps
-        y += 2.0
-    table, y = _tables(design, sheet.scale, rows, confirmed, language, y + 1.0)
-    told, y = note_lines(notes, language, y)
-    words += told
-    height = y + FOOT
-    unit = design.units.length
-    scale = f"1 mm = {number(sheet.scale)} {unit}"
-    words += foot(scale, height - 6.0, 3.5, language)
-    page = joined((drawn, Piece({"labels": tuple(words), "answers": table})))
-    spoken = " ".join(_spoken(say(s.phrase, languages(language)[0])) + "." for s in sheet.steps)
+    unit, first = design.units.length, languages(language)[0]
+    names = dict.fromkeys(in_markup(design.title_in(each) or design.name) for each in languages(language))
+    steps = [
+        column(*(numbered(step.number, step_words(step.phrase, each), WIDTH, LETTER, step=step.number)
+                 for step in sheet.steps)) for each in languages(language)
+    ]  # fmt: skip
+    told = [line.replace(" -", " −") for note in notes for line in in_all(note, language)]
+    body = column(
+        _construction(sheet, WIDTH), *steps, _tables(design, sheet.scale, rows, confirmed, language),
+        prose(told, WIDTH, LETTER, classes=TOLD), gap=3.0,
+    )  # fmt: skip
+    spoken = " ".join(_spoken(say(s.phrase, first)) + "." for s in sheet.steps)
     found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"figure": "design", "design": design.name, "kind": design.task.kind,
              "units": {"length": unit, "paper": "mm"},
              "scales": {"length": sheet.scale}, "instrument": sheet.instrument, "graphkin": __version__}  # fmt: skip
-    first = languages(language)[0]
-    return Drawing(WIDTH, height, layer_groups(page), f"{title}: {word('design figure', first)}", f"{spoken} {found}",
-                   first, facts)  # fmt: skip
+    return page(
+        heading(names, asked_words(design, language), WIDTH), body, _foot(design, sheet, WIDTH, language),
+        title=f"{' / '.join(names)}: {word('design figure', first)}", said=f"{spoken} {found}", language=language,
+        metadata=facts, margin=MARGIN,
+    )  # fmt: skip
+
+
+def _foot(design: Design, sheet: DesignSheet, width: float, language: str) -> Block:
+    return foot(f"1 mm = {number(sheet.scale)} {design.units.length}", width, language)
+
+
+def _construction(sheet: DesignSheet, width: float, upto: int | None = None) -> Block:
+    """The construction, as far as a step, in the room of all of it."""
+    content = _content(sheet)
+    content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
+    shown = [step for step in sheet.steps if upto is None or step.number <= upto]
+
+    def drawn(room: Box) -> Piece:
+        origin = room.centre - content.centre
+        around = room.moved(-origin)
+        strokes = joined([_strokes(step.strokes, step.number, around) for step in shown])
+        return moved_piece(with_labels(strokes, around), origin)
+
+    return panel(width, max(content.height, 40.0) + 2 * ROOM, drawn)
 
 
 def step_words(phrase: Phrase, language: str) -> str:
@@ -151,20 +173,10 @@ def step_words(phrase: Phrase, language: str) -> str:
 
 def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
     """The construction by itself, as far as a step, on a figure as large as all of it."""
-    content = _content(sheet)
-    content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
-    panel = Box(0.0, 0.0, PANEL[0] + 2 * ROOM, max(content.height, 40.0) + 2 * ROOM)
-    origin = panel.centre - content.centre
-    around = panel.moved(-origin)
-    shown = [step for step in sheet.steps if upto is None or step.number <= upto]
-    piece = with_labels(joined([_strokes(step.strokes, step.number, around) for step in shown]), around)
-    unit, first = design.units.length, languages(language)[0]
-    foot: list[Primitive] = [Text(complex(2.0, panel.bottom + 5.0), rich(f"1 mm = {number(sheet.scale)} {unit}", 3.0))]
-    foot += check_bar(complex(panel.right - 52.0, panel.bottom + 5.0), rich(term("check bar", language), 2.5))
-    page = joined((moved_piece(piece, origin), Piece({"labels": tuple(foot)})))
-    told = word("design figure", first)
+    told = word("design figure", languages(language)[0])
     facts = {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
-    return Drawing(panel.width, panel.height + 9.0, layer_groups(page), told, told, first, facts)
+    return page(BARE, _construction(sheet, WIDTH, upto), _foot(design, sheet, WIDTH, language), title=told, said=told,
+                language=language, metadata=facts, margin=2.0)  # fmt: skip
 
 
 def asked_words(design: Design, language: str) -> str:
@@ -283,57 +295,29 @@ def _arcs(stroke: DesignCircle, panel: Box) -> list[Primitive]:
 
 
 def _tables(
-    design: Design, scale: float, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str, y: float
-) -> tuple[tuple[Primitive, ...], float]:
-    """Lengths on paper, measured, exact; beside them what a turn confirms.  Also where the next line may stand."""
-    unit, per = design.units.length, amount(scale, 12)
+    design: Design, scale: float, rows: Sequence[FoundLength], confirmed: Sequence[Confirmed], language: str
+) -> Block:
+    """Lengths on paper, measured, exact; beside them what a turn confirms."""
+    unit, per, every = design.units.length, amount(scale, 12), languages(language)
 
     def read(mm: float) -> str:
         return written(product(on_paper(mm), per))
 
-    heads = [term("length found", language), term("on paper", language), f"{term('measured', language)} ({unit})",
-             f"{term('exact', language)} ({unit})"]  # fmt: skip
-    cells = [
-        [row.symbol if row.symbol == "ram" else f"${row.symbol}$", on_paper(row.on_paper), read(row.on_paper),
-         number(row.exact)]
-        for row in rows
-    ]  # fmt: skip
-    left, low = _grid(heads, cells, MARGIN, y, (26.0, 24.0, 30.0, 30.0))
+    lengths = table(
+        [[word("length found", each), word("on paper", each), f"{word('measured', each)} ({unit})",
+          f"{word('exact', each)} ({unit})"] for each in every],
+        [[one.symbol if one.symbol == "ram" else f"${one.symbol}$", on_paper(one.on_paper), read(one.on_paper),
+          number(one.exact)] for one in rows], (26.0, 24.0, 28.0, 28.0), layer="answers",
+    )  # fmt: skip
     if not confirmed:
-        return left, low + 2.0
-    told = [
-        [" ".join(dict.fromkeys(say(one.what, each) for each in languages(language))), number(one.asked),
-         number(one.found) if math.isfinite(one.found) else "–"]
-        for one in confirmed
-    ]  # fmt: skip
-    right, other = _grid([term("confirmed", language), term("given wish", language), term("by the turn", language)],
-                         told, MARGIN + 112.0, y, (34.0, 20.0, 22.0))  # fmt: skip
-    return (*left, *right), max(low, other) + 2.0
-
-
-def _grid(
-    heads: Sequence[str], cells: Sequence[Sequence[str]], x: float, y: float, widths: Sequence[float]
-) -> tuple[tuple[Primitive, ...], float]:
-    """A small table with a line under its heads; the first column to the left, numbers to the right."""
-    drawn: list[Primitive] = []
-    total = added_up(widths)
-    lines = wrapped(heads[0], 2.6, widths[0] - 1.0, bold=True)
-    for runs in lines[:-1]:  # the longest of the heads may need lines of its own
-        drawn.append(Text(complex(x, y), runs, "start", classes=("cell",)))
-        y += 3.4
-    for i, row in enumerate((heads, *cells)):
-        at = x
-        for k, (text, width) in enumerate(zip(row, widths, strict=True)):
-            runs = lines[-1] if i == k == 0 else rich(text, 2.6 if i == 0 else LETTER, bold=i == 0)
-            place = complex(at if k == 0 else at + width - 1.0, y)
-            if runs:
-                drawn.append(Text(place, runs, "start" if k == 0 else "end", classes=("cell",)))
-            at += width
-        if i == 0:
-            drawn.append(Line(complex(x, y + 1.4), complex(x + total, y + 1.4), strokes.DIMENSION))
-            y += 1.2
-        y += LINE
-    return tuple(drawn), y
+        return lengths
+    turned = table(
+        [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
+        [[" ".join(dict.fromkeys(say(one.what, each) for each in every)), number(one.asked),
+          number(one.found) if math.isfinite(one.found) else "–"] for one in confirmed], (34.0, 20.0, 22.0),
+        layer="answers",
+    )  # fmt: skip
+    return row(lengths, turned, gap=4.0)
 
 
 CHART_WIDTH, CHART_HEIGHT = 150.0, 95.0

@@ -8,13 +8,13 @@ from dataclasses import replace
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import DiagramName, Equation, Sheet
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import without_titles
 from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
 from graphkin.drawing.equations import write_equation
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, map_tree, moved
-from graphkin.drawing.page_text import without_titles
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
@@ -101,7 +101,7 @@ def cropped(
 
 def bare_picture(figure: Drawing) -> Drawing:
     """A figure as large as its ink and without the scene's titles, where the page has them already."""
-    untitled, _ = without_titles(figure.children)
+    untitled = without_titles(figure.children)
     box = (ink_box(untitled) or Box(0.0, 0.0, 10.0, 10.0)).grown(1.0)
     return replace(figure, width=box.width, height=box.height, children=moved(untitled, -box.corners[0]), further=())
 
