@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from functools import cache
 
+from graphkin.checking.report import Report
 from graphkin.construction import Sheet, draft
-from graphkin.drawing import Drawing, figures, sheet_room
+from graphkin.drawing import Drawing
+from graphkin.drawing.figure_pages import figures as single_figures
+from graphkin.drawing.sheet import sheet_page
+from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import mechanism_of
 
-__all__ = ["drafted", "drawn"]
+__all__ = ["drafted", "drawn", "figures"]
 
 
 @cache
@@ -23,3 +27,13 @@ def drawn(name: str, language: str = "en", convention: str = "chinese") -> dict[
     """Its figures, without a report."""
     own, on_sheet = drafted(name)
     return figures(own, on_sheet, None, language, convention)
+
+
+def figures(
+    own: Sheet, on_sheet: Sheet, report: Report | None = None, language: str | None = None,
+    convention: str | None = None,
+) -> dict[str, Drawing]:  # fmt: skip
+    """The single figures of a construction, and the pages of that for the sheet, with its check."""
+    whole = sheet_page(on_sheet, report, language=language, convention=convention)
+    pages = {"sheet": whole, **{f"sheet-{number}": page for number, page in enumerate(whole.further, 2)}}
+    return single_figures(own, language, convention) | pages

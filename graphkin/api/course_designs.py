@@ -24,7 +24,7 @@ from graphkin.api.drawn import draw
 from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import OfScene, Result
 from graphkin.api.sweep import sweep
-from graphkin.drawing import ChartPage
+from graphkin.drawing.chart import ChartPage
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress

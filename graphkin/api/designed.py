@@ -33,7 +33,8 @@ from graphkin.scene.written import Scene
 from graphkin.words import LANGUAGES, Neutral, Phrase, say
 
 if TYPE_CHECKING:
-    from graphkin.drawing import ChartPage, Drawing
+    from graphkin.drawing import Drawing
+    from graphkin.drawing.chart import ChartPage
     from graphkin.drawing.synthesis import Confirmed
     from graphkin.solver.synthesis import FreeDatum, Synthesis
     from graphkin.study.turn import TurnStudy

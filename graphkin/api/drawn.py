@@ -63,7 +63,7 @@ class Drawn(OfScene, Result):
     @cached_property
     def small(self) -> Checked:
         """The same construction at the scales that fit the sheet, which bears its own readings."""
-        from graphkin.drawing import sheet_room
+        from graphkin.drawing.sheet_plan import sheet_room
 
         fitting = replace(self.plan, scales=self.plan.scales_for(sheet_room(self.mechanism)))
         return checked(fitting, self.motion, hand_of(self.mechanism, self.checked.sheet.instrument, self.seed))
@@ -156,19 +156,19 @@ def _always(scene: Mechanism) -> bool:
 
 
 def _mechanism(drawn: Drawn) -> Drawing:
-    from graphkin.drawing import mechanism_figure
+    from graphkin.drawing.figure_pages import mechanism_figure
 
     return mechanism_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
 
 
 def _velocity(drawn: Drawn) -> Drawing:
-    from graphkin.drawing import velocity_figure
+    from graphkin.drawing.figure_pages import velocity_figure
 
     return velocity_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
 
 
 def _acceleration(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing import acceleration_figure
+    from graphkin.drawing.figure_pages import acceleration_figure
 
     if not drawn.checked.sheet.vectors("acceleration"):
         return None
@@ -176,7 +176,7 @@ def _acceleration(drawn: Drawn) -> Drawing | None:
 
 
 def _sheet(drawn: Drawn) -> Drawing:
-    from graphkin.drawing import sheet_page
+    from graphkin.drawing.sheet import sheet_page
 
     small = drawn.small
     return sheet_page(small.sheet, small.report, language=drawn.language, convention=drawn.convention)
@@ -227,7 +227,7 @@ def _rolls(scene: Mechanism) -> bool:
 
 
 def _contacts(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing import acceleration_figure, velocity_figure
+    from graphkin.drawing.figure_pages import acceleration_figure, velocity_figure
 
     other = drawn.checked.at_contacts
     if other is None:

@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-    from graphkin.drawing import ChartPage, Drawing
+    from graphkin.drawing import Drawing
+    from graphkin.drawing.chart import ChartPage
     from graphkin.scene.model import Mechanism
     from graphkin.scene.written import Scene
     from graphkin.table import Table

@@ -16,7 +16,7 @@ from graphkin.files import Json, path_of
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.drawing import ChartPage
+    from graphkin.drawing.chart import ChartPage
     from graphkin.races import Entry, Race
     from graphkin.study.stability import Singularity
     from graphkin.table import Table

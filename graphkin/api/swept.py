@@ -27,7 +27,8 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     import xarray
 
-    from graphkin.drawing import ChartPage, Drawing
+    from graphkin.drawing import Drawing
+    from graphkin.drawing.chart import ChartPage
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
     from graphkin.study.quantities import Quantity

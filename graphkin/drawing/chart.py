@@ -23,8 +23,7 @@ from graphkin.drawing.embedded import face_rules, families
 from graphkin.drawing.font import FAMILY, Style, holds
 from graphkin.drawing.font_widths import width
 from graphkin.drawing.ink.primitives import Primitive, Stroke, Text
-from graphkin.drawing.place.labels import Label, Mark
-from graphkin.drawing.place.obstacles import Obstacles
+from graphkin.drawing.place.labels import Label, Mark, Obstacles
 from graphkin.drawing.place.placement import place
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Kept

@@ -11,8 +11,7 @@ from functools import cached_property
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.conventions import Letters, pole
-from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage
-from graphkin.drawing.parts.polygon_points import NamedPoint, named_points
+from graphkin.drawing.parts.polygon_on_page import SAME, NamedPoint, PolygonOnPage, named_points
 from graphkin.scene.symbol import PointRef
 
 __all__ = ["EndLetters", "Markup", "names_in_letters"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from graphkin.checking.report import Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
@@ -10,9 +9,9 @@ from graphkin.drawing.headings import FIGURE_WORDS, describe, dimensions_in, dri
 from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.scans import background_piece, scan_piece
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, joined, moved_piece
-from graphkin.drawing.sheet import background_piece, scan_piece, sheet_page
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages
 
@@ -73,25 +72,8 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     )  # fmt: skip
 
 
-def figures(
-    sheet: Sheet,
-    sheet_a4: Sheet | None = None,
-    report: Report | None = None,
-    language: str | None = None,
-    convention: str | None = None,
-) -> dict[str, Drawing]:
-    """All figures of a scene by name: "mechanism", "velocity", "acceleration" where it was drawn, and "sheet" where its
-    own drawing is given (``sheet_a4``, drafted in ``sheet_room(scene)``), with "sheet-2" where it goes on.
-
-    ``report`` is the check of that drawing.
-    """
-    made = {
-        "mechanism": mechanism_figure(sheet, language=language, convention=convention),
-        "velocity": velocity_figure(sheet, language=language, convention=convention),
-    }
-    if sheet.vectors("acceleration"):
-        made["acceleration"] = acceleration_figure(sheet, language=language, convention=convention)
-    if sheet_a4 is not None:
-        made["sheet"] = whole = sheet_page(sheet_a4, report, language=language, convention=convention)
-        made.update({f"sheet-{number}": page for number, page in enumerate(whole.further, 2)})
-    return made
+def figures(sheet: Sheet, language: str | None = None, convention: str | None = None) -> dict[str, Drawing]:
+    """The figures of a sheet by name: "mechanism", "velocity", and "acceleration" where it was drawn."""
+    names: list[DiagramName] = ["mechanism", "velocity", "acceleration"]
+    shown = names if sheet.vectors("acceleration") else names[:2]
+    return {name: _figure(sheet, name, language, convention) for name in shown}

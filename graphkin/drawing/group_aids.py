@@ -16,8 +16,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Group, Line, Polyline, Primitive, Text
 from graphkin.drawing.ink.symbols import arrowhead
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.parts.polygon_points import step_number
+from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place, step_number
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import symbol

@@ -13,8 +13,7 @@ from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page
 from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.ink.primitives import Group, Primitive, Run, Text, moved
-from graphkin.drawing.parts.coriolis import CoriolisTerm
-from graphkin.drawing.parts.insets import INSET, coriolis_row, per_row
+from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups
 from graphkin.drawing.tables import TableRow, readings_table, set_lines
 from graphkin.drawing.text import fitted, plain

@@ -9,7 +9,6 @@ from functools import cache
 from itertools import islice, product
 
 from graphkin.checking.report import Report
-from graphkin.checking.scans import judge_scans
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN
@@ -25,13 +24,14 @@ from graphkin.drawing.headings import (
     term,
 )
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Scan, Stroke, Text, moved, walk
+from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text, moved, walk
 from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
-from graphkin.drawing.parts.coriolis import CoriolisTerm
-from graphkin.drawing.parts.insets import INSET, coriolis_row, mechanism_detail, per_row, polygon_with_insets
+from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
+from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.scans import background_piece
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
@@ -43,7 +43,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.written_lines import written_lines
 from graphkin.words import languages, word
 
-__all__ = ["background_piece", "scan_piece", "sheet_page"]
+__all__ = ["sheet_page"]
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
@@ -284,39 +284,3 @@ def _equations(
     return joined(parts), lines[count:], senses[len(shown) :]
 
 
-READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
-OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
-
-
-def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
-    """The scene's picture, cut to a panel (mm, y down) in which the world's origin lies at ``origin``."""
-    under = sheet.scene.background
-    if under is None:
-        return Piece()
-    mm = 1 / sheet.scales.length
-    corner, step = (z.conjugate() * mm for z in (under.corner, under.step))
-    scan = Scan(origin + corner, step, under.width, under.height, under.kind, under.data, panel.corners)
-    return Piece({"background": (scan,)})
-
-
-def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) -> Piece:
-    """The scans of a figure, cut to a panel (mm, y down) in which the pole, or the world's origin, lies at ``origin``:
-    the picture, if there is one, and the lines as they were read, the one that is off bold and with a name."""
-    under: list[Primitive] = []
-    lines: list[Primitive] = []
-    for judged in judge_scans(sheet, diagram):
-        scan = judged.scan
-        if scan.data:
-            corner, step = (z.conjugate() for z in (judged.corner, judged.step))
-            under.append(Scan(origin + corner, step, scan.width, scan.height, scan.kind, scan.data, panel.corners))
-        for line in judged.lines:
-            ends = panel.clip(origin + line.tail.conjugate(), origin + line.tip.conjugate())
-            if ends is None:
-                continue
-            wrong = line is judged.off
-            drawn: tuple[Primitive, ...] = (Line(*ends, OFF if wrong else READ),)
-            if wrong:
-                at = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j
-                drawn += (Text(at, plain(line.name, 3.0), "start", OFF.colour, classes=("label", "off")),)
-            lines.append(Group(drawn, id=f"read-{line.name.replace('/', '-').replace('@', '')}", classes=("read",)))
-    return Piece({"background": tuple(under), "answers": tuple(lines)} if under or lines else {})

@@ -21,7 +21,7 @@ from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.forces import force_scale
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.drawing import figures
+from graphkin.drawing.figure_pages import figures
 from graphkin.errors import Unsolvable
 from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, ChartPage, Stroke, Text
-from graphkin.drawing.chart import Shape, add_labels, add_panel, add_words, count_powers, look, marker
+from graphkin.drawing import Box, Stroke, Text
+from graphkin.drawing.chart import ChartPage, Shape, add_labels, add_panel, add_words, count_powers, look, marker
 from graphkin.drawing.text import rich, wrapped
 from graphkin.races.run import Race
 from graphkin.races.timing import Entry

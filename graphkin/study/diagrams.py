@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.construction import Plan, Sheet, execute, plan
-from graphkin.drawing import Box, ChartPage, Drawing
-from graphkin.drawing.chart import add_legend, add_panel, add_words, look
+from graphkin.drawing import Box, Drawing
+from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.drawing import Box, ChartPage
+from graphkin.drawing import Box
 from graphkin.drawing.chart import (
     BEHIND,
     SOLID_AND_DASHED,
+    ChartPage,
     add_labels,
     add_legend,
     add_panel,

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.sheet import next_of_series
-from graphkin.drawing import Box, ChartPage
-from graphkin.drawing.chart import add_legend, add_panel, add_words
+from graphkin.drawing import Box
+from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words
 from graphkin.files import Json
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.over_time import time_span

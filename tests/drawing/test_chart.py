@@ -11,9 +11,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphkin.drawing import Box, ChartPage
+from graphkin.drawing import Box
 from graphkin.drawing.chart import (
     SOLID_AND_DASHED,
+    ChartPage,
     add_labels,
     add_legend,
     add_panel,

@@ -13,12 +13,13 @@ from functools import lru_cache
 import pytest
 
 from graphkin.construction import draft
-from graphkin.drawing import Box, Drawing, Text, figures, sheet_room, svg_bytes
+from graphkin.drawing import Box, Drawing, Text, svg_bytes
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import walk
+from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import PAPERS
-from tests.drawn import drafted, drawn
+from tests.drawn import drafted, drawn, figures
 
 SVG = "{http://www.w3.org/2000/svg}"
 GUIDE = "sixbar-guide-40deg"

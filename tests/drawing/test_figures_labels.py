@@ -10,11 +10,13 @@ import pytest
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import compare
 from graphkin.construction import draft
-from graphkin.drawing import figures, sheet_room, svg_bytes
+from graphkin.drawing import svg_bytes
+from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import AngleDriver
 from tests import EVERYTHING
+from tests.drawn import figures
 
 POSITIONS = 24 if EVERYTHING else 3
 # all positions of all scenes take minutes; else each scene stands in one of three

@@ -9,12 +9,12 @@ import pytest
 
 from graphkin import draw
 from graphkin.construction import draft, plan
-from graphkin.drawing import Text, sheet_room
+from graphkin.drawing import Text
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.ink.primitives import Group, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.place.piece import ink_box
-from graphkin.drawing.sheet_plan import sheet_plan
+from graphkin.drawing.sheet_plan import sheet_plan, sheet_room
 from graphkin.drawing.tables import given_lengths, table_rows
 from graphkin.scene import mechanism_of
 from tests.drawn import drafted

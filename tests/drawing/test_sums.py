@@ -29,9 +29,9 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
 from graphkin.construction.strokes import Aid
-from graphkin.drawing import sheet_room
 from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.measured_lengths import lengths_measured, scale_of
+from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.sums import (
     divisions,
     factors_of,

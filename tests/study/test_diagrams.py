@@ -10,7 +10,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from graphkin.construction.sheet import next_of_series
-from graphkin.drawing import Box, ChartPage, Drawing, Group, Line, Polyline, Text
+from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Text
+from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import walk
 from graphkin.scene import mechanism_of, mechanism_of_text

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase
+from collections.abc import Sequence
 from typing import TypeAlias
 
 from graphkin.construction.sheet import Sheet
@@ -21,16 +22,21 @@ from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, sense_arc
 from graphkin.drawing.parts.polygon_on_page import ZERO
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, joined
 from graphkin.drawing.text import fitted, symbol
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["CoriolisTerm", "coriolis_inset", "coriolis_terms"]
+__all__ = [
+    "GUTTER", "INSET", "CoriolisTerm", "coriolis_row", "coriolis_terms", "inset_boxes", "named_inset", "per_row",
+]  # fmt: skip
 
 CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
 """A Coriolis vector, its sliding velocity, and the rule for its size."""
 REACH = 8.0  # mm of the arrows
+INSET = 32.0, 26.0  # mm
+GUTTER = 2.0  # mm between insets
 
 
 def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
@@ -82,6 +88,32 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
     group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
     return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
+
+
+def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
+    """Insets of Coriolis terms side by side in a row, as many as fit."""
+    boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
+    return joined(named_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
+
+
+def named_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box) -> Piece:
+    """The inset of a Coriolis term in its box, with its names."""
+    return with_labels(*coriolis_inset(sheet, one, letters, box))
+
+
+def per_row(width: float) -> int:
+    """How many insets stand side by side in a width (mm), one at least."""
+    return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
+
+
+def inset_boxes(strip: Box, count: int) -> list[Box]:
+    """So many boxes of insets in rows from the upper left corner of a strip."""
+    many = per_row(strip.width)
+    corners = [
+        (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
+        for i in range(count)
+    ]
+    return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
 
 
 def _label(markup: str, id: str, at: complex, toward: float, rank: int = 0) -> Label:

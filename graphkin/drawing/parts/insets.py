@@ -16,24 +16,30 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
-from graphkin.drawing.parts.coriolis import CoriolisTerm, coriolis_inset, coriolis_terms
+from graphkin.drawing.parts.coriolis import (
+    GUTTER,
+    INSET,
+    CoriolisTerm,
+    coriolis_terms,
+    inset_boxes,
+    named_inset,
+    per_row,
+)
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import page
 from graphkin.drawing.parts.polygon import polygon_piece, rings, step_numbers
-from graphkin.drawing.parts.polygon_on_page import Detail, PolygonOnPage, crowds, details, side_by_side
-from graphkin.drawing.parts.polygon_points import END_RADIUS
-from graphkin.drawing.place.labels import Label
+from graphkin.drawing.parts.polygon_on_page import END_RADIUS, Detail, PolygonOnPage, crowds, details, side_by_side
+from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.names import with_crowd, with_labels, without
-from graphkin.drawing.place.obstacles import Obstacles, free_boxes, obstacles_of
+from graphkin.drawing.place.obstacles import free_boxes, obstacles_of
 from graphkin.drawing.place.piece import Piece, cut_to, joined, middle_of, moved_piece
 from graphkin.drawing.text import fitted, symbol
 from graphkin.scene.symbol import PointRef
 
-__all__ = ["INSET", "coriolis_row", "mechanism_detail", "per_row", "polygon_with_insets", "strip_height"]
+__all__ = ["mechanism_detail", "polygon_with_insets", "strip_height"]
 
-INSET, SMALL_INSET = (32.0, 26.0), (24.0, 21.0)  # mm
+SMALL_INSET = 24.0, 21.0  # mm
 ROUNDING = 1e-6  # mm
-GUTTER = 2.0
 MOST_DETAILS, MOST_CROWDS = 3, 3
 
 
@@ -79,7 +85,7 @@ def polygon_with_insets(
                 clearer = _with_details(there, polygon_piece(there), more[len(shown) :], more)
                 if len(clearer[2]) < len(crowd):
                     here, boxes, (figure, pieces, _) = there, more, clearer
-    pieces = [*(_labelled_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
+    pieces = [*(named_inset(sheet, one, letters, box) for one, box in zip(shown, boxes, strict=False)), *pieces]
     around = obstacles_of(figure.drawn) + Obstacles(areas=tuple(boxes))
     keyed = {one.step for one in figure.layers["labels"] if isinstance(one, Text) and one.step is not None}
     names = {one.id: text_box(one) for one in figure.layers["labels"] if isinstance(one, Text)}
@@ -101,7 +107,7 @@ def _boxes(
         return found
     if strip is not None:
         many = per_row(strip.width) * int((strip.height + ROUNDING) // (INSET[1] + GUTTER))
-        found = _in_rows(strip, many)[len(taken) : len(taken) + count]
+        found = inset_boxes(strip, many)[len(taken) : len(taken) + count]
     if count > len(found):
         around = obstacles_of(drawn.drawn) + Obstacles(areas=(*taken, *found))
         found += free_boxes(count - len(found), size, panel, around)
@@ -167,30 +173,6 @@ def _points_in(piece: Piece, here: PolygonOnPage, detail: Detail) -> list[Label]
     return [
         one for one in piece.labels if isinstance(one.mark, complex) and abs(one.mark - middle) <= detail.radius + 0.6
     ]
-
-
-def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
-    """Insets of Coriolis terms side by side in a row, as many as fit."""
-    boxes = _in_rows(row, min(len(terms), per_row(row.width)))
-    return joined(_labelled_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
-
-
-def _labelled_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box) -> Piece:
-    return with_labels(*coriolis_inset(sheet, one, letters, box))
-
-
-def per_row(width: float) -> int:
-    """How many insets stand side by side in a width (mm), one at least."""
-    return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
-
-
-def _in_rows(strip: Box, count: int) -> list[Box]:
-    many = per_row(strip.width)
-    corners = [
-        (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
-        for i in range(count)
-    ]
-    return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
 
 
 def strip_height(sheet: Sheet, diagram: DiagramName, width: float) -> float:

@@ -19,11 +19,9 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
-from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place
-from graphkin.drawing.parts.polygon_points import named_points, points, step_number
-from graphkin.drawing.place.labels import Label
+from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, named_points, points, same_place, step_number
+from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.meeting import Flags, Points, meets
-from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import Piece, joined
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol

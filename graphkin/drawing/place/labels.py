@@ -1,5 +1,5 @@
-"""What a label is, the places around its mark where it could stand, ring by ring, what each costs in looks, and whether
-labels at two of them are in each other's way.
+"""What a label is and what stands in its way, the places around its mark where it could stand, ring by ring, what each
+costs in looks, and whether labels at two of them are in each other's way.
 
 The places of all labels are made together, as arrays.
 """
@@ -21,8 +21,8 @@ from graphkin.plane import cross
 
 __all__ = [
     "LEADER_FROM", "LEADER_LEAST", "LEADER_SPACE", "LED_RINGS", "LOTS", "RINGS", "Candidates", "Columns", "Label",
-    "LabelForms", "LabelPosition", "LabelPositions", "LabelRequest", "LabelRequests", "Mark", "Placed", "candidates",
-    "ends", "leader_forms", "led_candidates",
+    "LabelForms", "LabelPosition", "LabelPositions", "LabelRequest", "LabelRequests", "Mark", "Obstacles", "Placed",
+    "candidates", "ends", "leader_forms", "led_candidates",
 ]  # fmt: skip
 
 LOTS = (0, 40, 120, 240, 720)
@@ -97,6 +97,30 @@ class Label:
     def request(self, box: Box) -> LabelRequest:
         """What it asks for with a box of this size."""
         return LabelRequest(*ends(self.mark), complex(box.width, box.height) / 2, self.toward)
+
+
+@dataclass(frozen=True)
+class Obstacles:
+    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
+    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links, ``vectors``
+    those of these beyond which no letter of a point is to stand without a leader."""
+
+    solid: tuple[Segment, ...] = ()
+    dashed: tuple[Segment, ...] = ()
+    areas: tuple[Box, ...] = ()
+    writing: tuple[Box, ...] = ()
+    thick: tuple[Segment, ...] = ()
+    vectors: tuple[Segment, ...] = ()
+
+    def __add__(self, other: Obstacles) -> Obstacles:
+        return Obstacles(
+            self.solid + other.solid,
+            self.dashed + other.dashed,
+            self.areas + other.areas,
+            self.writing + other.writing,
+            self.thick + other.thick,
+            self.vectors + other.vectors,
+        )
 
 
 class LabelRequests:

@@ -5,7 +5,6 @@ along the edges of a panel that nothing drawn or written takes.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from itertools import pairwise
 
 from graphkin.drawing.box import Box
@@ -22,38 +21,15 @@ from graphkin.drawing.ink.primitives import (
     page_direction,
     walk,
 )
+from graphkin.drawing.place.labels import Obstacles
 
-__all__ = ["CLEAR", "Obstacles", "free_boxes", "obstacles_of"]
+__all__ = ["CLEAR", "free_boxes", "obstacles_of"]
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
 SMALL, TINY = 12.0, 3.2
 THICK = 0.3  # mm: lines as wide as this are vectors and links
 _ARC_STEP = math.radians(12)
-
-
-@dataclass(frozen=True)
-class Obstacles:
-    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
-    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links, ``vectors``
-    those of these beyond which no letter of a point is to stand without a leader."""
-
-    solid: tuple[Segment, ...] = ()
-    dashed: tuple[Segment, ...] = ()
-    areas: tuple[Box, ...] = ()
-    writing: tuple[Box, ...] = ()
-    thick: tuple[Segment, ...] = ()
-    vectors: tuple[Segment, ...] = ()
-
-    def __add__(self, other: Obstacles) -> Obstacles:
-        return Obstacles(
-            self.solid + other.solid,
-            self.dashed + other.dashed,
-            self.areas + other.areas,
-            self.writing + other.writing,
-            self.thick + other.thick,
-            self.vectors + other.vectors,
-        )
 
 
 def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:

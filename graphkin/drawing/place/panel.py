@@ -27,6 +27,7 @@ from graphkin.drawing.place.labels import (
     LabelRequest,
     LabelRequests,
     Mark,
+    Obstacles,
     candidates,
     ends,
     led_candidates,
@@ -44,7 +45,6 @@ from graphkin.drawing.place.meeting import (
     sides_around,
     touching,
 )
-from graphkin.drawing.place.obstacles import Obstacles
 
 __all__ = ["FORBIDDEN", "TANGLED", "InkRaster", "LabelPanel", "least_cost"]
 

@@ -31,11 +31,11 @@ from graphkin.drawing.place.labels import (
     LabelPosition,
     LabelPositions,
     Mark,
+    Obstacles,
     Placed,
     leader_forms,
 )
 from graphkin.drawing.place.meeting import ON_LINE, Flags, Floats, Indices
-from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.plane import added_up
 

@@ -6,10 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from graphkin.drawing import Box, ChartPage, Stroke, Text
+from graphkin.drawing import Box, Stroke, Text
 from graphkin.drawing.chart import (
     NUMBER,
     SOLID_AND_DASHED,
+    ChartPage,
     Shape,
     add_labels,
     add_legend,
