@@ -108,8 +108,8 @@ def _act(plot: Plot, step: Step, held: str) -> Act | None:
             return replace(act, symbol=seen(act.symbol, held), size=_size(act.size, held))
         case FoundVector() | DirectionLine() | Carried() | PutBack() | Resultant():
             return replace(act, symbol=seen(act.symbol, held))
-        case MeasuredRate(rate, link, vector, bar, value):
-            return RateSeen(rate, link, held, seen(vector, held), bar, value)
+        case MeasuredRate(rate, link, vector, bar, value, mm):
+            return RateSeen(rate, link, held, seen(vector, held), bar, value, mm)
         case ByImage(point, (one, other), link, on_line):
             corners = one.point, other.point, point.point
             return ImageSeen(seen(Symbol(kind, point), held), (to(one), to(other)), corners, link, on_line)

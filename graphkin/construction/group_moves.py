@@ -277,6 +277,6 @@ class GroupMoves(Polygons):
         value *= 1.0 if cross(arm, span) >= 0 else -1.0
         kind = "omega" if order == "velocity" else "alpha"
         self.rates[order][link] = Rate(link, value, None, read, abs(arm))
-        told = MeasuredRate(kind, link, part.symbol, (edge.start.point, edge.end.point), value)  # type: ignore[arg-type]
+        told = MeasuredRate(kind, link, part.symbol, (edge.start.point, edge.end.point), value, read)  # type: ignore[arg-type]
         self.board.do(order, told)
         self._spread(order, link, group)

@@ -10,7 +10,7 @@ from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
-from graphkin.words.written import amount, computed, increase, on_paper, product, true_minus
+from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
     "AddedRate",
@@ -154,13 +154,15 @@ class Translated:
 
 @dataclass(frozen=True)
 class MeasuredRate:
-    """An angular rate (rad/s, rad/s2; counter-clockwise positive) measured from a vector and the bar it belongs to."""
+    """An angular rate (rad/s, rad/s2; counter-clockwise positive) measured from a vector, ``mm`` long on paper, and the
+    bar it belongs to."""
 
     rate: Literal["omega", "alpha"]
     link: str
     vector: Symbol
     bar: tuple[str, str]
     value: float
+    mm: float
 
 
 @dataclass(frozen=True)
@@ -245,7 +247,7 @@ class SeenFrom:
 
 @dataclass(frozen=True)
 class RateSeen:
-    """How a link turns as seen from a held one (rad/s, rad/s2), measured from a vector and its bar."""
+    """How a link turns as seen from a held one (rad/s, rad/s2), measured from a vector, ``mm`` long, and its bar."""
 
     rate: Literal["omega", "alpha"]
     link: str
@@ -253,6 +255,7 @@ class RateSeen:
     vector: Symbol
     bar: tuple[str, str]
     value: float
+    mm: float
 
 
 @dataclass(frozen=True)
@@ -347,15 +350,16 @@ def polygon_phrase(act: InPolygon) -> Phrase:
             return Phrase(key, (vector, end_of(start), f"{link}{held}"))
         case PlanDrawn() | PlanTravel() | PlanTried():
             return _on_plan(act)
-        case RateSeen(rate, link, held, vector, bar, value):
-            return polygon_phrase(MeasuredRate(rate, f"{link}{held}", vector, bar, value))
+        case RateSeen(rate, link, held, vector, bar, value, mm):
+            return polygon_phrase(MeasuredRate(rate, f"{link}{held}", vector, bar, value, mm))
         case AddedRate(rate, link, known, of, value, apart):
             signed = ("+", link + known) if link == of else ("−", known + link)
             told = increase(value, apart if link == of else -apart)
             return Phrase(f"added {rate}", (link, known, *signed, told))
-        case MeasuredRate(rate, link, vector, bar, value):
+        case MeasuredRate(rate, link, vector, bar, value, mm):
             turning = "cw" if value < 0.0 else "ccw" if value > 0.0 else "zero"
-            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), computed(abs(value), 4)))
+            carried = min(MOST - 1, figures(on_paper(mm))) if mm else MOST - 1
+            return Phrase(f"{rate} {turning}", (link, vector, "".join(bar), computed(abs(value), carried)))
 
 
 def end_of(vector: Symbol | None) -> Phrase:

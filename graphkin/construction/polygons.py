@@ -351,7 +351,7 @@ class Polygons(Plot):
         self.rates[order][edge.link] = Rate(
             edge.link, sense * size if own is None else own, symbol, read, abs(arm)
         )
-        self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size))
+        self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size, read))
         self._spread(order, edge.link, group)
 
 

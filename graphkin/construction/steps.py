@@ -27,7 +27,15 @@ from graphkin.construction.mechanism_acts import (
     TrialPositions,
     mechanism_phrase,
 )
-from graphkin.construction.polygon_acts import FoundVector, InPolygon, LaidOff, Superposed, polygon_phrase
+from graphkin.construction.polygon_acts import (
+    FoundVector,
+    InPolygon,
+    LaidOff,
+    MeasuredRate,
+    RateSeen,
+    Superposed,
+    polygon_phrase,
+)
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
@@ -55,7 +63,7 @@ class ReadOff:
 Cause = Act | Placing | ReadOff
 
 
-_WITH_LENGTH = (LaidOffTravel, ArcOnPath, GuideTouching, LaidOff, FoundVector)
+_WITH_LENGTH = (LaidOffTravel, ArcOnPath, GuideTouching, LaidOff, FoundVector, MeasuredRate, RateSeen)
 _Scalable = TypeVar("_Scalable", bound=Act)
 
 

@@ -3,15 +3,27 @@ direction, and the lines that close it."""
 
 from __future__ import annotations
 
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceTerm, ForceVector, MomentEquation
+import math
+from decimal import Decimal
+from typing import NamedTuple
+
+from graphkin.construction.forces.force_sheet import (
+    Arm,
+    ForceGroup,
+    ForceSheet,
+    ForceTerm,
+    ForceVector,
+    MomentEquation,
+)
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, force_letters
 from graphkin.drawing.headings import written
 from graphkin.words import Neutral, Phrase
-from graphkin.words.written import amount, on_paper, pointing, to_lay_off
+from graphkin.words.written import FINER, amount, is_quotient, on_paper, pointing, to_lay_off
 
-__all__ = ["arm_lines", "closed_by", "corners", "laid_lines", "laid_off"]
+__all__ = ["DIGITS", "Balance", "arm_lines", "balance", "closed_by", "corners", "laid_lines", "laid_off"]
 
+DIGITS = 5  # figures of a computed force, moment or arm
 ZERO = 1e-8  # mm
 SAME = 1e-6  # mm
 APART = 0.3  # mm: corners that are nearer bear one letter
@@ -56,6 +68,12 @@ def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Let
     scale = written(amount(per, 12))
     for v in laid_off(group):
         value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
+        of = (m for m in group.moments if m.symbol == v.symbol and (m.part == v.part or not v.part))
+        by_moments = next((m for m in of if abs(abs(m.value) / forces.per_mm - abs(v.span)) < SAME), None)
+        if by_moments is not None:
+            # as their sum gave it
+            value = amount(float(abs(balance(sheet, by_moments).value)), DIGITS)
+            length = length if is_quotient(length, value, amount(per, 12)) else on_paper(float(value) / per)
         lines.append(
             f"{_ends(group, v)}{_name(v, letters)} = {written(value)} {units.force} ÷ {scale} {units.force}/mm = "
             f"{written(length)} mm,  {pointing(v.span)}°"
@@ -91,6 +109,38 @@ def _ends(group: ForceGroup, vector: ForceVector) -> str:
     """``ab = ``: the corners between which a force stands; "" where they bear one letter."""
     one, two = (corner_at(group, place).strip("$") for place in (vector.tail, vector.tip))
     return f"${one}{two}$ = " if one != two else ""
+
+
+class Balance(NamedTuple):
+    """A moment equation in numbers: its terms, each a sign and factors, force and arm (m) or a couple; the arm of the
+    unknown ("" where it is a couple), and what the others give for it (in the file's force, or that times m)."""
+
+    terms: tuple[tuple[str, tuple[str, ...]], ...]
+    arm: str
+    value: Decimal
+
+
+def balance(sheet: Sheet, one: MomentEquation) -> Balance:
+    """The equation with as many figures of its arms, at last of its forces, as it wants to give what is drawn; what it
+    gives is true as it is written."""
+    drawn = amount(abs(one.value) / sheet.scene.units.newtons, DIGITS)
+    tried = [_balance(sheet, one, carried, of_forces) for of_forces in FINER for carried in FINER]
+    return next((b for b in tried if amount(float(abs(b.value)), DIGITS) == drawn), tried[0])
+
+
+def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) -> Balance:
+    def metres(arm: Arm | None) -> str:
+        return "" if arm is None else amount(abs(arm.mm) * sheet.scales.length, carried)
+
+    terms = []
+    for term in one.terms:
+        # a force has its sense from its arm, a couple from itself
+        size = amount(abs(term.size) / sheet.scene.units.newtons, of_forces)
+        turn = term.arm.mm if term.arm else term.size
+        terms.append(("-" if turn < 0 else "+", (size, metres(term.arm)) if term.arm else (size,)))
+    total = -sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
+    arm = metres(one.arm)
+    return Balance(tuple(terms), arm, total / Decimal(arm) if arm else total)
 
 
 def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> list[Phrase]:

@@ -3,9 +3,7 @@ equation, and what was read off."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from decimal import Decimal
 from typing import NamedTuple
 
 from graphkin.construction.forces.force_sheet import (
@@ -16,12 +14,11 @@ from graphkin.construction.forces.force_sheet import (
     Inertia,
     Lever,
     MomentEquation,
-    MomentTerm,
 )
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.equations import SumTerm
-from graphkin.drawing.force_chain import arm_lines
+from graphkin.drawing.force_chain import DIGITS, arm_lines, balance
 from graphkin.drawing.headings import number, written
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
@@ -33,7 +30,6 @@ __all__ = [
     "sum_terms",
 ]  # fmt: skip
 
-DIGITS = 5
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 
 
@@ -139,31 +135,19 @@ def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) ->
     units = sheet.scene.units
     scene = sheet.scene
     about = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
-    terms = [_term(sheet, t) for t in one.terms]
-    # the result is that of the numbers as they stand there
-    total = sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
+    terms, arm, total = balance(sheet, one)
     whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
     unit = f"{units.force}·m"
-    if one.arm is None:
+    if not arm:
         whole += f" + {name}"
     else:
-        arm = amount(abs(one.arm.mm) * sheet.scales.length, DIGITS)
         # its sense is that in which it comes out positive
-        whole += f" {'−' if total > 0 else '+'} {name}·{written(arm)}"
-        total = -abs(total / Decimal(arm))
+        whole += f" {'−' if total < 0 else '+'} {name}·{written(arm)}"
+        total = abs(total)
         unit = units.force
-    value = number(float(-total), DIGITS) if total else "0"
+    value = number(float(total), DIGITS) if total else "0"
     shown = whole.strip().removeprefix("+ ")
     return f"$ΣM_{{{about}}}$ = {shown} = 0;  {name} = {value} {unit}"
-
-
-def _term(sheet: Sheet, one: MomentTerm) -> tuple[str, tuple[str, ...]]:
-    """The sign of a term, and its factors as they are written: force and arm (m), or a couple."""
-    newtons = sheet.scene.units.newtons
-    if one.arm is None:
-        return ("-" if one.size < 0 else "+"), (amount(abs(one.size) / newtons, DIGITS),)
-    arm = amount(abs(one.arm.mm) * sheet.scales.length, DIGITS)
-    return ("-" if one.arm.mm < 0 else "+"), (amount(one.size / newtons, DIGITS), arm)
 
 
 def sum_terms(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[SumTerm]:

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.conventions import force_letters
+from graphkin.drawing.conventions import force_letters, letters_of
+from graphkin.drawing.force_chain import balance
+from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.scene.symbol import Symbol
+from graphkin.words.written import amount, is_quotient
 from tests.solver.test_forces import loaded, scene_of
 
 SHAPER, ENGINE = scene_of("shaper-scheme-2"), scene_of("engine")
@@ -26,6 +31,14 @@ LABELLED = [
     )),
 ]  # fmt: skip
 SVG = "{http://www.w3.org/2000/svg}"
+
+
+def stages_of(name: str) -> tuple[ForceStage, ...]:
+    checked = graphkin.check(name)
+    assert checked.forces is not None
+    sheet = checked.sheet
+    sheet = replace(sheet, scales=replace(sheet.scales, force=checked.forces.per_mm))
+    return force_stages(sheet, checked.forces, letters_of(sheet, "chinese"), "en")
 
 
 def vectors(svg: bytes) -> dict[str, complex]:
@@ -109,3 +122,33 @@ def test_the_lever_tells_both_values() -> None:
     page = graphkin.draw(SHAPER, figures=["lever"]).figures["lever"]
     text = "".join(ET.fromstring(svg_bytes(page)).itertext())
     assert 2 == text.count("−539.79")
+
+
+@pytest.mark.parametrize("name", ["rocker-return-spring", "boom-lifted", "engine-gas-force", "shaper-forces"])
+def test_what_a_sum_of_moments_gives_is_laid_off_as_it_stands_there(name: str) -> None:
+    compared = 0
+    for stage in stages_of(name):
+        lines = [line for step in stage.steps for line in step.work]
+        sums = [re.search(r"(\$F[^$]*\$) = ([\d.e-]+) k?N$", line) for line in lines if "ΣM" in line]
+        given = {m[1]: m[2] for m in sums if m}
+        for line in lines:
+            laid = re.search(r"(\$F[^$]*\$) = ([\d.e-]+) k?N ÷ ([\d.]+) \S+ = ([\d.]+) mm", line)
+            if laid and laid[1] in given:
+                assert given[laid[1]] == laid[2]
+                assert is_quotient(laid[4], laid[2], laid[3])
+                compared += 1
+    assert compared
+
+
+@pytest.mark.parametrize("name", ["rocker-return-spring", "boom-lifted", "engine-gas-force", "shaper-forces"])
+def test_a_sum_of_moments_gives_in_figures_what_is_drawn(name: str) -> None:
+    checked = graphkin.check(name)
+    assert checked.forces is not None
+    newtons, found = checked.mechanism.units.newtons, []
+    for state in checked.forces.states:
+        for one in (m for group in state.groups for m in (*group.moments, *group.couples) if m.value):
+            terms, arm, value = balance(checked.sheet, one)
+            total = sum(float(f"{sign}1") * math.prod(map(float, factors)) for sign, factors in terms)
+            assert -total / float(arm or 1) == pytest.approx(float(value), rel=1e-12)
+            found.append((amount(abs(one.value) / newtons, 5), amount(abs(float(value)), 5)))
+    assert [drawn for drawn, _ in found] == [written for _, written in found]

@@ -436,3 +436,13 @@ def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, n
     sheet, _ = drafted(name)
     lines = written_lines(sheet, letters_of(sheet, "us"), language)
     assert said in [line.replace("\u00a0", " ") for line in lines if isinstance(line, str)]
+
+
+@pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-420rpm", "double-butterfly"])
+def test_a_step_tells_a_measured_rate_as_its_quotient_gives_it(name):
+    sheet, _ = drawn(name)
+    told = {(s.act.rate, s.act.link): s.phrase.args[3] for s in sheet.steps if isinstance(s.act, MeasuredRate)}
+    rates = [s.act for s in sheet.steps if isinstance(s.act, MeasuredRate) and rate_sum(sheet, s.act)]
+    quotients = {(a.rate, a.link): re.search(r"= ([\d.e⁻−-]+) rad", rate_sum(sheet, a))[1] for a in rates}
+    assert quotients
+    assert quotients == {key: told[key] for key in quotients}
