@@ -21,7 +21,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Follower, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
-from graphkin.solver.position_values import transmission
+from graphkin.solver.quantities import transmission
 from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
 from graphkin.words import Phrase
 

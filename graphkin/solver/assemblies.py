@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array, Pose
+from graphkin.solver.quantities import Posed
 from graphkin.structure import (
     Cluster,
     Driven,
@@ -57,9 +59,7 @@ def reading(structure: Structure, poses: Mapping[str, Pose], coordinate: Coordin
     kind, name = coordinate
     if kind == "angle":
         return np.atleast_1d(np.angle(poses[name].u))
-    slide = structure.slide(name)
-    guide = poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
-    return np.atleast_1d(((poses[slide.a].z - guide.z) * np.conj(guide.u)).real)
+    return np.atleast_1d(Posed(structure, poses, structure.slides).travel(structure.slide(name)))
 
 
 def choose_forms(structure: Structure) -> dict[int, Array]:
@@ -358,14 +358,11 @@ def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Ar
             same = same or far < SAME
         if not same:
             rows.append(r)
-    slides = [p for p in group.pairs if isinstance(p, Slide) and p.a in names and p.b in names]
+    slides = tuple(p for p in group.pairs if isinstance(p, Slide) and p.a in names and p.b in names)
+    posed = Posed(structure, solved.poses, slides)
 
     def positive(row: int) -> float:
-        travel = 0.0
-        for s in slides:
-            guide = solved.poses[s.b].fixed(s.guide.through, s.guide.direction)
-            travel += float(((solved.poses[s.a].z - guide.z) * np.conj(guide.u)).real[row])
-        return travel
+        return added_up(float(posed.travel(slide)[row]) for slide in slides)
 
     kept: list[int] = []
     for r in sorted(rows, key=positive, reverse=True):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.position_values import pole
+from graphkin.solver.quantities import pole
 
 __all__ = ["Centrode", "centrode", "instant_centre"]
 

@@ -23,8 +23,7 @@ from graphkin.solver.expressions import Name
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import CLEAR, PreparedMechanism, prepare
-from graphkin.solver.program import GIVEN, program_of
-from graphkin.solver.quantities import bounds, formulas
+from graphkin.solver.program import GIVEN, bounds, formulas, program_of
 from graphkin.solver.reach import range_from
 from graphkin.structure import Dyad, analyse
 

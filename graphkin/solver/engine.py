@@ -18,7 +18,7 @@ from graphkin.solver.extended_precision import ExtendedPrecision, known_exactly
 from graphkin.solver.followers import follower_inputs, greatest_jerk
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.pose import FIELDS, Array, Pose, rest
-from graphkin.solver.program import GIVEN, Program, program_of
+from graphkin.solver.program import GIVEN, SLACK, Program, program_of
 from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
 
@@ -31,8 +31,6 @@ SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
 TINY = 1e-25
 """The same where the driver's distance from the dead point is known to fifty digits."""
-SLACK = 1.001
-"""For the rounding of the bounds themselves."""
 LOOKED_UP = 4 * GIVEN
 """Relative error of what a law gives."""
 FEW = 4

@@ -11,195 +11,19 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.pose import Array, Pose
+from graphkin.solver.quantities import Posed, value_of_symbol
 from graphkin.solver.rounding import ErrorBound
-from graphkin.structure import Cluster, Slide, Structure, links_of
+from graphkin.structure import Slide, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
-__all__ = ["SLIGHT", "Motion", "Sliding", "evaluate"]
+__all__ = ["SLIGHT", "Motion", "Sliding"]
 
 SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
-
-
-def evaluate(motion: Motion, symbol: Symbol) -> Array:
-    """The value of a symbol (see ``Motion.value``)."""
-    if symbol.kind == "omega":
-        return motion.omega(symbol.link)
-    if symbol.kind == "alpha":
-        return motion.alpha(symbol.link)
-    if symbol.scope == "force":
-        raise CallError(Problem(str(symbol), Phrase("is no motion"), Phrase("forces stand in solve of a scene with")))
-    if symbol.scope != "motion":
-        from graphkin.solver.position_values import position
-
-        return position(motion.structure, motion.poses, symbol)
-    assert symbol.of is not None
-    if symbol.kind in ("v", "a"):
-        one = motion.point(symbol.of.point, symbol.of.link)
-        if symbol.to is None:
-            return np.asarray(one.v if symbol.kind == "v" else one.a)
-        two = motion.point(symbol.to.point, symbol.to.link)
-        return np.asarray(one.v - two.v if symbol.kind == "v" else one.a - two.a)
-    curved = symbol.to is not None and symbol.of.point == symbol.to.point and _curved(motion, symbol)
-    if curved and symbol.kind in ("an", "ar"):
-        assert symbol.to is not None
-        whole = _sliding(motion, symbol, symbol.of, symbol.to)
-        across = 1j * motion.poses[curved.b].u * curved.guide.direction
-        bent = across * dot(across, whole)
-        return np.asarray(bent if symbol.kind == "an" else whole - bent)
-    if symbol.to is not None and symbol.of.point == symbol.to.point and _touches(motion, symbol.of, symbol.to):
-        return _at_contact(motion, symbol, symbol.of, symbol.to)
-    hinge = _hinge(motion, symbol.of, symbol.to)
-    if symbol.to is not None and hinge is not None:
-        return _turned(motion, symbol, symbol.of, symbol.to, hinge)
-    if symbol.kind in ("an", "at"):
-        return _turning(motion, symbol, symbol.of)
-    assert symbol.to is not None
-    return _sliding(motion, symbol, symbol.of, symbol.to)
-
-
-def _curved(motion: Motion, symbol: Symbol) -> Slide | None:
-    """The curved guide on which a point slides, if it does."""
-    assert symbol.of is not None
-    links = {symbol.of.link, symbol.to.link if symbol.to else ""}
-    return next((s for s in motion.slides if s.guide.curvature and s.pin == symbol.of.point and s.b in links), None)
-
-
-def _touches(motion: Motion, of: PointRef, to: PointRef) -> bool:
-    return any(c.name == of.point and {of.link, to.link} == set(c.links) for c in motion.scene.contacts)
-
-
-def _at_contact(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
-    """Coriolis term of the slip at a contact, and what is left of the relative acceleration: along the normal by the
-    curvatures, along the tangent."""
-    contact = next(c for c in motion.scene.contacts if c.name == of.point)
-    one, two = motion.point(of.point, of.link), motion.point(to.point, to.link)
-    coriolis = 2j * motion.poses[to.link].omega * (one.v - two.v)
-    if symbol.kind == "ak":
-        return np.asarray(coriolis)
-    # the centre of a disc lies on the normal
-    disc = contact.round[0]
-    normal = one.z - motion.point(disc.centre, disc.link).z
-    if disc.radius == 0.0 and len(contact.round) > 1:
-        disc = contact.round[1]
-        normal = one.z - motion.point(disc.centre, disc.link).z
-    normal = normal / np.abs(normal)
-    left = one.a - two.a - coriolis
-    across = normal * dot(normal, left)
-    return np.asarray(across if symbol.kind == "an" else left - across)
-
-
-def _is_on(motion: Motion, ref: PointRef, link: str) -> bool:
-    """True where the point is one of the link's, or the link's point under that pin."""
-    holders = motion.scene.holders
-    held = holders.get(ref.point, ())
-    if not held:
-        motion.point(ref.point, ref.link)
-    if ref.link == link:
-        return True
-    own = not ref.link or ref.link in held
-    return own and (link in held or ref.point in motion.link(link).points)
-
-
-def _hinge(motion: Motion, of: PointRef, to: PointRef | None) -> str | None:
-    """The turning pair between the links of two coincident points, where it lies elsewhere."""
-    if to is None or of.point != to.point or not (of.link and to.link) or of.link == to.link:
-        return None
-    links = motion.scene.by_name
-    if not {of.link, to.link} <= set(links):
-        return None
-    return next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
-
-
-def _turned(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, hinge: str) -> Array:
-    """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
-
-    Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
-    part of that turn, or both together, and the Coriolis term of the second link's own rate.
-    """
-    one, base = motion.poses[of.link], motion.poses[to.link]
-    arm = motion.point(of.point, of.link).z - motion.point(hinge, of.link).z
-    rate = one.omega - base.omega
-    normal, tangential = -(rate**2) * arm, 1j * (one.alpha - base.alpha) * arm
-    parts = {"an": normal, "at": tangential, "ar": normal + tangential, "ak": -2 * base.omega * rate * arm}
-    return np.asarray(parts[symbol.kind])
-
-
-def _turning(motion: Motion, symbol: Symbol, of: PointRef) -> Array:
-    """Normal and tangential part of the acceleration of one point of a link about another."""
-    if of.link:
-        motion.link(of.link)
-    frame = motion.scene.frame
-    replacing_links = [name for name in motion.structure.links if name not in motion.scene.by_name]
-    for name in (*(link.name for link in motion.scene.links), *replacing_links):
-        if not _is_on(motion, of, name):
-            continue
-        pose = motion.poses[name]
-        at = motion.point(of.point, name)
-        if symbol.to is not None:
-            if not _is_on(motion, symbol.to, name):
-                continue
-            arm = at.z - motion.point(symbol.to.point, name).z
-        else:
-            pivot = next((p for p in motion.link(name).points if p in frame.points and p != of.point), None)
-            if pivot is None:
-                continue
-            arm = at.z - motion.point(pivot, name).z
-        return np.asarray(-(pose.omega**2) * arm if symbol.kind == "an" else 1j * pose.alpha * arm)
-    wanted = (
-        Phrase("both points must be on one link")
-        if symbol.to
-        else Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
-    )
-    raise CallError(Problem(str(symbol), Phrase("no link makes this part"), wanted))
-
-
-def _sliding(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
-    """Coriolis and sliding part of the acceleration of a point relative to the coincident one of another link."""
-    for ref in (of, to):
-        motion.point(ref.point, ref.link)
-    for pair in motion.slides:
-        block = {pair.a}
-        if pair.slot:
-            block = {pin.of for pin in motion.scene.pins if pin.key == pair.key}
-            block |= {c.round[0].link for c in motion.scene.contacts if c.block == pair.key}
-        for slides, guides in ((of, to), (to, of)):
-            if of.point != to.point or not any(_is_on(motion, slides, name) for name in block):
-                continue
-            # another link that is pinned there too has another rate, and so another Coriolis term
-            if guides.link == pair.b or (not guides.link and _is_on(motion, guides, pair.b)):
-                return _apart(motion, symbol, of, to, pair.b)
-    # links of a group that are drawn as one, seen from one of them
-    together = [{*group.members} for group in motion.structure.groups if isinstance(group, Cluster)]
-    if of.point == to.point and any({of.link, to.link} <= members for members in together):
-        return _apart(motion, symbol, of, to, to.link)
-    pairs = [s for s in motion.slides if s.pin]
-    example = (
-        Phrase(
-            "write for example of kind and pin and other and pin_2",
-            kind=symbol.kind,
-            pin=pairs[0].pin,
-            other=pairs[0].b,
-            pin_2=pairs[0].pin,
-        )
-        if pairs
-        else Phrase("nothing slides here")
-    )
-    raise CallError(
-        Problem(str(symbol), Phrase("these are not coincident points of two links"), example)
-    )
-
-
-def _apart(motion: Motion, symbol: Symbol, of: PointRef, to: PointRef, base: str) -> Array:
-    """Coriolis term by the turning of a link, or what is left of the acceleration of one point relative to another."""
-    first, second = motion.point(of.point, of.link), motion.point(to.point, to.link)
-    coriolis = 2j * motion.poses[base].omega * (first.v - second.v)
-    return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
 
 
 class Sliding(NamedTuple):
@@ -296,41 +120,18 @@ class Motion:
             raise Unsolvable(str(self.status[0]), Problem(self.scene.name or "scene", self.reasons[0]))
         return self
 
+    @cached_property
+    def posed(self) -> Posed:
+        """The links where they are."""
+        return Posed(self.structure, self.poses, self.slides)
+
     def link(self, name: str) -> PlacedLink:
         """A link or the block of a pin.  Raises CallError for an unknown name."""
-        if name in self.structure.links:
-            return self.structure.links[name]
-        if name in self.scene.by_name:
-            return self.scene.by_name[name]
-        raise CallError(
-            Problem(Phrase("link", name=name), Phrase("there is no such link"), did_you_mean(name, self.scene.by_name))
-        )
+        return self.posed.link(name)
 
     def point(self, point: str, link: str = "") -> Pose:
-        """Axes that move with ``link``, their origin at ``point`` of it, or at its point that lies at that pin now.
-
-        Without a link the pin itself: the point of any link that has it, the frame first; of a contact the place where
-        it is made, which runs along both outlines.
-        """
-        of = self.link(link or self._holder(point))
-        pose = self.poses[of.name]
-        if point in of.points:
-            return pose.fixed(of.points[point])
-        at = self.link(self._holder(point))
-        return pose.carrying(self.poses[at.name].fixed(at.points[point]).z)
-
-    def _holder(self, point: str) -> str:
-        """Of the links that have a point the frame, or the first in the order of solution, which is told best; of a
-        point of contact what stands for the contact."""
-        if point in self.scene.holders:
-            order = {name: i for i, e in enumerate(self.structure.elements) for name in links_of(e)}
-            order[self.scene.frame.name] = -1
-            return min(self.scene.holders[point], key=lambda name: order.get(name, len(order)))
-        held = next((name for name, link in self.structure.links.items() if point in link.points), None)
-        if held is None:
-            known = did_you_mean(point, [*self.scene.holders, *(c.name for c in self.scene.contacts)])
-            raise CallError(Problem(Phrase("point of point", point=point), Phrase("there is no such point"), known))
-        return held
+        """Axes that move with a point of a link, or with its place that lies at that pin now (see ``Posed.point``)."""
+        return self.posed.point(PointRef(point, link))
 
     def position(self, point: str, link: str = "") -> Array:
         """complex, shape (n,) (m)."""
@@ -381,7 +182,7 @@ class Motion:
                     did_you_mean(key, [s.key for s in self.slides]),
                 )
             )
-        guide = self.poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
+        guide = self.posed.guide(pair)
         seen = guide.inverse().of(self.poses[pair.a])
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)
 
@@ -426,4 +227,4 @@ class Motion:
 
         Raises CallError where the symbol names nothing here.
         """
-        return evaluate(self, symbol)
+        return value_of_symbol(self.posed, symbol)

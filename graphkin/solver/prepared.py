@@ -23,8 +23,7 @@ from graphkin.solver.force_values import force_heads, force_rows
 from graphkin.solver.joints import Drive, turned
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, Array
-from graphkin.solver.program import GIVEN, DimensionedProgram, program_of
-from graphkin.solver.quantities import Units, bounds, formulas
+from graphkin.solver.program import GIVEN, DimensionedProgram, Units, bounds, formulas, program_of
 from graphkin.solver.reach import driver_range
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Structure, in_stages
@@ -379,7 +378,7 @@ def prepare(
     Parameters
     ----------
     scene : a scene, or its structure
-    asked : columns by name, as in ``graphkin.solver.quantities.formulas``: "B", "v_B", "a_B@3", "omega_3", ...
+    asked : columns by name, as in ``graphkin.solver.program.Column``: "B", "v_B", "a_B@3", "omega_3", ...
     units : what one metre, one radian and one metre in rates are in the units of the columns
     bounded : after all others a column for each name, of how far rounding may have moved its values
     along : the range of its first driver, where that is known already

@@ -1,181 +1,386 @@
-"""Formulas of what may be asked for by name: points, velocities, accelerations, angles and travels."""
+"""Quantities by their symbols, from the poses of the links: an entry a kind.
+
+The poses are arrays over positions, or formulas (``graphkin.solver.program``): the entries of `VALUES` up to ``s`` take
+either, so that a prepared mechanism and a motion have their velocities from the same line.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import cast
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Generic
+
+import numpy as np
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver.engine import SLACK
-from graphkin.solver.expressions import PoseFormula, Real, Vec, fmax
-from graphkin.solver.frame_errors import FrameError
-from graphkin.solver.program import Program
-from graphkin.structure import Structure, in_stages
+from graphkin.plane import dot
+from graphkin.scene.model import PlacedLink
+from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.solver.cam_profile import cam_at
+from graphkin.solver.pose import Array, Pose, R, V
+from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of
+from graphkin.structure.transmission import (
+    TransmissionAngle,
+    joint_between,
+    joint_of_dyad,
+    joint_of_follower,
+    sliding_pair,
+)
 from graphkin.words import Phrase
 
-__all__ = ["Units", "bounds", "formulas"]
+__all__ = ["VALUES", "Crossing", "Posed", "pole", "transmission", "value_of_symbol"]
 
 
-Units = tuple[float, float, float]
-"""What one metre, one radian and one metre in rates are in the units of the columns."""
+def _angle(direction: Array) -> Array:
+    """In (-pi, pi] (rad)."""
+    angle = np.angle(direction)
+    return np.where(angle == -np.pi, np.pi, angle)
 
 
-def formulas(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
-) -> dict[str, Real]:
-    """A formula for each column.
+@dataclass(frozen=True)
+class Posed(Generic[V, R]):
+    """The links of a structure where they are, by arrays of shape (n,) or by formulas.
 
-    Parameters
-    ----------
-    asked : "B", "B@3" (place of a point: columns B.x, B.y), "v_B", "a_B@3", "v_C/B" (two columns each), "theta_3",
-        "omega_3", "alpha_3", "s_2/3" (travel of a sliding pair)
-    units : of lengths, of angles and of lengths in rates; rates of angles are in radians always
+    poses : pose of each link by its name
+    slides : the sliding pairs and pins in slots
+    number : a place or direction of the scene by its name, as in ``Program.number``; None as the scene gives it
+    angle : of a direction (rad)
+    """
+
+    structure: Structure
+    poses: Mapping[str, Pose[V, R]]
+    slides: tuple[Slide, ...]
+    number: Callable[..., V] | None = None
+    angle: Callable[[V], R] = _angle  # type: ignore[assignment]
+
+    def pose(self, link: str) -> Pose[V, R]:
+        """Of a link or the block of a pin.  Raises CallError for an unknown name."""
+        if link not in self.poses:
+            known = did_you_mean(link, self.structure.scene.by_name)
+            raise CallError(Problem(Phrase("link", name=link), Phrase("there is no such link"), known))
+        return self.poses[link]
+
+    def link(self, name: str) -> PlacedLink:
+        """A link or the block of a pin."""
+        self.pose(name)
+        return self.structure.links.get(name) or self.structure.scene.by_name[name]
+
+    def holder(self, point: str) -> str:
+        """Of the links that have a point the frame, or the first in the order of solution, which is known best; of a
+        point of contact what stands for the contact."""
+        scene = self.structure.scene
+        if point in scene.holders:
+            return min(scene.holders[point], key=lambda name: self._order.get(name, len(self._order)))
+        block = next((name for name, link in self.structure.links.items() if point in link.points), None)
+        if block is None:
+            known = did_you_mean(point, [*scene.holders, *(c.name for c in scene.contacts)])
+            raise CallError(Problem(Phrase("point of point", point=point), Phrase("there is no such point"), known))
+        return block
+
+    @cached_property
+    def _order(self) -> dict[str, int]:
+        order = {name: i for i, e in enumerate(self.structure.elements) for name in links_of(e)}
+        return {**order, self.structure.scene.frame.name: -1}
+
+    def is_under(self, ref: PointRef) -> bool:
+        """Whether a point is the place of a link that lies at another link's pin now."""
+        return bool(ref.link) and ref.point not in self.link(ref.link).points
+
+    def point(self, ref: PointRef) -> Pose[V, R]:
+        """Axes that move with the point's link, their origin at its point, or at its place that lies at that pin now.
+
+        Without a link the pin itself: the point of any link that has it; of a contact the place where it is made, which
+        runs along both outlines.
+        """
+        if self.is_under(ref):
+            return self.pose(ref.link).carrying(self.point(PointRef(ref.point)).z)
+        link = ref.link or self.holder(ref.point)
+        place = self.link(link).points[ref.point]
+        return self.pose(link).fixed(self.number("point", link, ref.point) if self.number else place)
+
+    def guide(self, slide: Slide) -> Pose[V, R]:
+        """The guide of a sliding pair, its x axis along the guide's sense."""
+        if self.number:
+            return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
+        return self.poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
+
+    def travel(self, slide: Slide) -> R:
+        """Of a sliding pair, along the guide's sense (m)."""
+        guide = self.guide(slide)
+        return ((self.poses[slide.a].z - guide.z) * guide.u.conjugate()).real  # type: ignore[no-any-return]
+
+
+def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:
+    """The value of a quantity of the motion or of the position: complex for vectors, real for others (SI), shape (n,).
 
     Raises
     ------
-    CallError : a name that is none of these, or names nothing in this mechanism
+    CallError : a symbol that means nothing in this mechanism, or belongs to the whole turn, or is a force
     """
-    found: dict[str, Real] = {}
-    for name in asked:
-        value = _Quantity(program, structure, name)
-        formula = value.formula() * value.scale(units)
-        if isinstance(formula, Vec):
-            found[f"{name}.x"], found[f"{name}.y"] = formula.real, formula.imag
-        else:
-            found[name] = formula
-    return found
+    if symbol.kind in VALUES:
+        return np.asarray(VALUES[symbol.kind](posed, symbol))
+    if symbol.scope == "force":
+        raise CallError(Problem(str(symbol), Phrase("is no motion"), Phrase("forces stand in solve of a scene with")))
+    raise CallError(
+        Problem(str(symbol), Phrase("belongs to the whole turn not to one"), Phrase("ask check audit or sweep"))
+    )
 
 
-def bounds(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
-) -> dict[str, Real]:
-    """For each name how far rounding may have moved its columns, in their units.
+def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V]:
+    """A velocity or an acceleration: of a point, or of one against another."""
 
-    With a larger group they are made from the bounds of the whole mechanism, inputs ("bound", 0) to ("bound", 5).
+    def value(posed: Posed[V, R], symbol: Symbol) -> V:
+        assert symbol.of is not None
+        of: V = getattr(posed.point(symbol.of), field)
+        return of - getattr(posed.point(symbol.to), field) if symbol.to else of
+
+    return value
+
+
+def _theta(posed: Posed[V, R], symbol: Symbol) -> R:
+    """Of a link's own x axis, or of one link's against another's."""
+    turn = posed.pose(symbol.link).u
+    return posed.angle(turn * posed.pose(symbol.other).u.conjugate() if symbol.other else turn)
+
+
+def _pressure(posed: Posed, symbol: Symbol) -> Array:
+    cam = next((c for c in posed.structure.scene.cams if c.follower == symbol.link), None)
+    if cam is not None:
+        return cam_at(cam, cam.sense * np.angle(posed.pose(cam.link).u)).pressure
+    return np.asarray(np.pi / 2 - _crossing(posed.poses, joint_of_follower(posed.structure, symbol.link, symbol)).angle)
+
+
+def _gamma(posed: Posed, symbol: Symbol) -> Array:
+    return _crossing(posed.poses, joint_between(posed.structure, symbol.link, symbol.other, symbol)).angle
+
+
+def _apart(posed: Posed, symbol: Symbol) -> Array:
+    assert symbol.of is not None
+    assert symbol.to is not None
+    return np.asarray(np.abs(_place(posed, symbol, symbol.of.point) - _place(posed, symbol, symbol.to.point)))
+
+
+def _coordinate(posed: Posed, symbol: Symbol) -> Array:
+    assert symbol.of is not None
+    place = _place(posed, symbol, symbol.of.point)
+    return np.asarray(place.real if symbol.kind == "x" else place.imag)
+
+
+def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
+    """Where a point or an instant centre lies; NaN for a centre at infinity or of links that move as one."""
+    scene = posed.structure.scene
+    if name in scene.holders:
+        return np.asarray(posed.point(PointRef(name)).z)
+    contact = next((c for c in scene.contacts if c.name == name), None)
+    if contact is not None:
+        return np.asarray(posed.point(PointRef(name, contact.carrier or contact.block)).z)
+    pair = centre_links(name, scene.by_name)
+    if pair is None:
+        raise CallError(Problem(str(symbol), Phrase("there is no point", name=name), did_you_mean(name, scene.holders)))
+    shared = next((p for p in scene.by_name[pair[0]].points if p in scene.by_name[pair[1]].points), None)
+    if shared is not None:  # a joint, whether the two turn or not
+        return _place(posed, symbol, shared)
+    q, omega = pole(posed.poses[pair[0]], posed.poses[pair[1]])
+    with np.errstate(all="ignore"):
+        return np.asarray(np.where(omega == 0.0, np.nan, q / omega))
+
+
+def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
+    """The relative rotation of one link against another, as homogeneous coordinates of their instant centre (see
+    `graphkin.solver.centres.instant_centre`)."""
+    v0 = (one.v - 1j * one.omega * one.z) - (two.v - 1j * two.omega * two.z)
+    return np.asarray(1j * v0), np.asarray(one.omega - two.omega)
+
+
+# parts of accelerations
+
+
+def _part(posed: Posed, symbol: Symbol) -> Array:
+    """A part of an acceleration: normal (an), tangential (at), Coriolis (ak), or what is left of it (ar)."""
+    of, to = symbol.of, symbol.to
+    assert of is not None
+    if to is not None and of.point == to.point:
+        guide = next(
+            (s for s in posed.slides if s.guide.curvature and s.pin == of.point and s.b in (of.link, to.link)), None
+        )
+        if guide is not None and symbol.kind in ("an", "ar"):
+            relative = _relative(posed, symbol, of, to)
+            normal = _along(1j * posed.poses[guide.b].u * guide.guide.direction, relative)
+            return np.asarray(normal if symbol.kind == "an" else relative - normal)
+        if any(c.name == of.point and {of.link, to.link} == set(c.links) for c in posed.structure.scene.contacts):
+            return _at_contact(posed, symbol, of, to)
+        hinge = _hinge(posed, of, to)
+        if hinge is not None:
+            return _about_hinge(posed, symbol, of, to, hinge)
+    if symbol.kind in ("an", "at"):
+        return _of_turning(posed, symbol, of)
+    assert to is not None
+    return _relative(posed, symbol, of, to)
+
+
+def _along(direction: Array, vector: Array) -> Array:
+    """The part of a vector along a direction of unit length."""
+    return np.asarray(direction * dot(direction, vector))
+
+
+def _at_contact(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
+    """Coriolis term of the slip at a contact, and what is left of the relative acceleration: along the normal by the
+    curvatures, along the tangent."""
+    contact = next(c for c in posed.structure.scene.contacts if c.name == of.point)
+    one = posed.point(of)
+    if symbol.kind == "ak":
+        return _against(posed, symbol, of, to, to.link)
+    # the centre of a disc lies on the normal
+    disc = contact.round[1 if contact.round[0].radius == 0.0 and len(contact.round) > 1 else 0]
+    normal = one.z - posed.point(PointRef(disc.centre, disc.link)).z
+    relative = _against(posed, symbol, of, to, to.link)
+    across = _along(normal / np.abs(normal), relative)
+    return np.asarray(across if symbol.kind == "an" else relative - across)
+
+
+def _is_on(posed: Posed, ref: PointRef, link: str) -> bool:
+    """True where the point is one of the link's, or the link's point under that pin."""
+    holders = posed.structure.scene.holders.get(ref.point, ())
+    if not holders:
+        posed.point(ref)
+    if ref.link == link:
+        return True
+    own = not ref.link or ref.link in holders
+    return own and (link in holders or ref.point in posed.link(link).points)
+
+
+def _hinge(posed: Posed, of: PointRef, to: PointRef) -> str | None:
+    """The turning pair between the links of two coincident points, where it lies elsewhere."""
+    links = posed.structure.scene.by_name
+    if of.link == to.link or not {of.link, to.link} <= set(links):
+        return None
+    return next((p for p in links[of.link].points if p in links[to.link].points and p != of.point), None)
+
+
+def _about_hinge(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef, hinge: str) -> Array:
+    """Parts of the acceleration of a point of a link relative to the coincident one of a link that is hinged to it.
+
+    Seen from the second link the first turns about the hinge at the difference of their rates: normal and tangential
+    part of that turn, or both together, and the Coriolis term of the second link's own rate.
     """
-    quantities = {name: _Quantity(program, structure, name) for name in asked}
-    return {name: SLACK * (q.bound() * q.scale(units)) for name, q in quantities.items()}
+    one, base = posed.poses[of.link], posed.poses[to.link]
+    arm = posed.point(of).z - posed.point(PointRef(hinge, of.link)).z
+    rate = one.omega - base.omega
+    normal, tangential = -(rate**2) * arm, 1j * (one.alpha - base.alpha) * arm
+    parts = {"an": normal, "at": tangential, "ar": normal + tangential, "ak": -2 * base.omega * rate * arm}
+    return np.asarray(parts[symbol.kind])
 
 
-class _Quantity:
-    """What a name asks for."""
-
-    def __init__(self, program: Program, structure: Structure, name: str) -> None:
-        self.program, self.structure, self.name = program, structure, name
-        kind, mark, rest = name.partition("_")
-        self.kind = kind if mark else "point"
-        self.refs: list[PointRef] = []
-        self.link = rest
-        if not mark:
-            point, _, link = name.partition("@")
-            self.refs = [PointRef(point, link)]
-        elif kind == "s":
-            keys = [s.key for s in structure.slides]
-            if rest not in keys:
-                raise CallError(Problem(f'"{name}"', Phrase("there is no such sliding pair"), did_you_mean(rest, keys)))
-        elif kind != "theta":
-            self._parse()
-
-    def _parse(self) -> None:
-        try:
-            symbol = Symbol.parse(self.name)
-        except ValueError as error:
-            raise CallError(Problem(f'"{self.name}"', error.args[0])) from None
-        if symbol.kind in ("omega", "alpha"):
-            self.link = symbol.link
-        elif symbol.kind in ("v", "a") and symbol.of is not None:
-            self.refs = [symbol.of, *([symbol.to] if symbol.to else [])]
+def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
+    """Normal and tangential part of the acceleration of one point of a link about another."""
+    if of.link:
+        posed.link(of.link)
+    scene, to = posed.structure.scene, symbol.to
+    replacing_links = [name for name in posed.structure.links if name not in scene.by_name]
+    for name in (*(link.name for link in scene.links), *replacing_links):
+        if not _is_on(posed, of, name) or (to is not None and not _is_on(posed, to, name)):
+            continue
+        if to is not None:
+            centre = to.point
         else:
-            hint = Phrase("ask for places v_ a_ theta_ omega_ alpha_")
-            raise CallError(Problem(f'"{self.name}"', Phrase("is no column"), hint))
+            fixed = (p for p in posed.link(name).points if p in scene.frame.points and p != of.point)
+            if (pivot := next(fixed, None)) is None:
+                continue
+            centre = pivot
+        pose = posed.poses[name]
+        arm = posed.point(PointRef(of.point, name)).z - posed.point(PointRef(centre, name)).z
+        return np.asarray(-(pose.omega**2) * arm if symbol.kind == "an" else 1j * pose.alpha * arm)
+    wanted = (
+        Phrase("both points must be on one link")
+        if to
+        else Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
+    )
+    raise CallError(Problem(str(symbol), Phrase("no link makes this part"), wanted))
 
-    def scale(self, units: Units) -> Real | float:
-        """What the formula in SI is to be multiplied by."""
-        if self.kind in ("omega", "alpha"):
-            return 1.0
-        rate = self.kind in ("v", "a")
-        what, factor = ("per metre of rates", units[2]) if rate else ("per metre", units[0])
-        if self.kind == "theta":
-            what, factor = "per radian", units[1]
-        return 1.0 if factor == 1.0 else self.program.graph.param((what,))
 
-    def formula(self) -> Real | Vec:
-        """Its formula, in SI."""
-        program = self.program
-        if self.kind == "s":
-            slide = self.structure.slide(self.link)
-            guide = program.guide(slide)
-            return ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real
-        if self.kind == "theta":
-            u = self._pose(self.link).u
-            return program.graph.line("atan2", u.imag.at, u.real.at)
-        if self.kind in ("omega", "alpha"):
-            return cast(Real, getattr(self._pose(self.link), self.kind))
-        field = {"point": "z", "v": "v", "a": "a"}[self.kind]
-        one, *other = [getattr(self._point(ref), field) for ref in self.refs]
-        return cast(Vec, one - other[0] if other else one)
+def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
+    """Coriolis and sliding part of the acceleration of a point relative to the coincident one of another link."""
+    scene = posed.structure.scene
+    for ref in (of, to):
+        posed.point(ref)
+    for pair in posed.slides:
+        block = {pair.a}
+        if pair.slot:
+            block = {pin.of for pin in scene.pins if pin.key == pair.key}
+            block |= {c.round[0].link for c in scene.contacts if c.block == pair.key}
+        for slides, guides in ((of, to), (to, of)):
+            if of.point != to.point or not any(_is_on(posed, slides, name) for name in block):
+                continue
+            # another link that is pinned there too has another rate, and so another Coriolis term
+            if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):
+                return _against(posed, symbol, of, to, pair.b)
+    # links of a group that are drawn as one, seen from one of them
+    together = [{*group.members} for group in posed.structure.groups if isinstance(group, Cluster)]
+    if of.point == to.point and any({of.link, to.link} <= members for members in together):
+        return _against(posed, symbol, of, to, to.link)
+    raise CallError(
+        Problem(str(symbol), Phrase("these are not coincident points of two links"), _example(symbol, posed.slides))
+    )
 
-    def bound(self) -> Real:
-        """How far rounding may have moved it, in SI."""
-        unit = self.program.bounds.unit
-        if self.kind == "s":
-            slide = self.structure.slide(self.link)
-            moved, guide = self._link_bounds(slide.a).position, self._link_bounds(slide.b)
-            return moved + guide.position + abs(cast(Real, self.formula())) * (guide.angle + 4.0 * unit)
-        if self.kind in ("theta", "omega", "alpha"):
-            self._pose(self.link)
-            bound = self._link_bounds(self.link).of_turning[("theta", "omega", "alpha").index(self.kind)]
-            return bound + 16.0 * unit if self.kind == "theta" else bound
-        order = {"point": 0, "v": 1, "a": 2}[self.kind]
-        one, *other = [self._point_bounds(ref)[order] for ref in self.refs]
-        if not other:
-            return one
-        both = cast(Vec, self.formula())
-        return one + other[0] + unit * fmax(abs(both.real), abs(both.imag))
 
-    def _link_bounds(self, link: str) -> FrameError:
-        """Of any point of a link and of its turning."""
-        if in_stages(self.structure.elements):
-            return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
-        return self.program.bounds.of_link(link)
+def _example(symbol: Symbol, slides: Iterable[Slide]) -> Phrase:
+    pair = next((s for s in slides if s.pin), None)
+    if pair is None:
+        return Phrase("nothing slides here")
+    return Phrase(
+        "write for example of kind and pin and other and pin_2",
+        kind=symbol.kind, pin=pair.pin, other=pair.b, pin_2=pair.pin,
+    )  # fmt: skip
 
-    def _pose(self, name: str) -> PoseFormula:
-        if name not in self.program.poses:
-            raise CallError(
-                Problem(
-                    Phrase("link", name=name), Phrase("there is no such link"), did_you_mean(name, self.structure.links)
-                )
-            )
-        return self.program.poses[name]
 
-    def _holders(self, ref: PointRef) -> list[str]:
-        links = self.structure.links
-        holders = [n for n, link in links.items() if ref.point in link.points]
-        if not holders:
-            known = [p for link in links.values() for p in link.points]
-            raise CallError(
-                Problem(
-                    Phrase("point of point", point=ref.point),
-                    Phrase("there is no such point"),
-                    did_you_mean(ref.point, known),
-                )
-            )
-        return holders
+def _against(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef, base: str) -> Array:
+    """Coriolis term by the turning of a link, or what is left of the acceleration of one point relative to another."""
+    first, second = posed.point(of), posed.point(to)
+    coriolis = 2j * posed.poses[base].omega * (first.v - second.v)
+    return np.asarray(coriolis if symbol.kind == "ak" else first.a - second.a - coriolis)
 
-    def _point(self, ref: PointRef) -> PoseFormula:
-        """A point of a link, or what of a link lies at a point now."""
-        program, holders = self.program, self._holders(ref)
-        pose = self._pose(ref.link or holders[0])
-        if not ref.link or ref.link in holders:
-            return pose.fixed(program.number("point", ref.link or holders[0], ref.point))
-        pin = self._pose(holders[0]).fixed(program.number("point", holders[0], ref.point))
-        return pose.carrying(pin.z)
 
-    def _point_bounds(self, ref: PointRef) -> tuple[Real, ...]:
-        holders = self._holders(ref)
-        if not ref.link or ref.link in holders:
-            return self._link_bounds(ref.link or holders[0]).of_point
-        pin, pose = self._point(PointRef(ref.point)), self._pose(ref.link)
-        own, moved = self._link_bounds(ref.link), self._link_bounds(holders[0]).position
-        return moved, *self.program.bounds.under(ref.link, own, pin.z - pose.z, moved)
+VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
+    "v": _rate("v"),
+    "a": _rate("a"),
+    "place": _rate("z"),
+    "omega": lambda posed, symbol: posed.pose(symbol.link).omega,
+    "alpha": lambda posed, symbol: posed.pose(symbol.link).alpha,
+    "theta": _theta,
+    "s": lambda posed, symbol: posed.travel(sliding_pair(posed.structure, symbol)),
+    "x": _coordinate,
+    "y": _coordinate,
+    "d": _apart,
+    "gamma": _gamma,
+    "pressure": _pressure,
+    **dict.fromkeys(("an", "at", "ak", "ar"), _part),
+}
+"""How a quantity of each kind is found from the poses."""
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Sine and cosine of the angle between the two directions that decide how well a group passes on a force."""
+
+    cosine: Array
+    sine: Array
+
+    @property
+    def angle(self) -> Array:
+        """Transmission angle (rad), in 0 .. pi/2."""
+        return np.arctan2(np.abs(self.sine), np.abs(self.cosine))
+
+
+def transmission(structure: Structure, dyad: Dyad, poses: Mapping[str, Pose]) -> Crossing:
+    """The transmission angle of a group of two links (`graphkin.structure.transmission`); the pressure angle is what it
+    lacks to 90 degrees."""
+    return _crossing(poses, joint_of_dyad(structure, dyad))
+
+
+def _crossing(poses: Mapping[str, Pose], joint: TransmissionAngle) -> Crossing:
+    first, second = (poses[end[0]].fixed(end[1]).z - poses[start[0]].fixed(start[1]).z
+                     for start, end in (joint.first, joint.second))  # fmt: skip
+    with np.errstate(all="ignore"):
+        across = np.conj(first) * second * (1j if joint.square else 1.0) / (np.abs(first) * np.abs(second))
+    return Crossing(np.asarray(across.real), np.asarray(across.imag))

@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.scene.model import AngleDriver
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.position_values import transmission
+from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad
 from graphkin.study.curves import Curve, CurveParameter, Pieces, resolve
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
