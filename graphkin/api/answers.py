@@ -13,11 +13,9 @@ from typing import Literal
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.files import opened, path_of
-from graphkin.scene.cells import is_blank, read_cell
-from graphkin.scene.directions import Way, read_way
 from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed, Unreadable
-from graphkin.scene.spelling import Spelling, plain_text, unit_factor
+from graphkin.scene.spelling import Spelling, Way, is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.words import Phrase, Wording, from_others
 

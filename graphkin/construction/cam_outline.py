@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 from graphkin.construction.sheet import Pose
 from graphkin.plane import dot, unit
-from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.follower_law import TURN, Lift
+from graphkin.scene.cams import TURN, LawCam, Lift, SlidingFollower
 from graphkin.scene.model import Mechanism
 
 __all__ = ["CamStation", "outline", "outlines_on_paper", "station"]

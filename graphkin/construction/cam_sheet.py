@@ -15,8 +15,7 @@ from dataclasses import dataclass
 from graphkin.construction.board import Instrument
 from graphkin.construction.cam_outline import CamStation, outline, station
 from graphkin.plane import cross_arcs, cross_line_arc, unit
-from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
-from graphkin.scene.follower_law import TURN
+from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
 from graphkin.words import Phrase
 from graphkin.words.written import amount
 

@@ -33,8 +33,7 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, moved_piece
 from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
-from graphkin.scene.follower_law import TURN
+from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
 from graphkin.words import Phrase, in_all, languages, say, word

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 
 from graphkin.errors import Problem
 from graphkin.plane import cross, dot
-from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.cams import LAWS, FollowerLaw, LawCam, LiftPiece, SlidingFollower, SwingingFollower, form_of
 from graphkin.scene.contact_tables import Cam, LawPiece
-from graphkin.scene.follower_law import LAWS, FollowerLaw, LiftPiece, form_of
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.tables import SceneTables
 from graphkin.words import Phrase, Wording

@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from graphkin.scene.cams import SPELLINGS
 from graphkin.scene.file_table import FileTable, about
-from graphkin.scene.follower_law import SPELLINGS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

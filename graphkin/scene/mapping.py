@@ -7,9 +7,8 @@ from collections.abc import Callable, Mapping
 
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import degrees
-from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.cams import LawCam, LiftPiece, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
-from graphkin.scene.follower_law import LiftPiece
 from graphkin.scene.loads import Phase
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
 from graphkin.scene.motion_law import CubicPart, MotionLaw

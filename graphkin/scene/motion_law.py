@@ -1,6 +1,6 @@
 """The law of a driver: its value over the time, piece by piece, and from it rate and second rate at any moment.
 
-The laws are those of cams (`graphkin.scene.follower_law`), over seconds instead of degrees of a cam.
+The laws are those of cams (`graphkin.scene.cams`), over seconds instead of degrees of a cam.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from functools import cached_property
 from itertools import pairwise
 
 from graphkin.errors import Problem
+from graphkin.scene.cams import Lift, LiftPiece, SmoothPart, form_of
 from graphkin.scene.contact_tables import DriverLaw
-from graphkin.scene.follower_law import Lift, LiftPiece, SmoothPart, form_of
 from graphkin.words import Phrase
 
 __all__ = ["CubicPart", "MotionLaw", "law_of"]

@@ -17,13 +17,12 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_apart, starts_of, travel_of
 from graphkin.scene.driving import DriverEntry, drives
-from graphkin.scene.equivalent_tables import with_bars, with_carriages
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
 from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.names import Flaws, Names
-from graphkin.scene.pairs import islands, pins_in_slots, sliding_pairs
+from graphkin.scene.pairs import islands, pins_in_slots, sliding_pairs, with_bars, with_carriages
 from graphkin.scene.placing import Placement, origins_of, place_of
 from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (

@@ -150,7 +150,7 @@ def _texts(
 def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
     """One stated value.  Raises ValueError for a text that is none."""
     if isinstance(value, str):
-        from graphkin.scene.cells import read_cell  # only a text needs all the ways in which people write
+        from graphkin.scene.spelling import read_cell  # only a text needs all the ways in which people write
 
         plain = value.strip()
         read = read_cell(plain, symbol, units, unit)

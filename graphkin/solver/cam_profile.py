@@ -12,8 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.plane import cross, dot
-from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.follower_law import Lift
+from graphkin.scene.cams import LawCam, Lift, SlidingFollower
 from graphkin.solver.followers import beginning, lifts
 from graphkin.solver.pose import Array
 

@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin.errors import Unsolvable
-from graphkin.scene.cams import LawCam
-from graphkin.scene.follower_law import FollowerLaw, Lift, SmoothPart
+from graphkin.scene.cams import FollowerLaw, LawCam, Lift, SmoothPart
 from graphkin.solver.cam_profile import CamAt, cam_with
 from graphkin.solver.pose import Array
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.follower_law import SEAM, TURN, FollowerLaw, Lift
+from graphkin.scene.cams import SEAM, TURN, FollowerLaw, LawCam, Lift, SlidingFollower
 from graphkin.scene.tables import Units
 from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array

@@ -11,9 +11,8 @@ import graphkin
 from graphkin.errors import CallError
 from graphkin.papers.answer_key import answers_template
 from graphkin.scene import mechanism_of
-from graphkin.scene.cells import read_cell
 from graphkin.scene.source import written
-from graphkin.scene.spelling import Spelling
+from graphkin.scene.spelling import Spelling, read_cell
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from tests.command import run
