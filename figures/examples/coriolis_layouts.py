@@ -10,10 +10,10 @@
 import math
 from dataclasses import replace
 
+from graphkin.account.notation import letters_of
 from graphkin.construction import Room, draft
 from graphkin.construction.polygon_acts import Carried, LaidOff
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
-from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.ink.strokes import DIMENSION
 from graphkin.drawing.parts.coriolis import coriolis_terms
 from graphkin.drawing.parts.mechanism import bare_mechanism

@@ -9,7 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.drawing.loop_words import (
+from graphkin.account.loops import (
     as_latex,
     as_plain,
     equation,

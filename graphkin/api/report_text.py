@@ -79,8 +79,8 @@ def _forces(checked: Checked, language: str) -> list[str]:
     """How the forces were found, group by group, with the reason of each step."""
     if checked.forces is None:
         return []
-    from graphkin.drawing.conventions import letters_of
-    from graphkin.drawing.force_words import couple_sentences, group_caption, inertia_line, moment_sentences
+    from graphkin.account.forces import couple_sentences, group_caption, inertia_line, moment_sentences
+    from graphkin.account.notation import letters_of
 
     sheet, forces = checked.sheet, checked.forces
     letters = letters_of(sheet, sheet.scene.sheet.convention)

@@ -8,13 +8,13 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
+from graphkin.account.headings import number, written
 from graphkin.api.arguments import known_words, own_folder, write_files
 from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.drawing.cam import cam_given, cam_pictures
-from graphkin.drawing.headings import number, written
 from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
 from graphkin.papers.blocks import Said, said
 from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task

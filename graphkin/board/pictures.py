@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin import solver
+from graphkin.account.notation import Letters, letters_of
+from graphkin.account.voice import Speaker
 from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
@@ -18,14 +20,12 @@ from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.moving import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
-from graphkin.papers.speaker import Speaker
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.source import parsed
 from graphkin.scene.written import resolved

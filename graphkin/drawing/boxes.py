@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.account.headings import facts, figure_title, term, titles
+from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import facts, figure_title, term, titles
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree
 from graphkin.drawing.place.dimensions import check_bar

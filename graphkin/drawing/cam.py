@@ -7,6 +7,7 @@ import cmath
 import math
 from collections.abc import Sequence
 
+from graphkin.account.headings import number, once, term
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.sheet import Extent, fitting_scale
 from graphkin.drawing.box import Box
@@ -25,7 +26,6 @@ from graphkin.drawing.boxes import (
     table,
 )  # fmt: skip
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import number, once, term
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.place.labels import Label

@@ -13,6 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from graphkin.account.headings import describe, drivers, punctuation, term
+from graphkin.account.notation import Letters, in_counting_order
 from graphkin.construction import Room
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.drawing.box import Box
@@ -28,9 +30,7 @@ from graphkin.drawing.boxes import (
     prose,
     row,
 )  # fmt: skip
-from graphkin.drawing.conventions import Letters, in_counting_order
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import describe, drivers, punctuation, term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.ink.strokes import colour_of_link, pale

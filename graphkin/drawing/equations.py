@@ -6,23 +6,24 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 
+from graphkin.account.arithmetic import bound, carried_by, factors_of, substituted
+from graphkin.account.forces import SumTerm
+from graphkin.account.headings import number, term, written
+from graphkin.account.notation import Letters, rows_of
+from graphkin.account.written_lines import WrittenLine, rule_alone
 from graphkin.construction.polygon_acts import LaidOff
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Given
-from graphkin.drawing.conventions import Letters, rows_of
 from graphkin.drawing.font_widths import run_box, runs_width
-from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
-from graphkin.drawing.sums import bound, carried_by, factors_of, substituted
 from graphkin.drawing.text import rich, symbol, wrapped
 from graphkin.plane import added_up
 from graphkin.words.written import MOST, product
 
 __all__ = [
-    "LEAST_LETTERS", "LineToSet", "SumTerm", "Written", "WrittenLine", "equations_in_room",
-    "equations_on_page", "line_to_set", "rule_alone",
-    "write_equation", "write_sum",
+    "LEAST_LETTERS", "LineToSet", "Written", "equations_in_room",
+    "equations_on_page", "line_to_set", "write_equation", "write_sum",
 ]  # fmt: skip
 
 # mm, of the letters, and columns; the first that fits is taken: sums break in narrow columns
@@ -60,8 +61,6 @@ class _Cell:
         return max(runs_width(self.runs), runs_width(self.size), runs_width(self.direction), runs_width(self.over))
 
 
-WrittenLine = Equation | str
-"""A vector equation, or a rule on one line as words with symbols."""
 LineToSet = Callable[[float, float], Written]
 """A line as it is set: at most so wide, in letters of a size (mm)."""
 
@@ -160,16 +159,6 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
     return Written(tuple(children), most, y)
 
 
-@dataclass(frozen=True)
-class SumTerm:
-    """A term of a vector sum as it is written: its symbol, what is known of size and direction, and as what."""
-
-    symbol: str
-    size_known: bool
-    direction_known: bool
-    direction: str = ""
-
-
 def write_sum(
     terms: Sequence[SumTerm], letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
@@ -212,13 +201,6 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     parts.append(f"{said or number(value, MOST)}\u00a0{unit}")
     way = letters.direction(only.direction, sheet.scene.frame.name)
     return " =\u00a0".join(parts) + (f",  ${way}$" if way else "")
-
-
-def rule_alone(sheet: Sheet, equation: Equation) -> bool:
-    """Whether an equation is nothing but the rule of one vector."""
-    last = equation.sides[-1]
-    known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
-    return known and last[0].symbol in sheet.vectors(equation.diagram)
 
 
 def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> list[_Cell]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, drivers, punctuation, remarks
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
-from graphkin.drawing.headings import FIGURE_WORDS, describe, dimensions_in, drivers, punctuation, remarks
 from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent

@@ -7,12 +7,12 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.account.force_chain import corner_at, corners
+from graphkin.account.notation import Letters
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.force_chain import corner_at, corners
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.free_body import colour_of_force, letters_of_force
 from graphkin.drawing.ink import strokes

@@ -7,11 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
-from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters, force_letters, pole
-from graphkin.drawing.force_chain import closed_by, laid_lines, laid_off
-from graphkin.drawing.force_words import (
+from graphkin.account.force_chain import closed_by, laid_lines, laid_off
+from graphkin.account.forces import (
     ForceSentence,
     couple_sentences,
     group_caption,
@@ -20,7 +17,10 @@ from graphkin.drawing.force_words import (
     moment_sentences,
     read_off,
 )
-from graphkin.drawing.given_loads import spring_lines
+from graphkin.account.given_loads import spring_lines
+from graphkin.account.notation import Letters, force_letters, pole
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.lever import lever_on_page
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say

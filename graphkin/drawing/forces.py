@@ -7,18 +7,18 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.account.forces import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
+from graphkin.account.given_loads import given_loads, spring_lines
+from graphkin.account.headings import facts, figure_title, term
+from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
-from graphkin.drawing.force_words import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
 from graphkin.drawing.free_body import free_body, sketch_height
-from graphkin.drawing.given_loads import given_loads, spring_lines
-from graphkin.drawing.headings import facts, figure_title, term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text
 from graphkin.drawing.overleaf import heading

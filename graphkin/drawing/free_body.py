@@ -7,12 +7,12 @@ from cmath import phase
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.account.notation import Letters, as_vector, force_letters
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touching
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, as_vector, force_letters
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text

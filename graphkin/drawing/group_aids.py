@@ -8,6 +8,8 @@ import math
 from cmath import phase
 from collections.abc import Iterator
 
+from graphkin.account.end_letters import SAME
+from graphkin.account.trial_words import numeral
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet
@@ -16,7 +18,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Group, Line, Polyline, Primitive, Text
 from graphkin.drawing.ink.symbols import arrowhead
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, same_place, step_number
+from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, same_place, step_number
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import symbol
@@ -28,7 +30,6 @@ COMPASS = 7.0  # mm of arc to either side of what it finds
 SPLINTER = math.sin(math.radians(15.0))  # a smaller angle of an arc to a bar looks like a splinter of the bar
 
 CROSS = 0.9  # mm: half a cross that marks a trial position
-NUMERALS = ("I", "II", "III", "IV", "V")
 
 
 def compass_arcs(here: MechanismOnPaper) -> Piece:
@@ -123,9 +124,9 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 named.add(same_place(aid.tip))
                 letter = here.letters.end(here.diagram, aid.symbol.of)
                 if letter:
-                    numeral = NUMERALS[(trial - 1) % len(NUMERALS)]
+                    above = numeral(trial)
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    text = Text(0j, symbol(f"{letter}^{{{numeral}}}", 2.5), "start", strokes.GREY, name,
+                    text = Text(0j, symbol(f"{letter}^{{{above}}}", 2.5), "start", strokes.GREY, name,
                                 ("label", "trial"))  # fmt: skip
                     labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=5))
         classes = (f"trial-{trial}",) if trial else ("special",)

@@ -5,11 +5,11 @@ Dimensions, insets and senses come when the hand rests and the figure is drawn i
 
 from __future__ import annotations
 
+from graphkin.account.headings import FIGURE_WORDS, figure_title
+from graphkin.account.notation import letters_of
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import FIGURE_WORDS, figure_title
 from graphkin.drawing.ink.primitives import Text, page_direction
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.polygon import polygon_piece

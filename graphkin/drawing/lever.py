@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from graphkin.account.forces import lever_sum
+from graphkin.account.headings import drivers, written
+from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Extent, Sheet, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import INSIDE, Block, FigurePage, column, table
-from graphkin.drawing.conventions import Letters, as_vector, force_letters, pole
-from graphkin.drawing.force_words import lever_sum
-from graphkin.drawing.headings import drivers, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow

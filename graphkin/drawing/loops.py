@@ -7,18 +7,18 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
+from graphkin.account.headings import drivers, number
+from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
+from graphkin.account.notation import letters_of
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet, next_of_series
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
-from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, number
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
-from graphkin.drawing.loop_words import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, moved_piece

@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.account.headings import drivers, facts, figure_title, term, titles
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page
-from graphkin.drawing.headings import drivers, facts, figure_title, term, titles
 from graphkin.drawing.ink.primitives import Group, Primitive, Run, Text, moved
 from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups

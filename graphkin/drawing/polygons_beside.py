@@ -4,14 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from graphkin.checking.readings import read_off
-from graphkin.checking.report import measured
-from graphkin.construction import Room, Scales
-from graphkin.construction.plan import scales_for
-from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.headings import (
+from graphkin.account.headings import (
     FIGURE_WORDS,
     drivers,
     facts,
@@ -22,6 +15,13 @@ from graphkin.drawing.headings import (
     titles,
     written,
 )
+from graphkin.account.notation import Letters, letters_of, scale_statement
+from graphkin.checking.readings import read_off
+from graphkin.checking.report import measured
+from graphkin.construction import Room, Scales
+from graphkin.construction.plan import scales_for
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Text
 from graphkin.drawing.parts.insets import polygon_with_insets

@@ -9,11 +9,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
+from graphkin.account.headings import number
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import number
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.ink.symbols import BLOCK_LENGTH, BLOCK_WIDTH

@@ -8,13 +8,7 @@ from dataclasses import replace
 from functools import cache
 from itertools import islice, product
 
-from graphkin.checking.report import Report
-from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import MARGIN
-from graphkin.drawing.conventions import Letters, letters_of, scale_statement
-from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
-from graphkin.drawing.headings import (
+from graphkin.account.headings import (
     FIGURE_WORDS,
     describe,
     dimensions_in,
@@ -23,6 +17,13 @@ from graphkin.drawing.headings import (
     punctuation,
     term,
 )
+from graphkin.account.notation import Letters, letters_of, scale_statement
+from graphkin.account.written_lines import written_lines
+from graphkin.checking.report import Report
+from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import MARGIN
+from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text, moved, walk
 from graphkin.drawing.loops import loops_figure
@@ -40,7 +41,6 @@ from graphkin.drawing.text import fitted, plain
 from graphkin.drawing.title_block import title_block
 from graphkin.drawing.train import train_figure
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.drawing.written_lines import written_lines
 from graphkin.words import languages, word
 
 __all__ = ["sheet_page"]

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
+from graphkin.account.headings import term
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import term
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import JOINT_RADIUS

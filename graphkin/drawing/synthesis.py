@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from graphkin.account.headings import number, term, written
 from graphkin.checking.closed_form import FoundLength
 from graphkin.construction.design_sheet import (
     DesignAngle,
@@ -37,7 +38,6 @@ from graphkin.drawing.boxes import (
     table,
 )  # fmt: skip
 from graphkin.drawing.chart import ChartPage
-from graphkin.drawing.headings import number, term, written
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.place.labels import Label

@@ -6,13 +6,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from graphkin.account.headings import drivers, number, remarks, rolling_starts, term, written
+from graphkin.account.notation import Letters
 from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import drivers, number, remarks, rolling_starts, term, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.parts.given_shapes import along_its_guide, given_shapes, off_its_guide

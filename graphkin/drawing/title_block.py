@@ -3,11 +3,11 @@ which a print is checked."""
 
 from __future__ import annotations
 
+from graphkin.account.headings import punctuation, term, titles
+from graphkin.account.notation import Letters, scale_statement
 from graphkin.checking.report import Report
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters, scale_statement
-from graphkin.drawing.headings import punctuation, term, titles
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text
 from graphkin.drawing.place.dimensions import check_bar

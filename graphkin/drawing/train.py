@@ -5,11 +5,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from graphkin.account.headings import drivers, number, written
+from graphkin.account.notation import Letters
 from graphkin.construction.centre_lines import PlanLine, TrainPlan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import drivers, number, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, arrow

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
+from graphkin.account.headings import number, written
 from graphkin.checking.report import Compared, paper
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.drawing.headings import number, written
 from graphkin.papers.blocks import Block, Document, Heading, Paragraph, TableBlock, said, sentences
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_of

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from graphkin.account.voice import capital, whole_sentence
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
@@ -31,7 +32,6 @@ __all__ = [
     "Steps",
     "TableBlock",
     "Together",
-    "capital",
     "clean",
     "finished",
     "laid_out",
@@ -39,7 +39,6 @@ __all__ = [
     "said",
     "sentences",
     "spoken",
-    "whole_sentence",
 ]
 
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
@@ -200,21 +199,6 @@ def said(key: str, language: str, *args: object) -> Said:
 def spoken(markup: str, language: str) -> Said:
     """Words that are the same in every language, said once."""
     return ((languages(language)[0], markup),)
-
-
-def whole_sentence(text: str, language: str) -> str:
-    """Words as a sentence, with its capital and its full stop."""
-    stop = word("full stop", language)
-    return capital(text).rstrip(stop) + stop
-
-
-def capital(text: str) -> str:
-    """Words with a capital; a symbol stays as it is.
-
-    >>> capital("the rise"), capital("φ = 140°")
-    ('The rise', 'φ = 140°')
-    """
-    return text[:1].upper() + text[1:] if text[:1].isascii() else text
 
 
 def finished(words: Said) -> Said:

@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from graphkin.account.headings import number
 from graphkin.checking.report import Compared
-from graphkin.drawing.headings import number
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.answer_key import key_rows, way
 from graphkin.papers.blocks import (

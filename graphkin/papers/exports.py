@@ -17,8 +17,8 @@ from xml.sax.saxutils import escape
 
 from markupsafe import Markup
 
+from graphkin.account.headings import structure_words
 from graphkin.checking.slips import Evidence
-from graphkin.drawing.headings import structure_words
 from graphkin.errors import GraphkinError
 from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean

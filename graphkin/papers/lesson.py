@@ -9,18 +9,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphkin.account.notation import Letters, letters_of
+from graphkin.account.voice import Speaker
 from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import COVERAGE, Uncertainty
 from graphkin.construction.forces import ForceSheet, forces_on
 from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
 from graphkin.construction.strokes import Vector
-from graphkin.drawing.conventions import Letters, letters_of
 from graphkin.drawing.force_stages import ForceStage, ForceStep
 from graphkin.drawing.text import Atom, parsed
 from graphkin.files import Json
 from graphkin.papers.html import words_html
-from graphkin.papers.speaker import Speaker
 from graphkin.scene.symbol import Symbol
 
 __all__ = ["Lesson", "Stage", "force_found", "found_in", "plain_words", "stages", "tolerances"]

@@ -12,8 +12,8 @@ from itertools import combinations
 
 import numpy as np
 
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import DiagramName, Sheet
-from graphkin.drawing.conventions import Letters
 from graphkin.files import Json
 from graphkin.papers.lesson import plain_words
 from graphkin.scene.model import Mechanism

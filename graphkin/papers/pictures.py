@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
+from graphkin.account.headings import FIGURE_WORDS, describe, punctuation, term
+from graphkin.account.notation import Letters, pole, rows_of, scale_statement
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import DiagramName, Equation, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import without_titles
-from graphkin.drawing.conventions import Letters, pole, rows_of, scale_statement
 from graphkin.drawing.equations import write_equation
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, map_tree, moved
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height

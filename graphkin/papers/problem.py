@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from graphkin.account.given_loads import given_loads
+from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
+from graphkin.account.notation import pole
+from graphkin.account.voice import whole_sentence
 from graphkin.construction.sheet import DiagramName, Equation
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import pole
-from graphkin.drawing.given_loads import given_loads
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.drawing.write.drawing import Drawing
@@ -29,7 +30,6 @@ from graphkin.papers.blocks import (
     said,
     sentences,
     spoken,
-    whole_sentence,
 )
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of

@@ -9,6 +9,9 @@ from dataclasses import dataclass, replace
 from itertools import zip_longest
 from typing import Literal, TypeAlias
 
+from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
+from graphkin.account.notation import scale_statement
+from graphkin.account.voice import capital
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
 from graphkin.construction.polygon_acts import OnPlan
@@ -16,10 +19,8 @@ from graphkin.construction.sheet import DiagramName, Scales, Sheet, next_of_seri
 from graphkin.drawing.box import Box
 from graphkin.drawing.cam import cam_pictures, scaled_cam
 from graphkin.drawing.centres import background
-from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.forces import group_equation, group_picture
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, number, term
 from graphkin.drawing.ink.primitives import Group
 from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
@@ -33,7 +34,7 @@ from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.answer_key import way
-from graphkin.papers.blocks import Said, capital, said
+from graphkin.papers.blocks import Said, said
 from graphkin.papers.html import blocks_html, said_html, spoken_words, words_html
 from graphkin.papers.lesson import Lesson, Stage, force_found, found_in, plain_words
 from graphkin.papers.pictures import ROOM, bare_picture, equation_picture

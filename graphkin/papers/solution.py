@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from graphkin.account.headings import FIGURE_WORDS, drivers, written
+from graphkin.account.notation import scale_statement
 from graphkin.checking.report import exact, measured
 from graphkin.construction.polygon_acts import DirectionLine, OnPlan
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import scale_statement
 from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.forces import group_equation, group_picture
-from graphkin.drawing.headings import FIGURE_WORDS, drivers, written
 from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
@@ -37,7 +37,6 @@ from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, bare_picture, equation_picture, parts, stage_picture
 from graphkin.papers.problem import equation_words, given, paper_title, scene_title
-from graphkin.papers.reasons import reasons
 from graphkin.words import Phrase, about, languages, say, word
 
 __all__ = ["beginning", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
@@ -211,7 +210,9 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     words = equation_words(lesson, stage.equation)
     drawn = equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words)
     yield Picture(drawn, joined=True)
-    yield from reasons(lesson, stage.equation)
+    why = tuple((each, lesson.speaker.why(stage.equation, each)) for each in languages(lesson.language))
+    if any(text for _, text in why):
+        yield Paragraph(why, small=True)
 
 
 def _stage(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.account.notation import force_letters
 from graphkin.drawing import Box
 from graphkin.drawing.chart import (
     BEHIND,
@@ -25,7 +26,6 @@ from graphkin.drawing.chart import (
     look,
     marker,
 )
-from graphkin.drawing.conventions import force_letters
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import AngleDriver, Mechanism

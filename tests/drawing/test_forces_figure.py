@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 import graphkin
+from graphkin.account.force_chain import balance
+from graphkin.account.notation import force_letters, letters_of
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.conventions import force_letters, letters_of
-from graphkin.drawing.force_chain import balance
 from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.scene.symbol import Symbol
 from graphkin.words.written import amount, is_quotient

@@ -3,8 +3,8 @@
 import pytest
 
 from graphkin import draw, handout
+from graphkin.account.notation import letters_of
 from graphkin.construction import draft
-from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.scene import mechanism_of

@@ -8,9 +8,9 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
+from graphkin.account.notation import letters_of
 from graphkin.construction import draft, plan
 from graphkin.drawing import Text
-from graphkin.drawing.conventions import letters_of
 from graphkin.drawing.ink.primitives import Group, walk
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.place.piece import ink_box

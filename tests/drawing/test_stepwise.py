@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.drawing.conventions import letters_of
+from graphkin.account.notation import letters_of
 from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import births, so_far, step_of, stepped
 from graphkin.papers.pictures import parts

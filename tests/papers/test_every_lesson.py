@@ -8,13 +8,12 @@ import re
 
 import pytest
 
+from graphkin.account.notation import letters_of
+from graphkin.account.voice import Speaker
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import ByRate
-from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import plain_words, stages
-from graphkin.papers.reasons import reasons
-from graphkin.papers.speaker import Speaker
 from graphkin.scene import library, mechanism_of
 
 
@@ -43,7 +42,7 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
 def test_every_term_that_an_equation_draws_has_a_reason(name):
     lesson = handout(name, language="en", formats=("pdf",)).lesson
     for equation in lesson.sheet.equations:
-        said = " ".join(words for p in reasons(lesson, equation) for _, words in p.words)
+        said = lesson.speaker.why(equation, "en")
         terms = {t.symbol for side in equation.sides for t in side if t.direction_known} - {equation.sides[0][0].symbol}
         named = [lesson.speaker.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
         assert [] == [name for name in named if name not in said]

@@ -6,12 +6,13 @@ same in the mechanism and in every diagram, where a vector has that of the link 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
+from graphkin.account.end_letters import link_of_vector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.ink.primitives import Primitive, Stroke, Text, map_tree
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import Symbol
 
 __all__ = [
     "BLACK",
@@ -35,7 +36,6 @@ __all__ = [
     "colour_of_link",
     "colour_of_vector",
     "link_colour",
-    "link_of_vector",
     "pale",
     "texture",
     "tint",
@@ -107,35 +107,5 @@ def colour_of_link(scene: Mechanism, link: str) -> str:
     return BLACK if name == scene.frame.name else link_colour(scene.order[name])
 
 
-def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
-    """The link whose motion a vector shows: that of its point, the common link of two points, or the sliding link of
-    two coincident points."""
-    scene = sheet.scene
-    of, to = symbol.of, symbol.to
-    if of is None:
-        return symbol.link
-    mine = _links(scene.holders, of)
-    if to is None:
-        moving = [name for name in mine if name != scene.frame.name]
-        pivoted = [n for n in moving if any(scene.frame.name in scene.holders[p] for p in scene.by_name[n].points)]
-        return (pivoted or moving or [scene.frame.name])[0]
-    theirs = _links(scene.holders, to)
-    common = [name for name in mine if name in theirs and name != scene.frame.name]
-    if of.point != to.point and common:
-        return common[0]
-    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {d.centre for d in c.round}]
-    if bars and of.point != to.point:
-        return bars[0]
-    sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}
-    for name in (*mine, *theirs):
-        if name in sliding:
-            return name
-    return (mine or theirs or [scene.frame.name])[0]
-
-
 def colour_of_vector(sheet: Sheet, symbol: Symbol) -> str:
     return colour_of_link(sheet.scene, link_of_vector(sheet, symbol))
-
-
-def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
-    return [ref.link] if ref.link else list(holders.get(ref.point, ()))

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from graphkin.account.headings import number
+from graphkin.account.notation import Letters
 from graphkin.construction.centres import Centre, Centres
 from graphkin.construction.centres.kennedy import CentreRelation
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import number
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
 from graphkin.drawing.ink.symbols import POINTER, arrow

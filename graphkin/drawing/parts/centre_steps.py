@@ -9,12 +9,12 @@ from dataclasses import replace
 from functools import partial
 from itertools import pairwise, permutations
 
+from graphkin.account.headings import figure_title
+from graphkin.account.notation import Letters
 from graphkin.construction.centres import Centre, Centres
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import FigurePage, column, framed, numbered, panel, rows
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import figure_title
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Text, walk
 from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, near_box
 from graphkin.drawing.place.labels import Label

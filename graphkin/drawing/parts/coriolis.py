@@ -10,17 +10,17 @@ from cmath import phase
 from collections.abc import Sequence
 from typing import TypeAlias
 
+from graphkin.account.end_letters import ZERO
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import RateTimes, Size
 from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, sense_arc
-from graphkin.drawing.parts.polygon_on_page import ZERO
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, joined

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise, product
 from typing import NamedTuple, TypeAlias
 
+from graphkin.account.headings import number, slide_index, written
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.headings import number, slide_index, written
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, Text
 from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides

@@ -9,8 +9,8 @@ import re
 from cmath import phase
 from collections.abc import Iterator
 
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import number, once
+from graphkin.account.headings import number, once
+from graphkin.account.notation import Letters
 from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink, SlidingPair
 from graphkin.words import Phrase, languages, say
 

@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from graphkin.account.headings import term
+from graphkin.account.notation import Letters
 from graphkin.construction.sheet import EXACT_NAME, DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.headings import term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree
 from graphkin.drawing.ink.strokes import colour_of_vector

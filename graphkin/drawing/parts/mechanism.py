@@ -13,11 +13,10 @@ from typing import Literal
 
 import numpy as np
 
+from graphkin.account.notation import Letters
 from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.given_loads import springs
 from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
@@ -387,7 +386,7 @@ def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
     special points, which serve its polygons alone."""
     here = MechanismOnPaper(sheet, letters)
     special = {step.act.point for step in sheet.steps if isinstance(step.act, SpecialPoint)}
-    return joined((links(here), springs(here), joints(here, special), link_names(here), _marks(here)))
+    return joined((links(here), _springs(here), joints(here, special), link_names(here), _marks(here)))
 
 
 def _marks(here: MechanismOnPaper) -> Piece:
@@ -396,7 +395,7 @@ def _marks(here: MechanismOnPaper) -> Piece:
 
 def _without_lengths(here: MechanismOnPaper) -> Piece:
     clear = clearance(here)
-    bodies = joined((links(here), springs(here)))
+    bodies = joined((links(here), _springs(here)))
     placed = joined((contact_marks(here), bodies, compass_arcs(here), aids_in_mechanism(here.sheet)))
     return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
 
@@ -574,3 +573,17 @@ def _arc(
     text = Text(0j, symbol(markup), "start", strokes.BLACK, f"label-{id}", ("label",))
     top = page(centre + radius * complex(math.cos(middle), math.sin(middle)))
     return Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (Label(text, top, (middle,)),))
+
+
+def _springs(here: MechanismOnPaper) -> Piece:
+    """All springs between their points, with their names."""
+    drawn, names = [], []
+    for one in here.scene.loading.springs:
+        if not {*one.links} <= {*here.sheet.poses}:
+            continue
+        poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
+        a, b = (pose.place(at) for pose, at in poses)
+        drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",)))
+        text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",))
+        names.append(Label(text, (page(a), page(b)), rank=1))
+    return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()

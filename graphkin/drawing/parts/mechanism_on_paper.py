@@ -12,9 +12,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.account.notation import Letters
 from graphkin.construction.cam_outline import outlines_on_paper, station
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link

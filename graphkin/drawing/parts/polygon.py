@@ -9,17 +9,18 @@ from dataclasses import replace
 
 import numpy as np
 
+from graphkin.account.end_letters import SAME
+from graphkin.account.headings import spoken_vector
 from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.strokes import Bar, Image, Ray, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.group_aids import aids_in_polygon
-from graphkin.drawing.headings import spoken_vector
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
-from graphkin.drawing.parts.polygon_on_page import SAME, PolygonOnPage, named_points, points, same_place, step_number
+from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, points, same_place, step_number
 from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.meeting import Flags, Points, meets
 from graphkin.drawing.place.piece import Piece, joined
@@ -161,7 +162,7 @@ def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
 
 def _vector_names(here: PolygonOnPage) -> Piece:
     """One name for vectors that share tail and tip; those of zero length are named in words."""
-    letters = {same_place(point.at): point.letter for point in reversed(named_points(here))}
+    letters = {same_place(point.at): point.letter for point in reversed(here.lettered.named)}
     named = (_name(here, length, shared, letters) for length, shared in _shared(here))
     return Piece(labels=tuple(name for name in named if name))
 

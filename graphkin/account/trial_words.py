@@ -7,17 +7,17 @@ from cmath import phase
 from collections.abc import Mapping
 from functools import reduce
 
+from graphkin.account.end_letters import EndLetters
 from graphkin.construction.mechanism_acts import Missed, Moved, TrialRow, TrialTable
 from graphkin.construction.polygon_acts import Superposed
 from graphkin.construction.sheet import Sheet, Step
-from graphkin.drawing.end_letters import EndLetters
-from graphkin.drawing.group_aids import NUMERALS
 from graphkin.structure import Slide
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper, true_minus
 
 __all__ = ["moved_and_missed", "numeral", "told_in", "two_digits", "what_is_open"]
 
+NUMERALS = "I", "II", "III", "IV", "V"
 SEEN = 0.005  # mm on paper: less than that is not taken off
 STRAIGHT = 1e-9  # rad
 

@@ -6,6 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 
+from graphkin.account.end_letters import SAME, EndLetters, Markup
+from graphkin.account.group_lines import carried_over
+from graphkin.account.group_steps import divided, laid_off_by_rate, tried
+from graphkin.account.headings import number, written
+from graphkin.account.notation import Letters
+from graphkin.account.position_steps import PositionSteps
 from graphkin.construction.polygon_acts import (
     Asked,
     ByImage,
@@ -24,13 +30,6 @@ from graphkin.construction.polygon_acts import (
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.sizes import Direction, Given, Size
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.end_letters import EndLetters, Markup
-from graphkin.drawing.group_lines import carried_over
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.parts.polygon_on_page import SAME
-from graphkin.papers.group_steps import divided, laid_off_by_rate, tried
-from graphkin.papers.position_steps import PositionSteps
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from graphkin.account.headings import number, written
+from graphkin.account.measured_lengths import arm_written, is_given, scale_of, unit_of
 from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import (
@@ -24,8 +26,6 @@ from graphkin.construction.polygon_acts import (
 from graphkin.construction.sheet import DiagramName, Sheet, Step, either_way
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.measured_lengths import arm_written, is_given, scale_of, unit_of
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import (

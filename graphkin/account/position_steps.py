@@ -9,6 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import reduce
 
+from graphkin.account.group_steps import tried_in_positions
+from graphkin.account.headings import number
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -24,8 +26,6 @@ from graphkin.construction.mechanism_acts import (
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Bar, CompassArc, Mark
-from graphkin.drawing.headings import number
-from graphkin.papers.group_steps import tried_in_positions
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase

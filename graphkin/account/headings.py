@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import reduce
 
+from graphkin.account.notation import Letters
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, plain_in
-from graphkin.drawing.conventions import Letters
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol

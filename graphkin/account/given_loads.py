@@ -7,23 +7,17 @@ import math
 from collections.abc import Iterator
 from functools import reduce
 
+from graphkin.account.headings import number, written
+from graphkin.account.notation import Letters, force_letters
 from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters, force_letters
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Group, Text
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
-from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece
-from graphkin.drawing.text import plain
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase
 from graphkin.words.written import FINER, MOST, amount
 
-__all__ = ["given_loads", "spring_lines", "springs"]
+__all__ = ["given_loads", "spring_lines"]
 
 
 def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
@@ -98,20 +92,6 @@ def _balance(scene: Mechanism, letters: Letters) -> Phrase:
                 found.append(Symbol("F", link=of))
     names = ", ".join(f"${force_letters(letters.convention, s)}$" for s in found)
     return Phrase("given balance", (names,))
-
-
-def springs(here: MechanismOnPaper) -> Piece:
-    """All springs between their points, with their names."""
-    drawn, names = [], []
-    for one in here.scene.loading.springs:
-        if not {*one.links} <= {*here.sheet.poses}:
-            continue
-        poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
-        a, b = (pose.place(at) for pose, at in poses)
-        drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",)))
-        text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",))
-        names.append(Label(text, (page(a), page(b)), rank=1))
-    return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
 
 
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:

@@ -13,6 +13,19 @@ import numpy as np
 import pytest
 
 from graphkin import draw, read
+from graphkin.account.arithmetic import (
+    divisions,
+    factors_of,
+    laid_sum,
+    parts_by_rates,
+    plan_sum,
+    rate_sum,
+    rule_sum,
+    trials_of,
+)
+from graphkin.account.measured_lengths import lengths_measured, scale_of
+from graphkin.account.notation import letters_of
+from graphkin.account.written_lines import written_lines
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
@@ -29,20 +42,7 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
 from graphkin.construction.strokes import Aid
-from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.measured_lengths import lengths_measured, scale_of
 from graphkin.drawing.sheet_plan import sheet_room
-from graphkin.drawing.sums import (
-    divisions,
-    factors_of,
-    laid_sum,
-    parts_by_rates,
-    plan_sum,
-    rate_sum,
-    rule_sum,
-    trials_of,
-)
-from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol

@@ -11,23 +11,23 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.account.arithmetic import laid_sum, parts_by_rates, plan_sum, rate_sum
+from graphkin.account.end_letters import Markup, names_in_letters
+from graphkin.account.headings import number, written
+from graphkin.account.lettered_steps import LetteredSteps
+from graphkin.account.measured_lengths import scale_of, times_scale, unit_of
+from graphkin.account.notation import Letters
+from graphkin.account.reasons import reasons
+from graphkin.account.written_lines import by_rates
 from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn, RateSeen, SeenByRate
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
 from graphkin.construction.strokes import Aid, Bar, Vector
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.end_letters import Markup, names_in_letters
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.measured_lengths import scale_of, times_scale, unit_of
-from graphkin.drawing.sums import laid_sum, parts_by_rates, plan_sum, rate_sum
-from graphkin.drawing.written_lines import by_rates
-from graphkin.papers.blocks import whole_sentence
-from graphkin.papers.lettered_steps import LetteredSteps
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import MOST, in_markup, on_paper, pointing
 
-__all__ = ["Speaker"]
+__all__ = ["Speaker", "capital", "whole_sentence"]
 
 _RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
 _MARKED_RATE = re.compile("([ωα]_{)\x02([^\x03}]*)\x03}")
@@ -56,6 +56,11 @@ class Speaker:
     def step(self, step: Step, language: str) -> str:
         """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
         return self.sentence(self._lettered.phrase(step), language)
+
+    def why(self, equation: Equation, language: str) -> str:
+        """Why an equation is as it is written, in sentences; "" where there is nothing to say."""
+        told = (self.sentence(phrase, language) for phrase in reasons(self.sheet, equation))
+        return word("between sentences", language).join(told)
 
     @cached_property
     def _lettered(self) -> LetteredSteps:
@@ -131,3 +136,18 @@ class Speaker:
         size = abs(vector.span)
         value = times_scale(self.sheet, diagram, size) if size else "0"
         return f"${self.letters.vector(vector.symbol)}$ = {value}"
+
+
+def whole_sentence(text: str, language: str) -> str:
+    """Words as a sentence, with its capital and its full stop."""
+    stop = word("full stop", language)
+    return capital(text).rstrip(stop) + stop
+
+
+def capital(text: str) -> str:
+    """Words with a capital; a symbol stays as it is.
+
+    >>> capital("the rise"), capital("φ = 140°")
+    ('The rise', 'φ = 140°')
+    """
+    return text[:1].upper() + text[1:] if text[:1].isascii() else text

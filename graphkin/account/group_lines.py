@@ -8,6 +8,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, reduce
 
+from graphkin.account.arithmetic import bound, divisions, rule_sum, trials_of
+from graphkin.account.end_letters import EndLetters, Markup, names_in_letters
+from graphkin.account.headings import number, written
+from graphkin.account.notation import Letters
+from graphkin.account.trial_words import moved_and_missed, numeral, told_in, what_is_open
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -34,11 +39,6 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.sizes import Direction, RateTimes
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.end_letters import EndLetters, Markup, names_in_letters
-from graphkin.drawing.headings import number, written
-from graphkin.drawing.sums import bound, divisions, rule_sum, trials_of
-from graphkin.drawing.trial_words import moved_and_missed, numeral, told_in, what_is_open
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed, say
 from graphkin.words.written import in_markup, on_paper

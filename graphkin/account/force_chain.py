@@ -7,6 +7,8 @@ import math
 from decimal import Decimal
 from typing import NamedTuple
 
+from graphkin.account.headings import written
+from graphkin.account.notation import Letters, force_letters
 from graphkin.construction.forces.force_sheet import (
     Arm,
     ForceGroup,
@@ -16,8 +18,6 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters, force_letters
-from graphkin.drawing.headings import written
 from graphkin.words import Neutral, Phrase
 from graphkin.words.written import FINER, amount, is_quotient, on_paper, pointing, to_lay_off
 

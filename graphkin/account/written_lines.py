@@ -4,6 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from graphkin.account.arithmetic import (
+    bound,
+    factors_of,
+    parts_by_rates,
+    plan_sum,
+    rate_sum,
+    rule_sum,
+)
+from graphkin.account.group_lines import GroupLines
+from graphkin.account.headings import number, term
+from graphkin.account.measured_lengths import lengths_measured
+from graphkin.account.notation import Letters
 from graphkin.construction.mechanism_acts import HeldStill, PitchPoint, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import (
     AddedRate,
@@ -20,22 +32,12 @@ from graphkin.construction.polygon_acts import (
     Superposed,
 )
 from graphkin.construction.sheet import Equation, Rate, Sheet, Step
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.equations import WrittenLine, rule_alone
-from graphkin.drawing.group_lines import GroupLines
-from graphkin.drawing.headings import number, term
-from graphkin.drawing.measured_lengths import lengths_measured
-from graphkin.drawing.sums import (
-    bound,
-    factors_of,
-    parts_by_rates,
-    plan_sum,
-    rate_sum,
-    rule_sum,
-)
 from graphkin.words import languages
 
-__all__ = ["by_rates", "written_lines"]
+__all__ = ["WrittenLine", "by_rates", "rule_alone", "written_lines"]
+
+WrittenLine = Equation | str
+"""A vector equation, or a rule on one line as words with symbols."""
 
 
 def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
@@ -177,3 +179,10 @@ def _alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
 
 def _rate_name(kind: str, link: str) -> str:
     return f"${'ω' if kind == 'omega' else 'α'}_{{{link}}}$"
+
+
+def rule_alone(sheet: Sheet, equation: Equation) -> bool:
+    """Whether an equation is nothing but the rule of one vector."""
+    last = equation.sides[-1]
+    known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
+    return known and last[0].symbol in sheet.vectors(equation.diagram)

@@ -7,15 +7,14 @@ from decimal import Decimal
 import pytest
 
 from graphkin import read
+from graphkin.account.lettered_steps import LetteredSteps
+from graphkin.account.notation import letters_of
+from graphkin.account.voice import Speaker
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
-from graphkin.drawing.conventions import letters_of
 from graphkin.papers.lesson import plain_words, stages
-from graphkin.papers.lettered_steps import LetteredSteps
 from graphkin.papers.moving import motion_data
-from graphkin.papers.reasons import reasons
-from graphkin.papers.speaker import Speaker
 from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick
@@ -112,7 +111,7 @@ def test_a_sentence_ends_and_begins_as_its_language_does():
 
 def _reasons(name, language):
     lesson = handout(name, language=language, formats=("pdf",)).lesson
-    return {e.number: " ".join(w for p in reasons(lesson, e) for _, w in p.words) for e in lesson.sheet.equations}
+    return {e.number: lesson.speaker.why(e, language) for e in lesson.sheet.equations}
 
 
 @pytest.mark.parametrize("name", ["geneva-step", "cam-eccentric-flat-slider", "wheel-on-rail"])

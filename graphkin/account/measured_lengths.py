@@ -6,13 +6,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from graphkin.account.headings import number, slide_index, written
+from graphkin.account.notation import Letters
 from graphkin.construction.board import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import RateTimes
-from graphkin.drawing.conventions import Letters
-from graphkin.drawing.headings import number, slide_index, written
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
 from graphkin.words.written import LEAST, MOST, amount, as_given, on_paper, product

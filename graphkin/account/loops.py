@@ -12,8 +12,8 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from graphkin.drawing.conventions import as_vector
-from graphkin.drawing.headings import number
+from graphkin.account.headings import number
+from graphkin.account.notation import as_vector
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import Convention
 from graphkin.structure.loop_values import ArrowValue, LoopBlock, LoopValue, Root

@@ -8,18 +8,18 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
+from graphkin.account.end_letters import EndLetters
+from graphkin.account.group_lines import GroupLines
+from graphkin.account.notation import letters_of
+from graphkin.account.written_lines import written_lines
 from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.polygon_acts import AddedRate
 from graphkin.construction.sheet import Equation
-from graphkin.drawing.conventions import letters_of
-from graphkin.drawing.end_letters import EndLetters
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.group_lines import GroupLines
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import wrapped
-from graphkin.drawing.written_lines import written_lines
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import PointRef
 from tests.construction.test_groups import BARE, HELD, UNBARRED, WELDED

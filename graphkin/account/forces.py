@@ -4,8 +4,12 @@ equation, and what was read off."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import NamedTuple
 
+from graphkin.account.force_chain import DIGITS, arm_lines, balance
+from graphkin.account.headings import number, written
+from graphkin.account.notation import Letters, as_vector, force_letters
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
     ForceSheet,
@@ -16,18 +20,14 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.conventions import Letters, as_vector, force_letters
-from graphkin.drawing.equations import SumTerm
-from graphkin.drawing.force_chain import DIGITS, arm_lines, balance
-from graphkin.drawing.headings import number, written
 from graphkin.plane import added_up
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, listed
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "ForceSentence", "couple_sentences", "group_caption", "inertia_line", "lever_sum", "moment_sentences", "read_off",
-    "sum_terms",
+    "ForceSentence", "SumTerm", "couple_sentences", "group_caption", "inertia_line", "lever_sum", "moment_sentences",
+    "read_off", "sum_terms",
 ]  # fmt: skip
 
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
@@ -148,6 +148,16 @@ def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) ->
     value = number(float(total), DIGITS) if total else "0"
     shown = whole.strip().removeprefix("+ ")
     return f"$ΣM_{{{about}}}$ = {shown} = 0;  {name} = {value} {unit}"
+
+
+@dataclass(frozen=True)
+class SumTerm:
+    """A term of a vector sum as it is written: its symbol, what is known of size and direction, and as what."""
+
+    symbol: str
+    size_known: bool
+    direction_known: bool
+    direction: str = ""
 
 
 def sum_terms(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[SumTerm]:

@@ -6,54 +6,40 @@ from collections.abc import Iterator, Mapping
 
 from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
 from graphkin.construction.polygon_acts import SeenFrom, TrialDrawn
-from graphkin.construction.sheet import Equation, Term
+from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.papers.blocks import Paragraph
-from graphkin.papers.lesson import Lesson
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Slide
-from graphkin.words import Phrase, languages, word
+from graphkin.words import Phrase
 from graphkin.words.written import pointing
 
 __all__ = ["reasons"]
 
 
-def reasons(lesson: Lesson, equation: Equation) -> Iterator[Paragraph]:
-    """The reasons of one equation as a paragraph."""
-    phrases = _of_equation(lesson, equation)
-    if phrases:
-        yield Paragraph(
-            tuple(
-                (each, word("between sentences", each).join(lesson.speaker.sentence(p, each) for p in phrases))
-                for each in languages(lesson.language)
-            ),
-            small=True,
-        )
-
-
-def _of_equation(lesson: Lesson, equation: Equation) -> list[Phrase]:
+def reasons(sheet: Sheet, equation: Equation) -> list[Phrase]:
+    """The reasons of one equation, each once."""
     terms = [term for side in equation.sides for term in side]
-    found = dict.fromkeys(phrase for term in terms for phrase in _why(lesson, equation, term))
-    found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(lesson, term))
+    found = dict.fromkeys(phrase for term in terms for phrase in _why(sheet, equation, term))
+    found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(sheet, term))
     return list(found)
 
 
-def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
+def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     """What ties the point of a term to what it is meant relative to; of a term found before, in which step."""
     symbol = term.symbol
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
         return
     for ref in (of, to):
-        if ref is not None and (links := _rolling_at(lesson).get(ref.point)):
+        if ref is not None and (links := _rolling_at(sheet).get(ref.point)):
             yield Phrase(f"why rolling {equation.diagram}", (ref.point, *links))
-    step = _found_before(lesson, equation, term)
+    step = _found_before(sheet, equation, term)
     if step:
         yield Phrase("why known", (symbol, step))
     elif to is None:
-        yield from _of_a_point(lesson, symbol)
+        yield from _of_a_point(sheet, symbol)
     elif to.point == of.point:
-        slides = lesson.sheet.structure.slides
+        slides = sheet.structure.slides
         guide = next((s for s in slides if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}),
                      next((s for s in slides if {of.link, to.link} == {s.a, s.b}), None))  # fmt: skip
         if guide is not None and symbol.kind in ("v", "ar"):
@@ -61,32 +47,32 @@ def _why(lesson: Lesson, equation: Equation, term: Term) -> Iterator[Phrase]:
         elif symbol.kind == "an":
             yield Phrase("why curved", (of, to))
     elif symbol.kind in ("v", "an"):
-        link = _shared(lesson, of, to)
-        fixed = symbol.kind == "an" and to.point in lesson.sheet.scene.frame.points
+        link = _shared(sheet, of, to)
+        fixed = symbol.kind == "an" and to.point in sheet.scene.frame.points
         alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
         turning = "why turning evenly" if alone else "why turning parts"
         key = turning if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
         yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
 
 
-def _rolling_at(lesson: Lesson) -> Mapping[str, tuple[str, str]]:
+def _rolling_at(sheet: Sheet) -> Mapping[str, tuple[str, str]]:
     """The points at which links of a group roll on each other, with the links."""
-    scene = lesson.sheet.scene
-    coupled = {r.name for e in lesson.sheet.structure.elements if isinstance(e, Cluster) for r in e.rolling}
+    scene = sheet.scene
+    coupled = {r.name for e in sheet.structure.elements if isinstance(e, Cluster) for r in e.rolling}
     found = {c.name: c.links for c in scene.contacts if c.name in coupled}
-    return found | {s.act.point: s.act.links for s in lesson.sheet.steps if isinstance(s.act, PitchPoint)}
+    return found | {s.act.point: s.act.links for s in sheet.steps if isinstance(s.act, PitchPoint)}
 
 
-def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
+def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
     of, to = term.symbol.of, term.symbol.to
     apart = of is not None and to is not None and of.point == to.point and (
-        _is_special(lesson, of) or _is_seen(lesson, to.link)
+        _is_special(sheet, of) or _is_seen(sheet, to.link)
     )
     if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
         return 0
     earlier = (
-        s for s in lesson.sheet.steps
+        s for s in sheet.steps
         if s.diagram == equation.diagram and s.equation != equation.number and not isinstance(s.act, TrialDrawn)
     )  # fmt: skip
     return next(
@@ -94,13 +80,13 @@ def _found_before(lesson: Lesson, equation: Equation, term: Term) -> int:
     )
 
 
-def _is_special(lesson: Lesson, ref: PointRef) -> bool:
-    return any(isinstance(s.act, SpecialPoint) and s.act.point == ref.point for s in lesson.sheet.steps)
+def _is_special(sheet: Sheet, ref: PointRef) -> bool:
+    return any(isinstance(s.act, SpecialPoint) and s.act.point == ref.point for s in sheet.steps)
 
 
-def _is_seen(lesson: Lesson, held: str) -> bool:
+def _is_seen(sheet: Sheet, held: str) -> bool:
     """Whether a link is held still, and others are seen from it."""
-    return any(isinstance(s.act, SeenFrom) and s.act.held == held for s in lesson.sheet.steps)
+    return any(isinstance(s.act, SeenFrom) and s.act.held == held for s in sheet.steps)
 
 
 def _coincident(of: PointRef, to: PointRef, slide: Slide) -> Phrase:
@@ -110,11 +96,10 @@ def _coincident(of: PointRef, to: PointRef, slide: Slide) -> Phrase:
     return Phrase("why coincident", (of, to, slide.a, slide.b))
 
 
-def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
+def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
     """A point that a guide of the frame, or a fixed pivot, holds to its path."""
     of = symbol.of
     assert of is not None
-    sheet = lesson.sheet
     frame = sheet.scene.frame
     for slide in sheet.structure.slides:
         holder, body = (sheet.structure.links.get(name) for name in (slide.a, of.link))
@@ -135,22 +120,21 @@ def _of_a_point(lesson: Lesson, symbol: Symbol) -> Iterator[Phrase]:
         yield _coincident(of, other, under)
 
 
-def _shared(lesson: Lesson, of: PointRef, to: PointRef) -> str:
+def _shared(sheet: Sheet, of: PointRef, to: PointRef) -> str:
     """The link that has both points; a special point belongs to the link that it was found for."""
-    special = {s.act.point: s.act.link for s in lesson.sheet.steps if isinstance(s.act, SpecialPoint)}
+    special = {s.act.point: s.act.link for s in sheet.steps if isinstance(s.act, SpecialPoint)}
     for ref in (of, to):
         if ref.point in special:
             return ref.link or special[ref.point]
-    for link in lesson.sheet.scene.links:
+    for link in sheet.scene.links:
         if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
             return link.name
     return next((ref.link for ref in (of, to) if ref.link), "")
 
 
-def _coriolis(lesson: Lesson, term: Term) -> Iterator[Phrase]:
+def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
     """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
     symbol = term.symbol
-    sheet = lesson.sheet
     moving = sheet.vectors("velocity")
     slip = moving.get(Symbol("v", symbol.of, symbol.to))
     if slip is None and symbol.to is not None and symbol.to.point in sheet.scene.frame.points:

@@ -7,15 +7,15 @@ import math
 from collections.abc import Sequence
 from functools import reduce
 
+from graphkin.account.arithmetic import divisions, parts_by_rates
+from graphkin.account.end_letters import EndLetters
+from graphkin.account.headings import number
+from graphkin.account.trial_words import moved_and_missed, numeral, told_in, two_digits, what_is_open
 from graphkin.construction.mechanism_acts import TrialPositions, TrialTable
 from graphkin.construction.polygon_acts import ByRate, SeenByRate, Superposed, TrialDrawn, end_of
 from graphkin.construction.sheet import Sheet, Step
 from graphkin.construction.steps import phrase_of
 from graphkin.construction.strokes import Aid
-from graphkin.drawing.end_letters import EndLetters
-from graphkin.drawing.headings import number
-from graphkin.drawing.sums import divisions, parts_by_rates
-from graphkin.drawing.trial_words import moved_and_missed, numeral, told_in, two_digits, what_is_open
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, listed
 from graphkin.words.written import on_paper, pointing, true_minus
