@@ -23,7 +23,7 @@ from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Pair, RollingRelation, Structure, Turn
 
-__all__ = ["bounds"]
+__all__ = ["Rows", "bounds"]
 
 FEW = 4 * UNIT
 """The roundings of a sum of products."""
@@ -66,10 +66,10 @@ def _bounds(
         sizes = _sizes(system, all_, matrix, inverse)
         open_ = np.abs(system.constraints(all_))
 
-        def off(order: int, rows: _Rows) -> Array:
+        def off(order: int, rows: Rows) -> Array:
             return np.asarray(open_[order] + np.stack(_all(rows.off(order), n), axis=1))
 
-        first = _Rows(system, every, {}, given, rolled, led, before)
+        first = Rows(system, every, {}, given, rolled, led, before)
         alone = [off(order, first) for order in range(3)]
         change = np.zeros(n)
         found = dict.fromkeys(names, _NONE)
@@ -181,7 +181,7 @@ class _Joint(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Rows:
+class Rows:
     """How far each constraint may be off with its unknowns as they are found.
 
     poses, errors : of every link, errors as far as they are known already

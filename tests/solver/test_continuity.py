@@ -15,7 +15,7 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
-from graphkin.solver.continuity import At, _walk_cluster
+from graphkin.solver.continuity import At, _passed, _walk_cluster
 from graphkin.solver.pose import Array
 from tests import scenes
 
@@ -286,6 +286,25 @@ def test_a_group_goes_on_from_where_it_stops_if_no_other_assembly_is_near(
 ) -> None:
     at = stopping(way, alone_within)
     assert end == _walk_cluster(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05).end
+
+
+def changing(beside: float) -> At:
+    """A group of one link that passes a change point at 0.05, and lies this far beside its motion inside the step."""
+
+    def at(t: float, _: Array) -> tuple[Any, Array]:
+        x = 0.1 * t + (beside if 0.0 < t < 0.1 else 0.0)
+        found = SimpleNamespace(missed=[0.0], place=np.array([[[x, 0.0, 0.0]]]), determinant=[0.05 - t])
+        return found, np.array([[0.1, 0.0, 0.0]])
+
+    return at
+
+
+@pytest.mark.parametrize(("beside", "flips"), [(0.0, [pytest.approx(0.05, abs=1e-6)]), (1e-4, [])])
+def test_a_change_point_is_passed_only_along_the_smooth_motion(beside: float, flips: list[Any]) -> None:
+    at = changing(beside)
+    ends, slope = [at(t, np.zeros(1))[0] for t in (0.0, 0.1)], np.array([[0.1, 0.0, 0.0]])
+    passed = _passed(at, 0.0, ends[0].place[0], slope, 0.1, ends[1], slope, np.ones(3))
+    assert flips == ([passed[0]] if passed else [])
 
 
 def behind_a_cam(law: Sequence[Mapping[str, object]]) -> dict[str, Any]:

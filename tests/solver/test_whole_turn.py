@@ -1,0 +1,46 @@
+"""Strokes over a turn whose limit positions are told by hand."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+from graphkin.scene import mechanism_of
+from graphkin.scene.symbol import Symbol
+from graphkin.solver import driver_range
+from graphkin.solver.whole_turn import extremes
+from tests import scenes
+
+CRANK, COUPLER, ROCKER, GROUND, ROD = 30.0, 100.0, 60.0, 90.0, 120.0
+
+
+def swung_through(guide: float) -> dict[str, Any]:
+    """A rocker that swings through its line with a rod, so that the slider dwells at both ends of the swing (mm)."""
+    scene = scenes.four_bar(CRANK, COUPLER, ROCKER, GROUND)
+    scene["frame"]["guides"] = {"g": {"through": [GROUND, 0], "angle": guide}}
+    scene["links"] |= {"5": {"points": ["C", "F"], "length": ROD}, "6": {"points": ["F"], "on": "4.g"}}
+    c, s = (f(math.radians(guide)) for f in (math.cos, math.sin))
+    return scene | {"driver": {"link": "1", "angle": 0, "omega": 10}, "sketch": {"C": [100, 60],
+                                                                               "F": [GROUND + 180 * c, 180 * s]}}
+
+
+def at_limit(reach: float) -> tuple[float, float]:
+    """Directions (deg) of rocker and crank where crank and coupler are in line, their far end that far off."""
+    off = math.acos((GROUND**2 + ROCKER**2 - reach**2) / (2 * GROUND * ROCKER))
+    x, y = GROUND - ROCKER * math.cos(off), ROCKER * math.sin(off)
+    return 180 - math.degrees(off), math.degrees(math.atan2(y, x)) + (0 if reach > COUPLER else 180)
+
+
+@pytest.mark.parametrize("toward", [-0.3, 0.3])
+def test_of_two_dwells_that_differ_little_the_deeper_ends_the_stroke(toward: float) -> None:
+    limits = [at_limit(COUPLER + CRANK), at_limit(COUPLER - CRANK)]
+    guide = (limits[0][0] + limits[1][0]) / 2 + toward
+    rocker, crank = max(limits, key=lambda limit: abs(limit[0] - guide))
+    off = math.radians(rocker - guide)
+    travel = ROCKER * math.cos(off) + math.sqrt(ROD**2 - (ROCKER * math.sin(off)) ** 2)
+    found = extremes(driver_range(mechanism_of(swung_through(guide))), Symbol.parse("stroke_6/4"))
+    assert (pytest.approx((ROCKER + ROD - travel) / 1e3, rel=1e-12), pytest.approx(math.radians(crank), abs=1e-9)) == (
+        found.stroke, found.low_offset,
+    )  # fmt: skip
