@@ -55,9 +55,8 @@ if TYPE_CHECKING:
     from graphkin.api.drawn import Drawn, draw
     from graphkin.api.explained import Explained, explain
     from graphkin.api.handouts import Handout, handout
-    from graphkin.api.prepared import Prepared, PreparedDesigns, prepare
+    from graphkin.api.prepared import Prepared, PreparedDesigns, Samples, prepare
     from graphkin.api.problem_sets import ProblemSet, problem_set
-    from graphkin.api.samples import Samples
     from graphkin.api.scene_list import Listed, scenes
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
@@ -166,9 +165,8 @@ _PLACES = {
     "api.drawn": "Drawn draw",
     "api.explained": "Explained explain",
     "api.handouts": "Handout handout",
-    "api.prepared": "Prepared PreparedDesigns prepare",
+    "api.prepared": "Prepared PreparedDesigns Samples prepare",
     "api.problem_sets": "ProblemSet problem_set",
-    "api.samples": "Samples",
     "api.scene_list": "Listed scenes",
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",

@@ -14,21 +14,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
-from graphkin.api.samples import Quantities, Samples
-from graphkin.errors import CallError, Problem, as_list, as_text
+from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
+from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin import solver
     from graphkin.api.design_keys import DesignKeys
     from graphkin.solver.designs import PreparedMechanisms
-    from graphkin.table import Table
 
-__all__ = ["Prepared", "PreparedDesigns", "prepare"]
+__all__ = ["Prepared", "PreparedDesigns", "Samples", "prepare"]
 
 Reals = NDArray[np.float64]
 
@@ -88,11 +87,12 @@ class Prepared(Tabled, OfScene):
         shown = {name: quantity_shown(self.mechanism, name) for name in (*self.ready.wanted, *self.ready.loads)}
         return {name: quantity.unit(self.mechanism).text for name, quantity in shown.items()}
 
-    @cached_property
-    def quantities(self) -> Quantities:
-        """What it was prepared for, as its samples know it."""
-        first = self.mechanism.drivers[0]
-        return Quantities(self.units, self.names, (f"driver_{first.key}", self.own_unit.text), self.driver_values)
+    def place(self, name: str) -> int:
+        """Place of a quantity among those asked for.  Raises CallError for another one."""
+        if name not in self.units:
+            known = [*self.units, *self.names]
+            raise CallError(Problem(f'"{name}"', Phrase("was not asked for"), did_you_mean(name, known)))
+        return list(self.units).index(name)
 
     @cached_property
     def _here(self) -> Samples:
@@ -176,7 +176,7 @@ class Prepared(Tabled, OfScene):
             self._fitting(n, out)
         columns, ok = self.ready.sweep(n, out, n >= MANY and _have_numba() if self.fast is None else self.fast)
         if self._plain:
-            return Samples(self.quantities, columns, ok, None, None)
+            return Samples(self, columns, ok, None, None)
         return self.samples(columns, ok, None)
 
     def _fitting(self, n: int, out: Reals) -> None:
@@ -257,10 +257,10 @@ class Prepared(Tabled, OfScene):
         if not ok.all():
             columns[:, ~ok] = np.nan
         if not self.ready.bounded:
-            return Samples(self.quantities, columns, ok, driver, None)
+            return Samples(self, columns, ok, driver, None)
         count = len(self.names)
         bounds = np.where(ok, np.nan_to_num(columns[count:], nan=np.inf, posinf=np.inf), np.nan)
-        return Samples(self.quantities, columns[:count], ok, driver, bounds)
+        return Samples(self, columns[:count], ok, driver, bounds)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Prepared) and self._said == other._said
@@ -278,6 +278,86 @@ class Prepared(Tabled, OfScene):
 
     def __repr__(self) -> str:
         return f"<Prepared {self.mechanism.name}: {', '.join(self.asked)}>"
+
+
+@dataclass(slots=True, eq=False, repr=False)  # not frozen: that would take longer than a hundred positions
+class Samples(Tabled):
+    """The quantities of a prepared mechanism at many positions.
+
+    ``samples["v_C"]`` is a complex array, ``samples["v_C.x"]`` and ``samples["omega_3"]`` are real ones, shape (n,),
+    in the units of ``Prepared.units``; NaN where ``ok`` is False.
+
+    Of many designs every array has the shape (designs, n), at one position (designs,).
+
+    values : real, shape (columns, n), in the order of ``Prepared.names``
+    ok : bool, shape (n,): False at positions that the motion does not reach, and at dead points
+    designs : the values of the keys that the designs change, shape (designs,), or () where it is one alone
+    """
+
+    prepared: Prepared
+    values: Reals
+    ok: NDArray[np.bool_]
+    _driver: Reals | None
+    _bounds: Reals | None
+    designs: Mapping[str, Reals] | None = None
+
+    def __len__(self) -> int:
+        return self.ok.size
+
+    def __getitem__(self, name: str) -> NDArray[np.float64] | NDArray[np.complex128]:
+        """A quantity or a column by its name.  Raises CallError for one that was not asked for."""
+        name = as_text("name", name)
+        names = self.prepared.names
+        units = self.prepared.units
+        if name in names:
+            return Values.of(self.values[names.index(name)], units[name.removesuffix(".x").removesuffix(".y")])
+        self.prepared.place(name)
+        first = names.index(f"{name}.x")
+        return Values.of(self.values[first] + 1j * self.values[first + 1], units[name])
+
+    def bound(self, name: str) -> Reals:
+        """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
+        where nothing is known.  Raises CallError where bounds were not asked for."""
+        if self._bounds is None:
+            raise CallError(Problem("bound", Phrase("no bounds were asked for"), Phrase("prepare with bounds true")))
+        return np.asarray(self._bounds[self.prepared.place(name)])
+
+    @property
+    def driver(self) -> Reals:
+        """Values of the first driver (degrees, or the scene's length unit), shape (n,) or as ``ok``."""
+        return self.prepared.driver_values(self.ok.shape[-1]) if self._driver is None else self._driver
+
+    @property
+    def table(self) -> Table:
+        """A row for each position (of each design): what the design changes, the driver, the columns, and whether there
+        is such a position."""
+        shape, units, designs = self.ok.shape, self.prepared.units, self.designs or {}
+        many = any(values.ndim for values in designs.values())
+        index = ("design",) * many + ("position",) * (len(shape) - many)
+        columns = [Column(name, np.ravel(k) + 1) for name, k in zip(index, np.indices(shape), strict=True)]
+        for key, values in designs.items():
+            own = values.reshape(-1, *[1] * (len(shape) - 1)) if many else values
+            columns.append(Column(key, np.ravel(np.broadcast_to(own, shape))))
+        driver = f"driver_{self.prepared.mechanism.drivers[0].key}"
+        shown = np.ravel(np.broadcast_to(np.round(self.driver, 11), shape))
+        columns.append(Column(driver, shown, self.prepared.own_unit.text))
+        for name, values in zip(self.prepared.names, self.values, strict=True):
+            symbol = name.removesuffix(".x").removesuffix(".y")
+            columns.append(Column(name, np.ravel(values), units[symbol], symbol))
+        return Table((*columns, Column("ok", np.ravel(self.ok))), index)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Samples):
+            return NotImplemented
+        return (self.prepared.units, self._bounds is None) == (other.prepared.units, other._bounds is None) and (
+            self.table == other.table
+        )
+
+    def __hash__(self) -> int:
+        return hash((tuple(self.prepared.units), self.ok.shape))
+
+    def __repr__(self) -> str:
+        return f"<Samples of {', '.join(self.prepared.units)}: {int(self.ok.sum())} of {self.ok.size} positions>"
 
 
 @dataclass(frozen=True, repr=False, eq=False)

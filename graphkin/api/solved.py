@@ -71,20 +71,13 @@ class Solved(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """A row for each position: the drivers' values, everything that moves, the status and the reason for it."""
-        from graphkin.study.sweep_quantities import all_that_moves, driver_columns
-        from graphkin.table import Column, Table, text_column
+        from graphkin.study.sweep_quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
-        columns = [Column("position", np.arange(1, len(motion) + 1)), *driver_columns(scene, motion.values)]
-        if self.times:
-            columns.insert(1, Column("time", np.array(self.times), "s"))
-        if self.find:
-            columns += [column for name in self.find for column in self.columns(name)]
-        else:
-            for watched in all_that_moves(motion.structure):
-                columns += watched.columns(scene, watched.parts(None, self._moved))
-        said = [text_column("status", map(str, motion.status)), text_column("why", motion.why)]
-        return Table((*columns, *said), ("position",))
+        shown = [quantity_shown(scene, name) for name in self.find] or all_that_moves(motion.structure)
+        parts = tuple(quantity.parts(None, self._moved) for quantity in shown)
+        times = np.array(self.times) if self.times else None
+        return motion_table(scene, shown, 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""

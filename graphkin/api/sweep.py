@@ -110,8 +110,7 @@ def sweep(
     from graphkin.solver import structure_of
     from graphkin.study.designs import designs_of
     from graphkin.study.graphical import known_ordinate
-    from graphkin.study.sweep_results import collect, write_tables
-    from graphkin.study.sweeps import Found, Sweep
+    from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     require_callable("progress", progress)
@@ -164,19 +163,19 @@ def sweep(
             raise CallError(Problem("sweep", Phrase("rows", number=over.rows), Phrase("give a folder out or o")))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
-            return Swept(over, Found(over.rows, arrays.good), spoken, arrays, elsewhere, on_paper)
+            return Swept(over, Found(over.rows, arrays.good, arrays=arrays), spoken, elsewhere, on_paper)
     if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor
     try:
         with Workers(through, workers if over.long else None) as working:
             if out is None:
-                return Swept(over, collect(over, working, progress), spoken, None, elsewhere, on_paper)
+                return Swept(over, collect(over, working, progress), spoken, elsewhere, on_paper)
             found = write_tables(over, path_of(out), working, have("pyarrow"), progress)
     finally:
         if scheduler is not None and through is not None:
             through.shutdown()
-    swept = Swept(over, found, spoken, None, elsewhere, on_paper)
+    swept = Swept(over, found, spoken, elsewhere, on_paper)
     if not made.keys:
         swept.write_figures(out, formats, text)
     return swept

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from graphkin.study.graphical import Chords, Way
     from graphkin.study.over_time import TimeStudy
     from graphkin.study.quantities import Quantity
-    from graphkin.study.sweep_quantities import Arrays
     from graphkin.study.sweeps import Found, Sweep
     from graphkin.study.turn import TurnStudy
     from graphkin.table import Array
@@ -54,7 +53,6 @@ class Swept(OfScene, Result):
     over: Sweep
     found: Found
     language: str
-    arrays: Arrays | None = None
     elsewhere: tuple[tuple[Symbol, float, float, bool], ...] = ()
     on_paper: tuple[tuple[Way, str], ...] = ()
 
@@ -88,8 +86,8 @@ class Swept(OfScene, Result):
         name = as_text("name", name)
         watched = self.over.base.watched
         k = next((k for k, w in enumerate(watched) if w.name == name), None)
-        if k is not None and self.arrays is not None:
-            parts = self.arrays.parts[k]
+        if k is not None and self.found.arrays is not None:
+            parts = self.found.arrays.parts[k]
         elif k is not None:
             heads = [c.name for c in watched[k].columns(self.mechanism, [np.zeros(0)] * (1 + watched[k].is_vector))]
             parts = tuple(self.table[head] for head in heads[-1 - watched[k].is_vector :])
@@ -102,8 +100,8 @@ class Swept(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """A row for each position: what is asked in the scene's units, degrees for angles, and its status."""
-        if self.arrays is not None:
-            return self.over.base.table_of(self.arrays, self.rows, 0, self.rows)
+        if self.found.arrays is not None:
+            return self.over.base.table_of(self.found.arrays, self.rows, 0, self.rows)
         if self.found.table is not None:
             return self.found.table
         return table_of_csv(self.found.files[0], self.over.head)
@@ -111,7 +109,7 @@ class Swept(OfScene, Result):
     @cached_property
     def designs(self) -> Table | None:
         """Over designs a row for each: what was replaced, how it came out, strokes, K, least transmission angles."""
-        from graphkin.study.sweep_results import designs_table
+        from graphkin.study.sweeps import designs_table
 
         return designs_table(self.over, self.found.outcomes) if self.over.designs.keys else None
 

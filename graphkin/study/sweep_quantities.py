@@ -51,7 +51,7 @@ __all__ = [
     "FollowedDesign",
     "SweepQuantity",
     "all_that_moves",
-    "driver_columns",
+    "motion_table",
     "quantity_named",
     "quantity_of_symbol",
     "word_column",
@@ -169,15 +169,30 @@ def all_that_moves(structure: Structure) -> tuple[SweepQuantity, ...]:
     return tuple(found)
 
 
-def driver_columns(scene: Mechanism, values: Array) -> list[Column]:
-    """Columns of the drivers' values (SI), shape (n, drivers)."""
-    columns = []
+def motion_table(
+    scene: Mechanism, watched: Sequence[SweepQuantity], first: int, values: Array, parts: Parts, status: Words,
+    why: Words, times: Array | None = None,
+) -> Table:  # fmt: skip
+    """A row for each position of a motion, numbered from ``first`` + 1 on.
+
+    Parameters
+    ----------
+    values : of the drivers, shape (n, drivers) (SI)
+    parts : of each quantity that is watched, as ``SweepQuantity.parts`` gives them
+    status, why : of each position, or one of all
+    times : of each position (s)
+    """
+    n = len(values)
+    columns = [Column("position", np.arange(first + 1, first + n + 1))]
+    columns += [] if times is None else [Column("time", times, "s")]
     for driver, value in zip(scene.drivers, values.T, strict=True):
         unit = scene.unit_of(driver)
         # a driver value is given, not found: without the last digit that the conversion to radians cost it
         shown = np.round(unit.of(value), 11) if driver.measure == "angle" else unit.of(value)
         columns.append(Column(f"driver_{driver.key}", shown, unit.text))
-    return columns
+    for quantity, own in zip(watched, parts, strict=True):
+        columns += quantity.columns(scene, own)
+    return Table((*columns, word_column("status", status, n), word_column("why", why, n)), ("position",))
 
 
 def word_column(name: str, words: Words, n: int) -> Column:
@@ -274,10 +289,10 @@ class FollowedDesign:
             times = np.array(moments(self.scene, n)[first:last])
             motion = over_time(self.structure, times)
             parts = tuple(w.parts(None, motion) for w in self.watched)
-            return self._table(first, motion.values, parts, motion.status.tolist(), motion.why, times)
+            return motion_table(self.scene, self.watched, first, motion.values, parts, motion.status, motion.why, times)
         motion = self.reach.motion(self.reach.table_offsets(n, first, last))
         parts = tuple(w.parts(self.reach, motion) for w in self.watched)
-        return self._table(first, motion.values, parts, motion.status.tolist(), motion.why)
+        return motion_table(self.scene, self.watched, first, motion.values, parts, motion.status, motion.why)
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
         """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
@@ -295,28 +310,12 @@ class FollowedDesign:
                 for part, found in zip(own, watched.parts(self.reach, motion), strict=True):
                     part[some] = found
             status[some], why[some] = motion.status.tolist(), motion.why
-        return self._table(first, values, parts, status, why)
+        return motion_table(self.scene, self.watched, first, values, parts, status, why)
 
     def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
         """The table of positions that have no values."""
         nothing = np.full(last - first, np.nan)
         parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
         values = np.stack([nothing] * len(self.scene.drivers), axis=1)
-        return self._table(first, values, parts, [status], [why], nothing if moves_by_law(self.scene) else None)
-
-    def _table(
-        self, first: int, values: Array, parts: Parts, status: Words, why: Words, times: Array | None = None
-    ) -> Table:
-        n = len(values)
-        shown = (c for w, own in zip(self.watched, parts, strict=True) for c in w.columns(self.scene, own))
-        return Table(
-            (
-                Column("position", np.arange(first + 1, first + n + 1)),
-                *([] if times is None else [Column("time", times, "s")]),
-                *driver_columns(self.scene, values),
-                *shown,
-                word_column("status", status, n),
-                word_column("why", why, n),
-            ),
-            ("position",),
-        )
+        times = nothing if moves_by_law(self.scene) else None
+        return motion_table(self.scene, self.watched, first, values, parts, [status], [why], times)

@@ -7,16 +7,16 @@ whenever: an interrupted sweep goes on in its folder from the pieces that are do
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields, replace
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.files import Tables
-from graphkin.jobs import key_of
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
+from graphkin.files import Tables, folder_alone, whole_file
+from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions
 from graphkin.scene.model import Mechanism
@@ -24,8 +24,10 @@ from graphkin.solver.designs import PreparedMechanisms
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.sweep_quantities import BLOCK, Arrays, FollowedDesign, SweepQuantity, word_column
 from graphkin.table import Column, Table
+from graphkin.table.csv_files import parquet_of_csv
+from graphkin.words import Phrase, from_others
 
-__all__ = ["Found", "Outcome", "PieceResult", "Sweep", "make"]
+__all__ = ["Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables"]
 
 MOST_DESIGNS = 64
 """Designs in a piece, so that all workers have some."""
@@ -52,16 +54,20 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Found:
-    """What a sweep came to: rows in all, rows that are ok, and over designs how each came out.
+    """What a sweep or a piece of it came to: rows in all, rows that are ok, and over designs how each came out.
 
-    table : in memory; None where it was written into files
+    arrays : what is watched, where all of it was computed at once by a prepared mechanism
+    table : in memory; None where it is text, was written into files, or is made of ``arrays``
+    text : the rows of the table as those of a CSV file
     damaged : pieces kept from before that were damaged, and were made again
     """
 
     rows: int
     good: int
     outcomes: tuple[Outcome, ...] = ()
+    arrays: Arrays | None = None
     table: Table | None = None
+    text: bytes = b""
     files: tuple[Path, ...] = ()
     damaged: int = 0
 
@@ -136,8 +142,8 @@ class Sweep:
         """Designs in a piece."""
         return max(1, min(BLOCK // self.positions, MOST_DESIGNS))
 
-    def piece(self, number: int, text: bool) -> SweepPiece:
-        """One piece, with all that is needed to make it."""
+    def piece(self, number: int) -> Piece:
+        """One piece, with all that is needed to make it: designs, or positions of one."""
         if self.positions > BLOCK:
             design, block = divmod(number, -(-self.positions // BLOCK))
             some, first = range(design, design + 1), block * BLOCK
@@ -148,32 +154,12 @@ class Sweep:
         designs = tuple((k, self.designs[k]) for k in some)
         # the values of all other designs stay at home
         alone = replace(self, designs=Designs(self.designs.keys))
-        return SweepPiece(self.key, alone, self.designs.worded, designs, first, last, text)
+        return self.key, alone, self.designs.worded, designs, first, last
 
 
-@dataclass(frozen=True)
-class SweepPiece:
-    """Some designs of a sweep, or some positions of one; its table is wanted as text or as it is."""
-
-    key: str
-    sweep: Sweep
-    worded: tuple[bool, ...]
-    designs: tuple[tuple[int, tuple[Value, ...]], ...]
-    first: int
-    last: int
-    text: bool
-
-
-@dataclass(frozen=True)
-class PieceResult:
-    """What a piece gives: its table, or the text of it, how its designs came out, and rows that are ok."""
-
-    table: Table | None
-    text: bytes
-    outcomes: tuple[Outcome, ...]
-    good: int
-
-
+Piece = tuple[str, Sweep, tuple[bool, ...], tuple[tuple[int, tuple[Value, ...]], ...], int, int]
+"""Key of the whole, the sweep with no designs, which of its keys take words, the designs with their numbers, and which
+positions of them."""
 _BASE: list[FollowedDesign] = []
 """The scene that was swept last: to sweep it again, it need not be prepared again."""
 
@@ -191,30 +177,37 @@ _LATEST: dict[tuple[str, int], FollowedDesign | tuple[str, str]] = {}
 """The design that was followed last, or why there is none: the pieces of a long one share it."""
 
 
-def make(piece: SweepPiece) -> PieceResult:
-    """Make one piece.  What goes wrong with a design is said in its rows; nothing is raised for it."""
-    designs = {number: _design(piece, number, values) for number, values in piece.designs}
-    whole = piece.first == 0 and piece.last == piece.sweep.positions
-    arrays = _together(piece.sweep, designs) if whole and piece.sweep.designs.keys else {}
-    made = [_rows(piece, number, values, designs[number], arrays.get(number)) for number, values in piece.designs]
-    table = Table.joined([t for t, _ in made])
-    outcomes = tuple(o for _, o in made)
-    text = b""
-    if piece.text:
-        out = io.BytesIO()
-        table.write_csv(out, head=False)
-        text = out.getvalue()
-    good = sum(o.good for o in outcomes)
-    return PieceResult(None if piece.text else table, text, outcomes if piece.sweep.designs.keys else (), good)
+def make(
+    key: str, sweep: Sweep, worded: tuple[bool, ...], numbered: tuple[tuple[int, tuple[Value, ...]], ...], first: int,
+    last: int, text: bool = False,
+) -> Found:  # fmt: skip
+    """Make one piece, its table as it is or as ``text``.  What goes wrong with a design is said in its rows; nothing is
+    raised for it."""
+    designs = {number: _design(key, sweep, number, values) for number, values in numbered}
+    whole = first == 0 and last == sweep.positions
+    arrays = _together(sweep, designs) if whole and sweep.designs.keys else {}
+    tables, outcomes = [], []
+    for number, values in numbered:
+        table, outcome = _rows(sweep, number, designs[number], arrays.get(number), first, last)
+        shown = [str(v) if word else v for v, word in zip(values, worded, strict=True)]
+        tables.append(_with_design(table, sweep.designs.keys, number, shown))
+        outcomes.append(outcome)
+    table = Table.joined(tables)
+    made = Found(len(table), sum(o.good for o in outcomes), tuple(outcomes) if sweep.designs.keys else (), table=table)
+    if not text:
+        return made
+    out = io.BytesIO()
+    table.write_csv(out, head=False)
+    return replace(made, table=None, text=out.getvalue())
 
 
-def _design(piece: SweepPiece, number: int, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
+def _design(key: str, sweep: Sweep, number: int, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
     """A design whose way is known, or the status and the reason why it has none."""
-    design = _LATEST.get((piece.key, number))
+    design = _LATEST.get((key, number))
     if design is None:
-        design = _followed(piece.sweep, values)
+        design = _followed(sweep, values)
         _LATEST.clear()
-        _LATEST[piece.key, number] = design
+        _LATEST[key, number] = design
     return design
 
 
@@ -246,30 +239,23 @@ def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, st
 
 
 def _rows(
-    piece: SweepPiece,
-    number: int,
-    values: tuple[Value, ...],
-    design: FollowedDesign | tuple[str, str],
-    arrays: Arrays | None,
+    sweep: Sweep, number: int, design: FollowedDesign | tuple[str, str], arrays: Arrays | None, first: int, last: int
 ) -> tuple[Table, Outcome]:
-    keys = piece.sweep.designs.keys
-    cells: dict[str, float | str | None] = {}
+    """Some positions of a design, and how it came out there."""
     if isinstance(design, tuple):
         status, why = design
-        good, table = 0, piece.sweep.base.blank(piece.first, piece.last, status, why)
-    else:
-        n, first, last = piece.sweep.positions, piece.first, piece.last
-        table = design.table(n, first, last) if arrays is None else design.table_of(arrays, n, first, last)
-        bad = np.flatnonzero(table["status"] != "ok")
-        good = len(table) - len(bad)
-        status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
-        if keys and piece.first == 0:
-            from graphkin.study.turn import study_turn
-            from graphkin.study.turn_data import design_row
+        return sweep.base.blank(first, last, status, why), Outcome(number, status, why, {}, 0)
+    n = sweep.positions
+    table = design.table(n, first, last) if arrays is None else design.table_of(arrays, n, first, last)
+    bad = np.flatnonzero(table["status"] != "ok")
+    status, why = (table["status"][bad[0]], table["why"][bad[0]]) if len(bad) else ("ok", "")
+    cells: dict[str, float | str | None] = {}
+    if sweep.designs.keys and first == 0:
+        from graphkin.study.turn import study_turn
+        from graphkin.study.turn_data import design_row
 
-            cells = design_row(study_turn(design.reach, everything=False))
-    shown = [str(v) if word else v for v, word in zip(values, piece.worded, strict=True)]
-    return _with_design(table, keys, number, shown), Outcome(number, status, why, cells, good)
+        cells = design_row(study_turn(design.reach, everything=False))
+    return table, Outcome(number, status, why, cells, len(table) - len(bad))
 
 
 def _followed(sweep: Sweep, values: tuple[Value, ...]) -> FollowedDesign | tuple[str, str]:
@@ -300,3 +286,111 @@ def _with_design(table: Table, keys: Sequence[str], number: int, values: Sequenc
     return Table((Column("design", np.full(n, number + 1)), *replaced, *table.columns), ("design", "position"))
 
 
+def collect(sweep: Sweep, workers: Workers, progress: Progress | None = None) -> Found:
+    """A whole sweep in memory."""
+    made: list[Found] = []
+    for piece in workers.results(make, map(sweep.piece, range(sweep.pieces))):
+        made.append(piece)
+        _count(sweep, len(made), progress)
+    whole = _joined(sweep, ((m.outcomes, m.good) for m in made))
+    return replace(whole, table=Table.joined([m.table for m in made if m.table is not None]))
+
+
+def write_tables(
+    sweep: Sweep, folder: Path, workers: Workers, parquet: bool = False, progress: Progress | None = None
+) -> Found:
+    """Make what is missing of a sweep and write its tables into a folder; they appear whole or not at all.
+
+    Parameters
+    ----------
+    parquet : whether table.parquet is written too
+    progress : called with the rows that are done and all rows
+
+    Raises
+    ------
+    CallError : the folder cannot be written, or another program is writing into it
+    """
+    # what is wrong with the scene itself is said before anything is written
+    _ = sweep.head
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with folder_alone(folder):
+            points = Checkpoints.of(folder, "sweep", sweep.key)
+            points.open(scene=sweep.name, pieces=sweep.pieces, rows=sweep.rows)
+            finished, damaged = points.done()
+            missing = [k for k in range(sweep.pieces) if k not in finished]
+            done = sweep.pieces - len(missing)
+            _count(sweep, done, progress)
+            results = workers.results(make, ((*sweep.piece(k), True) for k in missing))
+            for number, made in zip(missing, results, strict=True):
+                outcomes = [asdict(o) for o in made.outcomes]
+                points.save(number, {"outcomes": outcomes, "good": made.good}, made.text)
+                done += 1
+                _count(sweep, done, progress)
+            return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
+    except OSError as error:
+        raise CallError(
+            Problem(
+                str(folder),
+                Phrase("cannot be written", reason=from_others(error.strerror or str(error))),
+                Phrase("give another folder with o"),
+            )
+        ) from None
+
+
+def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> Found:
+    """All pieces in their order as tables in the folder of results; the pieces are removed."""
+    facts = []
+    files = [folder / "table.csv"]
+    with whole_file(files[0], points.place) as out:
+        sweep.head.write_csv(out)
+        for piece in map(points.load, range(sweep.pieces)):
+            if piece is None:
+                wanted = "run the same command again; the disk may be failing"
+                raise CallError(Problem(str(points.place), Phrase("a piece was damaged while the table was"), wanted))
+            piece.copy(out)
+            facts.append(piece.facts)
+    found = _joined(sweep, ((tuple(Outcome(**o) for o in f["outcomes"]), f["good"]) for f in facts))
+    if sweep.designs.keys:
+        files.append(folder / "designs.csv")
+        with whole_file(files[-1], points.place) as out:
+            designs_table(sweep, found.outcomes).write_csv(out)
+    if parquet:
+        files.append(folder / "table.parquet")
+        with whole_file(files[-1], points.place) as out:
+            parquet_of_csv(files[0], sweep.head, out)
+    points.close()
+    return replace(found, files=tuple(files))
+
+
+def _count(sweep: Sweep, done: int, progress: Progress | None) -> None:
+    if progress is not None:
+        progress(min(sweep.rows, round(sweep.rows * done / sweep.pieces)), sweep.rows)
+
+
+def _joined(sweep: Sweep, made: Iterable[tuple[tuple[Outcome, ...], int]]) -> Found:
+    """What a sweep came to, from what its pieces say: a design is "ok", "partly" so (some positions could not be
+    given), or has the status of the first that could not."""
+    good = 0
+    parts: dict[int, list[Outcome]] = {}
+    for outcomes, rows in made:
+        good += rows
+        for outcome in outcomes:
+            parts.setdefault(outcome.design, []).append(outcome)
+    whole = []
+    for design, own in sorted(parts.items()):
+        right = sum(o.good for o in own)
+        said = next((o for o in own if o.why), own[0])
+        status = "ok" if right == sweep.positions else "partly" if right else said.status
+        cells = next((o.cells for o in own if o.cells), {})
+        whole.append(Outcome(design, status, said.why, cells, right))
+    return Found(sweep.rows, good, tuple(whole))
+
+
+def designs_table(sweep: Sweep, outcomes: Sequence[Outcome]) -> Table:
+    """A row for each design: what was replaced, how it came out, strokes, K, least transmission angles."""
+    names = tuple(dict.fromkeys(name for o in outcomes for name in o.cells))
+    rows = (
+        (o.design + 1, *sweep.designs[o.design], o.status, *(o.cells.get(n) for n in names), o.why) for o in outcomes
+    )
+    return Table.of(("design", *sweep.designs.keys, "status", *names, "why"), rows)

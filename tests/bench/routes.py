@@ -103,7 +103,8 @@ def prepared(tables: Mapping[str, Any], names: list[str], key: str = "", value: 
         ready = graphkin.prepare(tables, names)
         samples = ready.over({key: value}).sweep(POSITIONS) if key else ready.sweep(POSITIONS)
         columns = {n: np.asarray(samples[n], float).tolist() for n in ready.names}
-        return samples.ok.tolist(), {**columns, samples.quantities.driver[0]: samples.driver.tolist()}
+        driver = f"driver_{ready.mechanism.drivers[0].key}"
+        return samples.ok.tolist(), {**columns, driver: samples.driver.tolist()}
 
     return _said(make)
 

@@ -25,8 +25,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
 from graphkin.study.sweep_quantities import SweepQuantity, quantity_of_symbol
-from graphkin.study.sweep_results import collect, write_tables
-from graphkin.study.sweeps import Found, Sweep
+from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
 
 @pytest.fixture
