@@ -12,7 +12,6 @@ from typing import Literal
 
 from graphkin.account.headings import number, written
 from graphkin.account.measured_lengths import arm_written, is_given, scale_of, unit_of
-from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT
 from graphkin.construction.polygon_acts import (
     ByRate,
@@ -23,6 +22,7 @@ from graphkin.construction.polygon_acts import (
     Superposed,
     TrialDrawn,
 )
+from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import DiagramName, Sheet, Step, either_way
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
 from graphkin.construction.strokes import Aid, Vector

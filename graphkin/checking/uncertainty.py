@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 from graphkin.checking.readings import Reading, read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
 from graphkin.construction.board import Hand
-from graphkin.construction.polygon_pair import Order
+from graphkin.construction.sheet import Order
 from graphkin.construction.steps import Cause, ReadOff, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up

@@ -10,6 +10,7 @@ import cmath
 import math
 import random
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from typing import Protocol, TypeVar
 
@@ -238,6 +239,11 @@ class Board:
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
     arms: dict[frozenset[str], float] = field(default_factory=dict)
     lengths: dict[Symbol, float] = field(default_factory=dict)
+
+    def again(self, hand: Instrument) -> Board:
+        """What stands on the board, to go on with by other hands."""
+        kept = {name: copy(value) for name, value in vars(self).items() if name != "instrument"}
+        return Board(hand, **kept)
 
     def do(self, diagram: DiagramName, act: Act, *strokes: Stroke, equation: int | None = None) -> None:
         """Record one step."""

@@ -6,16 +6,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.construction.as_seen import seen
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
-from graphkin.construction.group_polygons import GroupPolygons
+from graphkin.construction.elements import draw_element
 from graphkin.construction.inversion import TriangleDrawn
+from graphkin.construction.larger_groups import draw_group, drawn_group
 from graphkin.construction.net import node
 from graphkin.construction.polygon_acts import Asked
-from graphkin.construction.polygon_pair import Order, Plot
-from graphkin.construction.polygons import RATE
+from graphkin.construction.polygons import RATE, Polygons
 from graphkin.construction.position import draw_position, place
-from graphkin.construction.sheet import DrawnGroup, Limits, Scales, Sheet, Step, either_way
+from graphkin.construction.seen_from import seen
+from graphkin.construction.sheet import DrawnGroup, Limits, Order, Scales, Sheet, Step, either_way
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Vector
 from graphkin.construction.task import Task
@@ -24,7 +24,7 @@ from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.structure import Cluster, needed
+from graphkin.structure import Cluster, Element, needed
 from graphkin.words import Phrase
 
 __all__ = ["GoneOn", "OnBoard", "Redrawn", "carried_out", "finished", "positioned"]
@@ -38,7 +38,7 @@ class OnBoard:
     held : what was drawn with a link held still
     """
 
-    polygons: GroupPolygons
+    polygons: Polygons
     assembly: Mapping[str, Phrase]
     held: tuple[Step, ...]
 
@@ -64,7 +64,7 @@ def positioned(
     if with_steps:
         assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
     board.causes[:] = [*before, *position.causes]
-    polygons = GroupPolygons(board, task.opened, position.frame, scales, slip)
+    polygons = Polygons(board, task.opened, position.frame, scales, slip)
     polygons.given.update(rates)
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
@@ -78,8 +78,16 @@ def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip
     """Position and both polygons on a board."""
     made = positioned(task, scales, instrument, slip)
     for order, element in task.in_order:
-        made.polygons.draw(order, element)
+        draw(made.polygons, order, element)
     return made
+
+
+def draw(polygons: Polygons, order: Order, element: Element) -> None:
+    """Draw what an element adds to a polygon."""
+    if isinstance(element, Cluster):
+        draw_group(polygons, order, element)
+    else:
+        draw_element(polygons, order, element)
 
 
 def finished(task: Task, made: OnBoard) -> Sheet:
@@ -116,7 +124,7 @@ def finished(task: Task, made: OnBoard) -> Sheet:
     return without_residues(sheet) if board.instrument.faultless else sheet
 
 
-def _readings(polygons: GroupPolygons) -> Mapping[Symbol | frozenset[str], float]:
+def _readings(polygons: Polygons) -> Mapping[Symbol | frozenset[str], float]:
     read: tuple[Mapping[frozenset[str], float] | Mapping[Symbol, float], ...]
     read = polygons.board.arms, polygons.board.lengths
     found: dict[Symbol | frozenset[str], float] = {thing: mm for kept in read for thing, mm in kept.items()}
@@ -134,10 +142,10 @@ def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits
     return limits_on_paper(task.limits, task.structure, task.elements, task.values, scales, hand)
 
 
-def _drawn_groups(task: Task, polygons: GroupPolygons) -> Iterator[DrawnGroup]:
+def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
     for group in needed(task.structure, task.asked):
         if group in task.trials and isinstance(group, Cluster):
-            yield polygons.drawn_group(group, task.trials[group].reduced.left_out)
+            yield drawn_group(polygons, group, task.trials[group].reduced.left_out)
         elif isinstance(group, Cluster):
             # with one link held still its motion relative to that link is found, and laid over that link's motion
             yield DrawnGroup(group, "superposition", (), (), (), ())
@@ -152,11 +160,11 @@ class Redrawn:
     def __init__(self, what: Task, scales: Scales, still: Hand) -> None:
         self.what, self.scales = what, scales
         made = positioned(what, scales, still)
-        self.kept: list[tuple[int, GroupPolygons]] = []
+        self.kept: list[tuple[int, Polygons]] = []
         """What stood there after so many acts."""
         for order, element in what.in_order:
             self.kept.append((still.acts, made.polygons.again(still)))
-            made.polygons.draw(order, element)
+            draw(made.polygons, order, element)
         self.kept.append((still.acts, made.polygons.again(still)))
         self.sheet = finished(what, made)
 
@@ -172,7 +180,7 @@ class Redrawn:
             made = OnBoard(polygons.again(hand), {}, ())
             left = [*self.what.in_order][len(before) - 1 :]
         for order, element in left:
-            made.polygons.draw(order, element)
+            draw(made.polygons, order, element)
         return finished(self.what, made)
 
 
@@ -198,20 +206,20 @@ class GoneOn:
         """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
         for number, (order, element) in enumerate(self.in_order, 1):
             polygons = polygons.again(EXACT)
-            polygons.draw(order, element)
+            draw(polygons, order, element)
             self._note(polygons, number)
             self.kept.append(polygons)
         polygons = polygons.again(EXACT)
         show(polygons, what.asked)
         self._note(polygons, len(self.kept))
-        self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], GroupPolygons] = {}
+        self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], Polygons] = {}
 
-    def _note(self, polygons: GroupPolygons, number: int) -> None:
+    def _note(self, polygons: Polygons, number: int) -> None:
         rates = [Symbol(RATE[order], link=link) for order, found in polygons.rates.items() for link in found]
         for symbol in (*(s for drawn in polygons.drawn.values() for s in drawn), *rates):
             self.found_by.setdefault(symbol, number)
 
-    def to(self, symbol: Symbol, own: Own) -> GroupPolygons | None:
+    def to(self, symbol: Symbol, own: Own) -> Polygons | None:
         """The polygons as far as a vector or rate stands in them; None where nothing leads to it.  Raises as
         `execute`."""
         number = self.found_by.get(symbol)
@@ -223,7 +231,7 @@ class GoneOn:
         show(polygons, self.what.asked)
         return polygons
 
-    def _after(self, number: int, own: Own) -> GroupPolygons:
+    def _after(self, number: int, own: Own) -> Polygons:
         """What stands there after so many elements."""
         own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
         if not own:
@@ -232,21 +240,21 @@ class GoneOn:
         if key not in self.others:
             polygons = self._after(number - 1, own).again(EXACT)
             polygons.slip = self.slip(own)
-            polygons.draw(*self.in_order[number - 1])
+            draw(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
                 del self.others[next(iter(self.others))]
             self.others[key] = polygons
         return self.others[key]
 
 
-def show(plot: Plot, asked: Sequence[Symbol]) -> None:
+def show(plot: Polygons, asked: Sequence[Symbol]) -> None:
     """Draw the vectors that are asked for and stand in no equation."""
     for symbol in asked:
         if symbol.is_vector:
             _show(plot, symbol)
 
 
-def _show(plot: Plot, symbol: Symbol) -> None:
+def _show(plot: Polygons, symbol: Symbol) -> None:
     order: Order = "velocity" if symbol.kind == "v" else "acceleration"
     if symbol in plot.drawn[order] or symbol.of is None:
         return
@@ -263,21 +271,21 @@ def _show(plot: Plot, symbol: Symbol) -> None:
         _coincident(plot, symbol, of, to)
 
 
-def _node(plot: Plot, ref: PointRef) -> PointRef:
+def _node(plot: Polygons, ref: PointRef) -> PointRef:
     return node(plot.links, ref.point, ref.link) if ref.link else ref
 
 
-def _reachable(plot: Plot, ref: PointRef) -> bool:
+def _reachable(plot: Polygons, ref: PointRef) -> bool:
     names = [ref.link] if ref.link else [n for n, k in plot.links.items() if ref.point in k.points]
     return ref.point in plot.places and any(n in plot.rates["velocity"] for n in names)
 
 
-def _draw(plot: Plot, order: Order, vector: Vector) -> None:
+def _draw(plot: Polygons, order: Order, vector: Vector) -> None:
     plot.drawn[order][vector.symbol] = vector
     plot.board.do(order, Asked(vector.symbol), vector)
 
 
-def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
+def _split(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
     """Normal and tangential part of a relative acceleration: along the bar and square to it."""
     if to is None:
         to = _pivot(plot, of)
@@ -301,7 +309,7 @@ def _split(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> Non
         _draw(plot, "acceleration", Vector(symbol, foot, tip, "tangential"))
 
 
-def _pivot(plot: Plot, of: PointRef) -> PointRef:
+def _pivot(plot: Polygons, of: PointRef) -> PointRef:
     names = [of.link] if of.link else [n for n, k in plot.links.items() if of.point in k.points]
     ground = plot.links[plot.ground]
     for name in names:
@@ -317,7 +325,7 @@ def _pivot(plot: Plot, of: PointRef) -> PointRef:
     )
 
 
-def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
+def _coincident(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
     """Coriolis and sliding part for two coincident points that stand in no equation."""
     assert to is not None
     pair = _pair(plot, of, to, symbol)
@@ -331,7 +339,7 @@ def _coincident(plot: Plot, symbol: Symbol, of: PointRef, to: PointRef | None) -
         _draw(plot, "acceleration", Vector(symbol, corner, tip, "sliding"))
 
 
-def _pair(plot: Plot, of: PointRef, to: PointRef, symbol: Symbol) -> str:
+def _pair(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
     """The guide of the sliding pair between two coincident points; of links of a group the one it is seen from."""
     for s in plot.structure.slides:
         sides = {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)}

@@ -3,37 +3,61 @@
 A vector equation with two unknown sizes is drawn where there is one.  Where there is none, a link held by two legs has
 a special point: each leg leaves its joint on the link free along one direction, and where the lines square to these
 through the joints cross, the point of the link moves along both at once (Assur; Artobolevsky, Theory of mechanisms).
-Where none has one, two links that two legs join may have one relative to each other (`relative_points`).
+Where none has one, two links that two legs join may have one relative to each other, as in groups of class IV: each leg
+leaves the one link free along one direction as seen from the other; where the lines square to these cross, the points
+of both links that lie there move alike, the centre of their relative motion.  What their accelerations differ by a
+polygon of its own gives, and then both links are drawn as if hinged there (Assur's points, taken relative to a moving
+link; Artobolevsky).
 Where no special point serves either, a rate is assumed, and trial polygons with two rates are superposed: once for
 every degree of freedom that is left; the fewest that do are looked for.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
-from graphkin.construction.moves import Closed, Crossed, Move, OneLine, Path, Special
-from graphkin.construction.net import Edge, Net, TwoWays
-from graphkin.construction.relative_points import FarPoint, RelativePoints
+from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Path, Turning, TwoUnknowns, Unknown
+from graphkin.construction.polygon_acts import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster
 
-__all__ = ["GroupPlan", "plan_group"]
+__all__ = ["GroupPlan", "Move", "Special", "plan_group"]
 
 FLAT = 1e-9  # sine below which the legs of a special point are parallel
 MOST_TRIALS = 4
-LONGEST = 5  # edges of an equation
+LONGEST, LONGEST_LEG = 5, 3  # edges of an equation, and of a leg between two moving links
+OFF = 1e-9  # sine between a leg's line and the way from joint to joint, below which it is that way
+WORST = 0.05  # crossing and distance of a special point of two moving links that is still taken
+
+
+@dataclass(frozen=True)
+class Special:
+    """The special point ``letter`` of a link and the legs that give it: ways from known points to points of the link,
+    each with one unknown; or from points of another moving link, ``base``, as which the link moves there."""
+
+    link: str
+    letter: str
+    legs: tuple[Path, Path]
+    base: str = ""
+
+    @property
+    def sides(self) -> tuple[Path, Path]:
+        return self.legs
+
+
+Move = TwoUnknowns | ClosingVector | Special | ParallelLegs
 
 
 @dataclass(frozen=True)
 class GroupPlan:
     """The order of drawing.
 
-    ``tried`` are the unknowns that are assumed ("omega 4"); ``open_ends`` as many edges whose ends do not meet for a
+    ``tried`` are the unknowns that are assumed; ``open_ends`` as many edges whose ends do not meet for a
     wrong assumption, along them or (True) square to them; ``assumed`` the rates of each trial polygon, by the kind
     of polygon (SI).  ``parallel`` names links and two legs of theirs that are parallel, ``far`` the special point for
     want of which a rate is assumed, where there is one.  ``contours`` are drawn before: the link held still, and the
@@ -41,7 +65,7 @@ class GroupPlan:
     """
 
     moves: tuple[Move, ...]
-    tried: tuple[str, ...]
+    tried: tuple[Unknown, ...]
     net: Net
     parallel: tuple[tuple[str, str, str], ...] = ()
     open_ends: tuple[tuple[Edge, bool], ...] = ()
@@ -63,24 +87,24 @@ class _Search:
     along: Callable[[Edge, Mapping[str, complex]], complex]
     letters: Iterator[str]
     nodes: set[PointRef]
-    known: set[str]
+    known: set[Unknown]
     moves: list[Move] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
     ties: list[tuple[str, str]] = field(default_factory=list)  # links with a special point of both
     far: list[FarPoint] = field(default_factory=list)  # special points of two links met with that are no use
 
-    def copy(self, tried: Sequence[str]) -> _Search:
+    def copy(self, tried: Sequence[Unknown]) -> _Search:
         known = {*self.known, *tried}
         return _Search(self.net.copy(), self.turn, self.along, self.letters, set(self.nodes), known, far=self.far)
 
     # -- what is known -------------------------------------------------------------------------------------------------
 
-    def open(self, edge: Edge) -> str:
-        return "" if edge.unknown in self.known else edge.unknown
+    def open(self, edge: Edge) -> Unknown | None:
+        return None if edge.unknown in self.known else edge.unknown
 
     def seen(self, edge: Edge) -> Edge:
         """An edge with what is unknown of it now."""
-        return replace(edge, unknown="") if edge.unknown in self.known else edge
+        return replace(edge, unknown=None) if edge.unknown in self.known else edge
 
     def of(self, link: str) -> list[PointRef]:
         return [n for n in self.net.nodes if link in self.net.owners[n]]
@@ -88,7 +112,7 @@ class _Search:
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
         one = self.turn.get(link, link)
-        return one not in self.net.inside or f"omega {one}" in self.known
+        return one not in self.net.inside or Turning(one) in self.known
 
     def settle(self) -> None:
         """All points of a link that turns at a known rate about a known point."""
@@ -147,7 +171,7 @@ class _Search:
                 best = max(pairs, key=lambda e: (
                     -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start), abs(self.arm(e)), e.forward
                 ))  # fmt: skip
-                self.moves.append(Closed((self.seen(best),)))
+                self.moves.append(ClosingVector((self.seen(best),)))
                 self.learn((best,))
                 return True
         return False
@@ -166,13 +190,13 @@ class _Search:
             for path in self.ways(start, 1, lambda n: n in self.nodes):
                 fresh = {e.end for e in path} - self.nodes
                 if fresh and len(path) > 1:
-                    self.moves.append(Closed(path))
+                    self.moves.append(ClosingVector(path))
                     self.learn(path)
                     return True
             for path in self.ways(start, 0, lambda n: n not in self.nodes):
                 link = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
                 if all(not self.nodes.intersection(self.of(name)) for name in link):
-                    self.moves.append(Closed(path))
+                    self.moves.append(ClosingVector(path))
                     self.learn(path)
                     return True
         return False
@@ -196,16 +220,16 @@ class _Search:
             return False
         path = best[1]
         second = [i for i, e in enumerate(path) if e.unknown][1]
-        chain = TwoWays(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
-        self.moves.append(Crossed(chain))
+        equation = TwoUnknowns(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
+        self.moves.append(equation)
         self.learn(path)
         return True
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
-        own = f"omega {self.turn.get(link, link)}"
+        own = Turning(self.turn.get(link, link))
         mine = set(self.of(link))
-        best: dict[str, Path] = {}
+        best: dict[Unknown, Path] = {}
         for start in sorted(self.nodes, key=self.net.order.__getitem__):
             for path in self.ways(start, 1, lambda n: n in mine):
                 names = [e.unknown for e in path if e.unknown]
@@ -253,7 +277,8 @@ class _Search:
         bar = next((self.seen(e) for e in self.net.edges[one[-1].end] if e.link == link and e.end == two[-1].end), None)
         if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
             return False
-        self.moves.append(OneLine(link, (*one, bar, *(e.reversed() for e in reversed(two)))))
+        self.moves.append(ParallelLegs(link, (*one, bar, *(e.reversed() for e in reversed(two)))))
+        assert bar.unknown is not None
         self.known.add(bar.unknown)
         self.settle()
         return True
@@ -270,7 +295,7 @@ class _Search:
     def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
         """The special point of two links that both move, which are drawn as if hinged there from now on."""
         without = {*left_out, *self.ties}
-        point, far = RelativePoints(self.net, self.known, self.nodes, self.along, self.turn).best(without)
+        point, far = _RelativePoints(self.net, self.known, self.nodes, self.along, self.turn).best(without)
         self.far += far
         if point is None:
             return False
@@ -308,13 +333,13 @@ class _Search:
     def done(self) -> bool:
         return all(self.turns(link) and self.nodes.intersection(self.of(link)) for link in self.net.inside)
 
-    def unknowns(self) -> list[str]:
+    def unknowns(self) -> list[Unknown]:
         """What can be assumed: rates of links, those next to known links first; then those of sliding pairs."""
         edges = [e for n in self.net.nodes for e in self.net.edges[n] if self.open(e)]
-        near = [e.unknown for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
-        turning = [e.unknown for e in edges if e.link]
-        sliding = [e.unknown for e in edges if e.slide is not None]
-        return list(dict.fromkeys((*near, *turning, *sliding)))
+        near = [e for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
+        turning = [e for e in edges if e.link]
+        sliding = [e for e in edges if e.slide is not None]
+        return list(dict.fromkeys(e.unknown for e in (*near, *turning, *sliding) if e.unknown))
 
 
 def _named(leg: Path) -> str:
@@ -347,7 +372,7 @@ def plan_group(
                 return
 
 
-def _searched(start: _Search, tried: Sequence[str], letters: Sequence[str], relative: bool) -> _Search | None:
+def _searched(start: _Search, tried: Sequence[Unknown], letters: Sequence[str], relative: bool) -> _Search | None:
     """A search that found all; with points of two moving links, of those met with where one point after the other is
     left out that can be spared, the first with the fewest."""
     left_out: tuple[tuple[str, str], ...] = ()
@@ -365,8 +390,113 @@ def _searched(start: _Search, tried: Sequence[str], letters: Sequence[str], rela
 
 
 def _run(
-    start: _Search, tried: Sequence[str], letters: Sequence[str], relative: bool, left_out: Collection[tuple[str, str]]
-) -> _Search | None:
+    start: _Search, tried: Sequence[Unknown], letters: Sequence[str], relative: bool,
+    left_out: Collection[tuple[str, str]],
+) -> _Search | None:  # fmt: skip
     search = start.copy(tried)
     search.letters = iter(letters)
     return search if search.run(relative, left_out) else None
+
+
+# -- special points of two moving links --------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _RelativePoint:
+    """Where the special point of the second link relative to the first lies, and the legs from the one to the other."""
+
+    links: tuple[str, str]
+    at: complex
+    legs: tuple[Path, Path]
+
+
+@dataclass(frozen=True)
+class _RelativePoints:
+    """The special points of two moving links of a group, as far as its motion is known.
+
+    known : what is no longer unknown
+    settled : nodes whose motion is known
+    along : direction of the relative motion of an edge
+    turn : for each link of the group the one link whose angular velocity it shares
+    """
+
+    net: Net
+    known: Collection[Unknown]
+    settled: Collection[PointRef]
+    along: Callable[[Edge, Mapping[str, complex]], complex]
+    turn: Mapping[str, str]
+
+    def best(self, left_out: Collection[tuple[str, str]]) -> tuple[_RelativePoint | None, list[FarPoint]]:
+        """The special point that gives the best crossing, None where there is none; and those that are no use.
+
+        Parameters
+        ----------
+        left_out : pairs of links that are not looked at
+        """
+        size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
+        best: tuple[float, _RelativePoint] | None = None
+        far: list[FarPoint] = []
+        for links, legs in self._legs(left_out).items():
+            for one, two in combinations(legs, 2):
+                (p, d), (q, e) = (self._line(leg) for leg in (one, two))
+                at = cross_lines(p, d, q, e)
+                if at is None:
+                    continue
+                sine, away = abs(cross(d, e)), abs(at - (p + q) / 2)
+                quality = sine / (1.0 + away / size)
+                if sine < OFF:  # parallel: nothing lies there
+                    continue
+                if quality <= WORST:
+                    far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
+                elif best is None or quality > best[0]:
+                    best = quality, _RelativePoint(links, at, (one, two))
+        return best[1] if best else None, far
+
+    def _legs(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
+        """For each two links the shortest way by each unknown that joins them."""
+        owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
+        of = {name: [n for n in self.net.nodes if name in owners[n]] for name in names}
+        found: dict[tuple[str, str], dict[Unknown, Path]] = {}
+        for i, one in enumerate(names):
+            others = {n: [two for two in names[i + 1 :] if two in self.net.owners[n]] for n in self.net.nodes}
+            own = Turning(self.turn.get(one, one))
+            for path in self._ways(of[one], one):
+                names_of = [e.unknown for e in path if e.unknown]
+                for two in others[path[-1].end]:
+                    if (one, two) in left_out or len(names_of) != 1:
+                        continue
+                    (unknown,) = names_of
+                    turned = (own, Turning(self.turn.get(two, two)))
+                    if unknown in turned:
+                        continue
+                    old = found.setdefault((one, two), {}).get(unknown)
+                    if (old is None or len(path) < len(old)) and self._straight(path):
+                        found[one, two][unknown] = path
+        return {links: list(legs.values()) for links, legs in found.items()}
+
+    def _ways(self, starts: Sequence[PointRef], link: str) -> Iterator[Path]:
+        """Ways that leave a link, with one unknown at most."""
+        stack: list[Path] = [()]
+        while stack:
+            path = stack.pop()
+            for start in (path[-1].end,) if path else starts:
+                for edge in self.net.edges[start]:
+                    if edge.link == link or edge.end in self.settled:
+                        continue
+                    seen = replace(edge, unknown=None) if edge.unknown in self.known else edge
+                    if seen.unknown and any(e.unknown for e in path):
+                        continue
+                    longer = (*path, seen)
+                    yield longer
+                    if len(longer) < LONGEST_LEG:
+                        stack.append(longer)
+
+    def _line(self, leg: Path) -> tuple[complex, complex]:
+        free = next(e for e in leg if e.unknown)
+        return self.net.places[leg[-1].end.point], 1j * self.along(free, self.net.places)
+
+    def _straight(self, leg: Path) -> bool:
+        """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
+        end, way = self._line(leg)
+        arm = end - self.net.places[leg[0].start.point]
+        return abs(arm) <= self.net.tiny or abs(cross(unit(arm), way)) < OFF

@@ -14,12 +14,12 @@ from itertools import product
 
 from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import drive, meet
+from graphkin.construction.elements import draw_element
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.mechanism_acts import HeldStill
-from graphkin.construction.polygon_pair import Order
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import Branches, branches_at, choose, draw_position, place, start_board
-from graphkin.construction.sheet import DiagramName, Pose, Scales, Step
+from graphkin.construction.sheet import ORDERS, DiagramName, Pose, Scales, Step
 from graphkin.construction.steps import Cause
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
@@ -78,8 +78,8 @@ class Inversion:
         draw_position(board, self.structure, elements, position, {0: branch})
         board.causes[:] = position.causes
         polygons = Polygons(board, self.structure, position.frame, scales)
-        for order in _ORDERS:
-            polygons.draw(order, elements[0])
+        for order in ORDERS:
+            draw_element(polygons, order, elements[0])
         value, rates = self._read(position.frame), self._rates(polygons)
         return TriangleDrawn(self.triangle, value, *rates, tuple(board.causes), board.steps)
 
@@ -91,11 +91,8 @@ class Inversion:
         along = polygons.frame.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
         points = [PointRef(p) for p in self.structure.links[other].points]
         end = next(ref for ref in points if ref in polygons.ends["velocity"])
-        speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in _ORDERS)
+        speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
         return speed, push
-
-
-_ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
 @dataclass(frozen=True)

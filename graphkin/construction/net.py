@@ -27,8 +27,33 @@ from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn, Weld, links_of
 
 __all__ = [
-    "Edge", "Joined", "Net", "RollingPoint", "TwoWays", "contacts_of", "equation_of", "joined_at_contacts", "node",
+    "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
+    "TwoUnknowns", "Unknown", "contacts_of", "equation_of", "joined_at_contacts", "node",
 ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Turning:
+    """The unknown angular rate of a link, and of all that turn with it."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Sliding:
+    """The unknown speed along a sliding pair."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Slipping:
+    """The unknown slip at a contact."""
+
+    name: str
+
+
+Unknown = Turning | Sliding | Slipping
 
 
 @dataclass(frozen=True)
@@ -38,7 +63,7 @@ class Edge:
     ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
     turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip; or they lie at the special
     point of two links (``tied``), which legs join; or on two links of one contour, of which one is ``held`` still.
-    ``unknown`` names what is not known of it ("omega 3", "slide 2/3"); "" if nothing.  ``labels`` are the nodes as
+    ``unknown`` is what is not known of it, if anything.  ``labels`` are the nodes as
     written, coincident points with their links.
     """
 
@@ -54,19 +79,57 @@ class Edge:
     tied: bool = False
     held: str = ""
     forward: bool = True
-    unknown: str = ""
+    unknown: Unknown | None = None
 
     def reversed(self) -> Edge:
         return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
 
 
-@dataclass(frozen=True)
-class TwoWays:
-    """An equation: two ways to the node ``middle``, each from a known node and with one unknown."""
+Path = tuple[Edge, ...]
 
-    middle: PointRef
-    left: tuple[Edge, ...]
-    right: tuple[Edge, ...]
+
+@dataclass(frozen=True)
+class TwoUnknowns:
+    """An equation with two unknown sizes: two ways to the node ``end``, each from a known node and with one of them."""
+
+    end: PointRef
+    left: Path
+    right: Path
+
+    @property
+    def sides(self) -> tuple[Path, Path]:
+        return self.left, self.right
+
+
+@dataclass(frozen=True)
+class ClosingVector:
+    """An equation with one unknown size, what is left of a way between two nodes known already; or with none."""
+
+    path: Path
+
+    @property
+    def end(self) -> PointRef:
+        return self.path[-1].end
+
+    @property
+    def sides(self) -> tuple[Path]:
+        return (self.path,)
+
+
+@dataclass(frozen=True)
+class ParallelLegs:
+    """Two parallel legs of a link, their special point at infinity: the way from one to the other gives its rate."""
+
+    link: str
+    path: Path
+
+    @property
+    def end(self) -> PointRef:
+        return self.path[-1].end
+
+    @property
+    def sides(self) -> tuple[Path]:
+        return (self.path,)
 
 
 @dataclass(frozen=True)
@@ -149,7 +212,7 @@ class Net:
         for name in self.inside:
             self._rigid(name, same_turn.get(name, name))
         for s in slides:
-            self._sliding(s, letters, guide_names[s.key], "" if s.key in driven else f"slide {s.key}")
+            self._sliding(s, letters, guide_names[s.key], None if s.key in driven else Sliding(s.key))
         for w in welds:
             if isinstance(w.pair, Turn):
                 self._welded(w, letters)
@@ -185,14 +248,14 @@ class Net:
 
     def _rigid(self, name: str, shares: str) -> None:
         mine = [n for n in self.nodes if name in self.owners[n]]
-        unknown = f"omega {shares}" if shares in self.inside else ""
+        unknown = Turning(shares) if shares in self.inside else None
         for i, a in enumerate(mine):
             for b in mine[i + 1 :]:
                 if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
                     way = Direction("square", (a.point, b.point))
                     self._add(Edge(a, b, (a, b), way, link=name, unknown=unknown))
 
-    def _sliding(self, s: Slide, letters: Sequence[str], written: tuple[str, ...], unknown: str) -> None:
+    def _sliding(self, s: Slide, letters: Sequence[str], written: tuple[str, ...], unknown: Unknown | None) -> None:
         for letter in letters:
             a, b = node(self.links, letter, s.a), node(self.links, letter, s.b)
             if a in self.owners and b in self.owners and a != b:
@@ -219,7 +282,7 @@ class Net:
         sides = sorted(contact.links, key=lambda link: link != self.frame)
         a, b = (PointRef(contact.name, link) for link in sides)
         way = Direction("along", ("t-t",))
-        self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=f"slip {contact.name}"))
+        self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=Slipping(contact.name)))
 
     def _sides(self, edge: Edge) -> tuple[str, str]:
         """The links of an edge between coincident points, as it was added."""
@@ -260,7 +323,7 @@ class Net:
 
     def _added(self, ref: PointRef, name: str, at: complex) -> PointRef:
         shares = self.shares.get(name, name)
-        unknown = f"omega {shares}" if shares in self.inside else ""
+        unknown = Turning(shares) if shares in self.inside else None
         others = [n for n in self.nodes if name in self.owners[n]]
         self.owners[ref], self.edges[ref] = [name], []
         self.nodes.append(ref)
@@ -321,7 +384,7 @@ def equation_of(
     drawn: Mapping[PointRef, complex],
     same_turn: Mapping[str, str],
     tiny: float,
-) -> TwoWays | None:
+) -> TwoUnknowns | None:
     """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
 
     Parameters
@@ -334,7 +397,7 @@ def equation_of(
     """
     net = Net(links, frame, joined, places, guide_names, same_turn, tiny)
     known = [n for n in net.nodes if net.known(n)]
-    best: tuple[tuple[float, ...], TwoWays] | None = None
+    best: tuple[tuple[float, ...], TwoUnknowns] | None = None
     for start in known:
         for path in net.paths(start):
             chain = _as_chain(path, frame, links)
@@ -352,7 +415,7 @@ def equation_of(
     return best[1] if best else None
 
 
-def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> TwoWays | None:
+def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> TwoUnknowns | None:
     """Split a path with two unknowns at the node before the second."""
     places = [i for i, e in enumerate(path) if e.unknown]
     if len(places) != 2 or path[places[0]].unknown == path[places[1]].unknown:
@@ -360,7 +423,7 @@ def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink])
     cut = places[1]
     right = tuple(path[:cut])
     left = tuple(e.reversed() for e in reversed(path[cut:]))
-    return TwoWays(right[-1].end, left, right)
+    return TwoUnknowns(right[-1].end, left, right)
 
 
 def contacts_of(structure: Structure, group: Dyad | Cluster) -> tuple[PlacedContact, ...]:

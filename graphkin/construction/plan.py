@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
-from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.dyads import meet
@@ -20,12 +19,12 @@ from graphkin.construction.inversion import Inversion, inversions_of, opened_at_
 from graphkin.construction.links_on_paper import PlacedLinks, apart
 from graphkin.construction.net import contacts_of
 from graphkin.construction.polygon_acts import Asked
-from graphkin.construction.polygon_pair import Order
 from graphkin.construction.position import branches_at
-from graphkin.construction.sheet import DIAGRAMS, DiagramName, Extent, Pose, Scales, Sheet, fitting_scale
+from graphkin.construction.seen_from import vectors_seen
+from graphkin.construction.sheet import DIAGRAMS, ORDERS, DiagramName, Extent, Order, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.construction.task import ORDERS, Task
+from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.loads import Loading

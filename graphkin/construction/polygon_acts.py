@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from graphkin.construction.relative_points import FarPoint
 from graphkin.construction.sizes import Direction, Size
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
@@ -19,6 +18,7 @@ __all__ = [
     "ByRate",
     "Carried",
     "DirectionLine",
+    "FarPoint",
     "FoundVector",
     "ImageSeen",
     "InPolygon",
@@ -215,6 +215,16 @@ class PlanTried:
 
 
 OnPlan: TypeAlias = PlanDrawn | PlanTravel | PlanTried
+
+
+@dataclass(frozen=True)
+class FarPoint:
+    """Two links whose special point cannot be used: how far from the joints (m; in a net as its places), and at which
+    angle (rad) the lines of the legs cross."""
+
+    links: tuple[str, str]
+    away: float
+    crossing: float
 
 
 @dataclass(frozen=True)

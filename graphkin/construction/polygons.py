@@ -1,397 +1,334 @@
-"""Velocity and acceleration polygons: equations drawn, rates measured, the rest by images.
+"""Velocity and acceleration polygons as they grow: end points, measured rates, names, and points found by image.
 
 The position stands on paper already.  Every size is either given, or measured on what was drawn before: normal
 components from lengths in the velocity polygon, Coriolis components from a measured angular velocity and a measured
 sliding velocity (Sun Huan, Mechanical Principles, ch. 3; Norton, Design of Machinery, ch. 6 and 7).
+
+Images after Mehmke: the end points of a link's points form a figure similar to the link, turned the same way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from typing import Literal
+import copy
+from collections.abc import Mapping, Sequence
+from typing import Literal, TypeVar
 
-from graphkin.construction.board import Board
-from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.net import Edge, Joined, TwoWays, contacts_of, equation_of, joined_at_contacts, node
-from graphkin.construction.polygon_acts import (
-    AddedRate,
-    Carried,
-    DirectionLine,
-    FoundVector,
-    LaidOff,
-    LinesMeet,
-    MeasuredRate,
-    PutBack,
-)
-from graphkin.construction.polygon_pair import Order, Plot, letter
-from graphkin.construction.remarks import ZeroVector
-from graphkin.construction.sheet import Equation, Rate, Scales, Term
-from graphkin.construction.sizes import Direction
-from graphkin.construction.slip import NO_SLIP, Component, Slip
-from graphkin.construction.strokes import Bar, Mark, Ray, Vector
-from graphkin.construction.terms import bar, parts_of, symbol_of, turn_sign
+from graphkin.construction.board import Board, Instrument
+from graphkin.construction.group_plan import GroupPlan
+from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
+from graphkin.construction.net import TwoUnknowns, node
+from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
+from graphkin.construction.sheet import ORDERS, Order, Rate, Scales
+from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Aid, Bar, Image, Mark, Stroke, Vector
+from graphkin.construction.touching import Touching
 from graphkin.construction.wheels import Wheels
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollower
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Slide, Structure, Turn, links_of
+from graphkin.structure import Cluster, Dyad, Slide, Structure
 from graphkin.words import Phrase
+from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["Polygons", "links_alike", "same_turn"]
+__all__ = ["RATE", "Polygons", "letter"]
 
-_Side = list[tuple[Edge, list[Component]]]
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
+SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
 
 
-class Polygons(Plot):
-    """Both polygons of one position, drawn element by element in the order of solution."""
+class Polygons:
+    """What stands in the velocity and the acceleration polygon of one position."""
 
     def __init__(
         self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
-        super().__init__(board, structure, frame, scales, slip)
-        self.chains: dict[Dyad, TwoWays] = {}
-        self.contours: dict[Cluster, tuple[tuple[str, Cluster], ...]] = {}  # of groups: the held link, the rest on it
+        self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
+        self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
+        self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
+        self.links = dict(structure.links)  # with the special points that larger groups get
+        self.special: set[str] = set()
+        self.pitch_points: dict[str, str] = {}  # letters where wheels of larger groups roll on each other
+        self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
+        self.trial = 0  # number of the trial polygon that this is; 0: it is none
+        self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
         self.wheels = Wheels.of(structure)
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
+        # how each group is drawn: found once, for all drawings of a task
+        self.chains: dict[Dyad, TwoUnknowns] = {}
+        self.plans: dict[Cluster, GroupPlan] = {}
+        self.contours: dict[Cluster, tuple[tuple[str, Cluster], ...]] = {}  # the link held still, the rest on it
+        self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
+        size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
+        self.tiny = 1e-11 * size
+        self.touching = {c.name for c in structure.scene.contacts}
+        self.block_of = {p.key: p.of for p in structure.scene.pins}
+        self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
+        self.part_of: Cluster | None = None  # the group to which all belongs that is drawn with a link of it held still
+        self.begin(structure.scene.frame.name)
 
-    def draw(self, order: Order, element: Driven | Dyad) -> None:
-        """Draw what an element adds to a polygon."""
-        if isinstance(element, Driven):
-            self._driven(order, element)
-        else:
-            self._dyad(order, element)
-        for name in links_of(element):
-            self.complete(order, name)
+    def begin(self, ground: str) -> None:
+        """Begin empty polygons with a link for the ground: its points stand in the poles."""
+        self.ground = ground
+        self.still = self._never_turning()
+        self.seen: dict[str, Polygons] = {}  # polygons with a link of a contour held still, by that link
+        fixed = dict.fromkeys(map(PointRef, self.links[ground].points), 0j)
+        self.ends: dict[Order, dict[PointRef, complex]] = {order: dict(fixed) for order in ORDERS}
+        self.rates: dict[Order, dict[str, Rate]] = {order: {ground: Rate(ground, 0.0)} for order in ORDERS}
+        self.drawn: dict[Order, dict[Symbol, Vector]] = {order: {} for order in ORDERS}
 
-    def _driven(self, order: Order, element: Driven) -> None:
-        name, driver, pair = element.link, element.driver, element.pair
-        mm = self._roll(order, driver) if isinstance(driver, Rolled | Follower) else 0.0
-        rate = self.given[driver.key][0 if order == "velocity" else 1]
-        if isinstance(driver, AngleDriver):
-            other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
-            base = self.rates[order][other].value
-            self.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
-        elif isinstance(pair, Turn):
-            self.rates[order][name] = Rate(name, rate, mm=mm)
-        if isinstance(pair, Turn) and name in self.rates[order]:
-            pivot = PointRef(pair.point)
-            for end in self._first_ends(name, pair.point):
-                way = Direction("square", (pivot.point, end.point))
-                self._lay_off(order, (Edge(pivot, end, (pivot, end), way, link=name),), element)
-            return
-        assert isinstance(pair, Slide)
-        known = pair.b if name == pair.a else pair.a
-        self._share_rate(order, known, name)
-        point = pair.pin or next(iter([*self.links[name].points, *self.places]), "")
-        if point:
-            edge = self._slide_edge(pair, point)
-            self._lay_off(order, (edge if name == pair.a else edge.reversed(),), element)
+    def again(self, hand: Instrument) -> Polygons:
+        """The same polygons as they stand here, to go on with by other hands."""
+        made = copy.copy(self)
+        for name in vars(self).keys() - SHARED:
+            setattr(made, name, _copied(getattr(self, name)))
+        made.board = self.board.again(hand)
+        made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
+        for seen in made.seen.values():
+            seen.board.arms = made.board.arms
+        return made
 
-    def _roll(self, order: Order, driver: Follower | Rolled) -> float:
-        """The rate of what rolls, read off a velocity plan, as the driver's; and the length read for it (mm)."""
-        coordinate = driver.coordinate if isinstance(driver, Rolled) else ("angle", driver.key)
-        if isinstance(driver, SlideFollower):
-            coordinate = "travel", driver.key
-        which = 0 if order == "velocity" else 1
-        turns = [(s.a, s.b, 0.0) for s in self.structure.slides]
-        turns += [(d.link, d.relative_to, d.values[1 + which]) for d in self.structure.scene.drivers
-                  if isinstance(d, AngleDriver)]  # fmt: skip
-        known = {name: rate.value for name, rate in self.rates[order].items()}
-        before = self.wheels
-        self.wheels, value, mm = before.found(
-            order, coordinate, known, lambda key: self._travel_rate(order, key), turns, self.board.instrument
-        )
-        for act in self.wheels.acts(before, order):
-            self.board.do(order, act)
-        had = self.given.get(driver.key, (0.0, 0.0))
-        self.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)
-        return mm
+    def fork(self, trial: int) -> Polygons:
+        """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
+        the trial polygons of that number."""
+        made = self.again(self.board.instrument)
+        made.board, made.trial = Board(self.board.instrument), trial
+        made.board.arms, made.board.lengths = self.board.arms, self.board.lengths
+        for held, seen in made.seen.items():
+            seen.board.arms, seen.board.lengths = self.board.arms, self.seen[held].board.lengths
+        return made
 
-    def _travel_rate(self, order: Order, key: str) -> float | None:
-        """How fast a sliding link goes along its guide (m/s, m/s2), where that is known: given, or read off the polygon
-        as the part along it of its motion relative to the coincident point; that of Coriolis is square to it."""
-        which = 0 if order == "velocity" else 1
-        given = next((d for d in self.structure.scene.drivers if d.key == key and isinstance(d, SlideDriver)), None)
-        if given is not None:
-            return given.values[1 + which]
-        slide = self.structure.slide(key)
-        if not {slide.a, slide.b} <= self.rates[order].keys():
-            return None
-        point = slide.pin or next(iter(self.links[slide.a].points), "")
-        if not point:
-            names = ", ".join((slide.a, slide.b))
-            raise Unsolvable(
-                "not drawn", Problem(Phrase("links", links=names), Phrase("no point of the sliding link is drawn"))
-            )
+    def seen_from(self, held: str) -> Polygons:
+        """The polygons with a link of a contour held still, with the special points that were marked since."""
+        seen = self.seen[held]
+        seen.special, seen.places, seen.links = self.special, self.places, self.links
+        return seen
+
+    def centre_letter(self, name: str, link: str) -> str:
+        """The centre of what is round on a link in a contact, or the axis of a wheel."""
+        scene = self.structure.scene
+        discs = [d for c in scene.contacts if c.name == name for d in c.round]
+        axes = [(w, p) for g in scene.gears if g.name == name for w, p in zip(g.wheels, g.axes, strict=True)]
+        return dict([*((d.link, d.centre) for d in discs), *axes])[link]
+
+    def label(self, ref: PointRef) -> PointRef:
+        """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
+        return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
+
+    def guide_names(self, slide: Slide) -> tuple[str, ...]:
+        """How the direction of a guide is written: by two letters on it, else by its name."""
+        start = self.frame.place(slide.b, slide.guide.through)
         along = self.frame.poses[slide.b].axis * slide.guide.direction
-        slip = self.end(order, node(self.links, point, slide.a)) - self.end(order, node(self.links, point, slide.b))
-        return dot(slip, along) * self.scales.of(order)
-
-    def _first_ends(self, name: str, hinge: str) -> list[PointRef]:
-        """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""
-        own = [PointRef(p) for p in self.links[name].points if p != hinge]
-        under = [
-            node(self.links, s.pin, name)
-            for s in self.structure.slides
-            if s.pin in self.places and s.b == name and "/" not in name
+        on = [
+            (dot(z - start, along), p)
+            for p, z in self.places.items()
+            if p in self.links[slide.b].points and abs(cross(z - start, along)) < 1e3 * self.tiny
         ]
-        away = [n for n in (*own, *under) if abs(self.places[n.point] - self.places[hinge]) > self.tiny]
-        first = away[:1] if any(n in own for n in away) else away
-        return list(dict.fromkeys(first))
+        pin = slide.pin
+        if pin and pin in self.places:
+            others = [(s, p) for s, p in sorted(on) if p != pin and abs(self.places[p] - self.places[pin]) > self.tiny]
+            if others:
+                return others[0][1], pin
+        if len(on) > 1:
+            return min(on)[1], max(on)[1]
+        return (slide.guide.name or f"x{slide.b}",)
 
-    def _slide_edge(self, slide: Slide, point: str) -> Edge:
-        a, b = node(self.links, point, slide.a), node(self.links, point, slide.b)
-        labels = (PointRef(point, slide.b), PointRef(point, slide.a))
-        return Edge(b, a, labels, Direction("along", self.guide_names(slide)), slide=slide)
+    def fixed(self, ref: PointRef) -> bool:
+        """Whether a node is a point of the frame."""
+        return ref.link == self.ground or (not ref.link and ref.point in self.links[self.ground].points)
 
-    def _dyad(self, order: Order, dyad: Dyad) -> None:
-        if dyad not in self.chains:
-            self.chains[dyad] = self._find(dyad)
-        chain = self.chains[dyad]
-        self._known_turns(order, dyad)
-        number = len(self.board.equations) + 1
-        sides = [self._side(order, chain.left), self._side(order, chain.right)]
-        self.board.equations.append(Equation(number, order, self._two_ways(order, chain, sides), dyad))
-        self._cross(order, chain, sides, number)
-        for edges in (chain.left, chain.right):
-            for edge in edges:
-                self._measure(order, edge, dyad)
+    def _never_turning(self) -> set[str]:
+        """Links that slide on the frame, or on such links, and so can only translate."""
+        still = {self.ground}
+        grown = True
+        while grown:
+            grown = False
+            for s in self.structure.slides:
+                if len({s.a, s.b} & still) == 1:
+                    still |= {s.a, s.b}
+                    grown = True
+        return still
 
-    def _find(self, dyad: Dyad) -> TwoWays:
-        welds = tuple(w for body in dyad.bodies for w in body.welds)
-        pairs = (dyad.outer_first, dyad.inner, dyad.outer_second, *(w.pair for w in welds))
-        slides = [p for p in pairs if isinstance(p, Slide)]
-        joined = Joined(links_of(dyad), pairs, welds)
-        chain = equation_of(
-            self.links,
-            self.ground,
-            self._at_contacts(dyad, joined),
-            self.places,
-            {s.key: self.guide_names(s) for s in slides},
-            self.ends["velocity"],
-            self._same_turn(dyad),
-            self.tiny,
-        )
-        if chain is None:
-            # every dyad has an equation with two unknowns, but its points must be apart on the sheet
-            names = ", ".join(dyad.links)
-            raise Unsolvable(
-                "not drawn",
-                Problem(Phrase("links", links=names), Phrase("points of theirs fall together on any sheet")),
-            )
-        return chain
+    def contact(self, name: str) -> tuple[PlacedContact, complex, complex]:
+        """A contact, where it is made (mm), and the direction of its normal."""
+        found = next(c for c in self.structure.scene.contacts if c.name == name)
+        return found, *Touching(self.structure.scene, self.frame.mm, self.frame.poses).contact(found)
 
-    def _at_contacts(self, group: Dyad | Cluster, joined: Joined) -> Joined:
-        contacts = contacts_of(self.structure, group) if self.at_contacts else ()
-        return joined_at_contacts(joined, contacts) if contacts else joined
+    def length(self, arm: complex, between: Sequence[str]) -> float:
+        """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
+        both or a driver pushes one from the other, else read off the drawing.
 
-    def _same_turn(self, group: Dyad | Cluster) -> dict[str, str]:
-        contacts = contacts_of(self.structure, group) if self.at_contacts else ()
-        return same_turn(group, self._turned(None, group), {c.block for c in contacts})
-
-    def _turned(self, order: Order | None, group: Dyad | Cluster) -> list[tuple[str, str, float]]:
-        """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a); without an order
-        only which."""
-        return _turned_alike(group, order or "velocity", self.given if order else {})
-
-    def _known_turns(self, order: Order, group: Dyad | Cluster) -> None:
-        """Links that share their rotation with one already known."""
-        for name, other in self._same_turn(group).items():
-            if other in self.rates[order] and name not in self.rates[order]:
-                self._spread(order, other, group)
-
-    def _share_rate(self, order: Order, known: str, name: str, add: float = 0.0) -> None:
-        rate = self.rates[order][known]
-        self.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
-
-    def _spread(self, order: Order, start: str, group: Dyad | Cluster) -> None:
-        """From one known rotation to those of all links that slide on each other or are held by drivers."""
-        pairs = self._turned(order, group)
-        queue = [start]
-        while queue:
-            at = queue.pop(0)
-            for a, b, add in pairs:
-                for known, new, more in ((a, b, add), (b, a, -add)):
-                    if known == at and new not in self.rates[order]:
-                        self._share_rate(order, at, new, more)
-                        told = self._told_apart(order, a, b) if a in self.seen else add != 0.0
-                        if isinstance(group, Cluster) and at != self.ground and told:
-                            value = self.rates[order][at].value
-                            self.board.do(order, AddedRate(RATE[order], new, at, b, value, add))
-                        queue.append(new)
-
-    def _told_apart(self, order: Order, one: str, other: str) -> bool:
-        """Whether it is told how a link turns as seen from another: it does not just turn as a third does."""
-        rates = self.seen[one].rates[order]
-        if other not in rates:
-            return False
-        return not rates[other].same_as or rates[rates[other].same_as].value != rates[other].value
-
-    def _side(self, order: Order, edges: tuple[Edge, ...]) -> _Side:
-        return [(edge, [self.slip.term(part) for part in parts_of(self, order, edge)]) for edge in edges]
-
-    def _terms(self, order: Order, side: _Side) -> tuple[Term, ...]:
-        start = side[0][0].start
-        terms = []
-        if not self.fixed(start):
-            terms.append(Term(Symbol(letter(order), self.label(start)), True, True))
-        terms += [Term(p.symbol, p.span is not None, True, p.size, p.written) for _, parts in side for p in parts]
-        return tuple(terms)
-
-    def _two_ways(self, order: Order, chain: TwoWays, sides: Iterable[_Side]) -> tuple[tuple[Term, ...], ...]:
-        """Both sides of an equation behind what they are equal to; a side that is this itself stands first."""
-        whole = Symbol(letter(order), self.label(chain.middle))
-        terms = [self._terms(order, side) for side in sides]
-        alone = [side for side in terms if [t.symbol for t in side] == [whole]]
-        others = [side for side in terms if side not in alone]
-        return (*(alone or [(Term(whole, False, False),)]), *others)
-
-    def _lay_off(self, order: Order, edges: tuple[Edge, ...], element: Driven | Cluster) -> None:
-        """An equation without unknowns: the vectors are laid off one after the other."""
-        number = len(self.board.equations) + 1
-        side = self._side(order, edges)
-        middle = edges[-1].end
-        terms = [self._terms(order, side)]
-        whole = Symbol(letter(order), self.label(middle))
-        if len(terms[0]) != 1 or terms[0][0].symbol != whole:
-            terms.insert(0, (Term(whole, False, False),))
-        self.board.equations.append(Equation(number, order, tuple(terms), element))
-        at = self.end(order, edges[0].start)
-        for part in (p for _, parts in side for p in parts):
-            at = self._vector(order, part, at, number)
-        self.reach(order, middle, at, number)
-
-    def _vector(self, order: Order, part: Component, at: complex, equation: int | None) -> complex:
-        """Lay off a known vector."""
-        assert part.span is not None
-        size = abs(part.span)
-        tip = at
-        if size > 0.0:
-            hand = self.board.instrument
-            tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
-        vector = Vector(part.symbol, at, tip, part.role)
-        self.board.notice(order, ZeroVector(part.symbol, size))
-        self.record(order, vector, LaidOff(part.symbol, part.size, size, part.written, part.role), equation)
-        return tip
-
-    def _cross(self, order: Order, chain: TwoWays, sides: list[_Side], equation: int) -> None:
-        """Draw both sides of an equation up to their unknowns, and let these meet.
-
-        A side may have several unknowns along one direction, as those of a special point have: their sum is found.
+        Raises
+        ------
+        Unsolvable : "not drawn": the two lie so near to each other that the instrument reads nothing
         """
-        starts, lines = [], []
-        for side in sides:
-            parts = [p for _, found in side for p in found]
-            open_at = next(i for i, p in enumerate(parts) if p.span is None)
-            at = self.end(order, side[0][0].start)
-            for part in parts[:open_at]:
-                at = self._vector(order, part, at, equation)
-            carried = 0j
-            for part in parts[open_at + 1 :]:
-                if part.span is None:
-                    continue
-                # known terms behind the unknown one are added first, and put in their place afterwards
-                self.board.do(order, Carried(part.symbol), Bar(at, at + part.span, ""), equation=equation)
-                at += part.span
-                carried += part.span
-            starts.append((at, carried))
-            lines.append(parts[open_at])
-        what = f"{letter(order)}_{self.label(chain.middle)}"
-        (p, _), (q, _) = starts
-        left, right = (self.slip.line(part.symbol, part.along) for part in lines)
-        meeting = self.board.cross(order, p, left, q, right, what)
-        meeting = self.slip.found(Symbol(letter(order), self.label(chain.middle)), 0j, meeting)
-        for start, part in zip((p, q), lines, strict=True):
-            ray = Ray(start, part.along, meeting, part.written, part.symbol)
-            self.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=equation)
-        mark = Mark(self.label(chain.middle), meeting)
-        self.board.do(order, LinesMeet(mark.ref), mark, equation=equation)
-        for side, (start, carried) in zip(sides, starts, strict=True):
-            if sum(part.span is None for _, found in side for part in found) == 1:
-                self._fill(order, side, meeting - carried, start - carried, equation)
-        self.reach(order, chain.middle, meeting, equation)
+        given = self._given_arm(*between)
+        if given is not None:
+            return abs(given)
+        pushed = pushed_by_driver(self.structure, self.frame.values, between)
+        if pushed is not None:
+            return pushed[1]
+        read = self.board.read_arm(between, abs(arm))
+        if read == 0.0:
+            found = Phrase("mm on paper are too short to be", length=f'{abs(arm):.2g}')
+            raise Unsolvable("not drawn", Problem("".join(between), found, Phrase("draw the mechanism larger")))
+        return read * self.scales.length
 
-    def _fill(self, order: Order, side: _Side, tip: complex, tail: complex, equation: int | None) -> None:
-        """Draw the unknown vector of a side, now found, and the end points along the side."""
-        at = self.end(order, side[0][0].start)
-        for edge, parts in side:
-            for part in parts:
-                if part.span is None:
-                    found = Vector(part.symbol, tail, self.slip.found(part.symbol, tail, tip), part.role)
-                    self.board.notice(order, ZeroVector(part.symbol, abs(found.span)))
-                    act = FoundVector(part.symbol, self.found_mm(part.symbol, found.span))
-                    self.record(order, found, act, equation)
-                    at = tip
-                else:
-                    if part.symbol not in self.drawn[order]:
-                        moved = Vector(part.symbol, at, at + part.span, part.role)
-                        self.record(order, moved, PutBack(part.symbol), equation)
-                    at = self.drawn[order][part.symbol].tip
-            if edge is not side[-1][0]:
-                self.reach(order, edge.end, at, equation)
+    def found_mm(self, symbol: Symbol, span: complex) -> float:
+        """How long a vector is that was found (mm), as it is measured; not where the next trial has one of its name."""
+        return abs(self.board.read_vector(symbol, abs(span))) if span and not self.trial else abs(span)
 
-    def _measure(self, order: Order, edge: Edge, group: Dyad | Cluster) -> None:
-        """Angular velocity or acceleration from the vector just found."""
-        if not edge.link or not edge.unknown or edge.link in self.rates[order]:
+    def slip_mm(self, symbol: Symbol, slip: complex) -> float:
+        """The length (mm) of a relative velocity, as it is read off its polygon when it is first needed."""
+        if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
+            symbol = Symbol(symbol.kind, symbol.to)
+        return self.board.read_vector(symbol, abs(slip))
+
+    def rate_of(
+        self, order: Order, symbol: Symbol, mm: float, arm: complex, between: tuple[str, str]
+    ) -> tuple[float, float]:
+        """The size of a rate (rad/s, rad/s2), by the length of a vector on paper and the bar it belongs to, and that
+        length as read (mm)."""
+        read = abs(self.board.instrument.read(mm) if self.trial else self.board.read_vector(symbol, mm))
+        value = read * self.scales.of(order) / self.length(arm, between)
+        return self.board.instrument.noted(value, min(MOST - 1, figures(on_paper(read)))), read
+
+    def _given_arm(self, start: str, end: str) -> complex | None:
+        """From one point to another of the same link, in its own axes (m); None where no link has both, they are one
+        point, or one is a special point, which has been drawn."""
+        if self.special & {start, end}:
+            return None
+        for link in self.links.values():
+            if start in link.points and end in link.points and link.points[start] != link.points[end]:
+                return link.points[end] - link.points[start]
+        return None
+
+    def end(self, order: Order, ref: PointRef) -> complex:
+        """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
+        if self.fixed(ref):
+            return 0j
+        if ref not in self.ends[order]:
+            self.place(order, ref)
+        return self.ends[order][ref]
+
+    def record(self, order: Order, vector: Vector, act: Act, equation: int | None, *more: Stroke) -> None:
+        """Put a vector into a polygon, with the step that drew it."""
+        self.drawn[order][vector.symbol] = vector
+        self.board.do(order, act, self.shown(vector), *more, equation=equation)
+
+    def shown(self, vector: Vector) -> Vector | Aid:
+        """A vector as it is drawn: one of a trial polygon or to a special point only leads on."""
+        if self.trial or self.is_aid(vector.symbol):
+            return Aid(vector.symbol, vector.tail, vector.tip, self.trial)
+        return vector
+
+    def is_aid(self, symbol: Symbol) -> bool:
+        """Whether a vector belongs to a special point."""
+        return any(ref is not None and ref.point in self.special for ref in (symbol.of, symbol.to))
+
+    def shown_of(self, order: Order) -> list[Vector]:
+        """The vectors of a polygon, those that only lead to special points left out."""
+        return [v for symbol, v in self.drawn[order].items() if not self.is_aid(symbol)]
+
+    def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
+        """Name an end point, and draw the vector to it from the pole."""
+        if ref in self.ends[order]:
             return
-        kind = "v" if order == "velocity" else "at"
-        symbol = symbol_of(self, kind, edge)
-        vector = self.drawn[order][symbol]
-        arm = self.places[edge.end.point] - self.places[edge.start.point]
-        # in a trial the ends need not meet: only the part square to the bar turns it
-        drawn = cross(arm, vector.span) / abs(arm) if self.trial else abs(vector.span)
-        size, read = self.rate_of(order, symbol, abs(drawn), arm, bar(edge))
-        sense = 1.0 if cross(arm, vector.span) >= 0 else -1.0
-        rate = RATE[order]
-        own = self.slip.rate(Symbol(rate, link=edge.link), sense * size)
-        if own is not None:
-            self.believed.add((order, edge.link))
-        self.rates[order][edge.link] = Rate(
-            edge.link, sense * size if own is None else own, symbol, read, abs(arm)
+        self.ends[order][ref] = at
+        mark = Mark(self.label(ref), at)
+        symbol = Symbol(letter(order), self.label(ref))
+        if symbol in self.drawn[order]:
+            if not self.board.pricked(order, mark):
+                self.board.do(order, Named(mark.ref), mark, equation=equation)
+            return
+        self.record(order, Vector(symbol, 0j, at, "resultant"), Resultant(symbol), equation, mark)
+
+    def complete(self, order: Order, name: str) -> None:
+        """All points of a link, and the points of it under sliding pins and at contacts."""
+        for point in self.links[name].points:
+            if point not in self.touching:
+                self.place(order, PointRef(point))
+        for contact in self.structure.scene.contacts:
+            if name in contact.links and contact.name in self.places and name != self.ground:
+                self.place(order, PointRef(contact.name, name))
+        for s in self.structure.slides:
+            if s.pin and s.pin in self.places and s.b == name and "/" not in name:
+                self.place(order, node(self.links, s.pin, name))
+
+    def place(self, order: Order, ref: PointRef) -> None:
+        """Find the end point of any point of a link whose motion is known, by image."""
+        ends = self.ends[order]
+        if ref in ends or self.fixed(ref):
+            return
+        owners = [ref.link] if ref.link else [n for n, k in self.links.items() if ref.point in k.points]
+        name = next(n for n in owners if n in self.rates[order] and any(self.on(r, n) for r in ends))
+        here = self.places[ref.point]
+        refs = [r for r in ends if self.on(r, name)]
+        if name in self.still:
+            self._reach_by(order, ref, ends[refs[0]], Translated(name))
+            return
+        same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
+        if same:
+            self._reach_by(order, ref, ends[same[0]], SamePlace(self.label(ref), self.label(same[0])))
+            return
+        # a special point may lie far away: it serves where the link has no other two
+        near = [r for r in refs if r.point not in self.special]
+        apart = max((abs(self.places[r.point] - self.places[s.point]) for r in near for s in near), default=0.0)
+        a, b = max(
+            ((a, b) for a in (near if apart > self.tiny else refs) for b in (near if apart > self.tiny else refs)),
+            key=lambda ab: abs(self.places[ab[0].point] - self.places[ab[1].point]),
         )
-        self.board.do(order, MeasuredRate(rate, edge.link, symbol, bar(edge), sense * size, read))
-        self._spread(order, edge.link, group)
+        bar = self.places[b.point] - self.places[a.point]
+        if abs(bar) <= self.tiny or (order, name) in self.believed:
+            start = refs[0]  # a fixed point, if the link has one
+            at = self._by_rates(order, ends[start], (start.point, ref.point), name)
+            self._reach_by(order, ref, at, ByRate(self.label(ref), self.label(start), name))
+            return
+        own = self.links[name].points
+        if {a.point, b.point, ref.point} <= own.keys():  # the shape of the link is given
+            ratio = (own[ref.point] - own[a.point]) / (own[b.point] - own[a.point])
+        else:
+            ratio = (here - self.places[a.point]) / bar
+        at = self.board.instrument.point(ends[a] + (ends[b] - ends[a]) * ratio)
+        on_line = abs(ratio.imag) < 1e-9
+        lined = on_line or bool({a.point, b.point} & self.special)
+        stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
+        act = ByImage(self.label(ref), (self.label(a), self.label(b)), name, on_line)
+        self._reach_by(order, ref, at, act, stroke)
+
+    def _reach_by(self, order: Order, ref: PointRef, at: complex, act: Act, *strokes: Stroke) -> None:
+        symbol = Symbol(letter(order), self.label(ref))
+        at = self.slip.found(symbol, 0j, at)
+        self.ends[order][ref] = at
+        mark = Mark(self.label(ref), at)
+        self.record(order, Vector(symbol, 0j, at, "resultant"), act, None, mark, *strokes)
+
+    def on(self, ref: PointRef, name: str) -> bool:
+        """Whether a node is a point of a link."""
+        return ref.link == name or (not ref.link and ref.point in self.links[name].points)
+
+    def _by_rates(self, order: Order, end: complex, between: tuple[str, str], name: str) -> complex:
+        """From one end point to another of the same link by its measured rates."""
+        drawn = self.places[between[1]] - self.places[between[0]]
+        arm = drawn / abs(drawn) * self.length(drawn, between) if drawn else 0j  # m
+        omega = self.rates["velocity"][name].value
+        if order == "velocity":
+            return end + 1j * omega * arm / self.scales.velocity
+        alpha = self.rates["acceleration"][name].value
+        return end + (1j * alpha - omega**2) * arm / self.scales.acceleration
 
 
-def _turned_alike(
-    group: Dyad | Cluster, order: Order, rates: Mapping[str, tuple[float, float]]
-) -> list[tuple[str, str, float]]:
-    """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
-    which = 0 if order == "velocity" else 1
-    if isinstance(group, Cluster):
-        slides = [p for p in group.pairs if isinstance(p, Slide)]
-        given = [
-            (d.relative_to, d.link, rates[d.key][which] if rates else 0.0)
-            for d in group.drivers if isinstance(d, AngleDriver)
-        ]  # fmt: skip
-        return [*((s.a, s.b, 0.0) for s in slides), *given]
-    slides = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Slide)]
-    welds = [w for body in group.bodies for w in body.welds]
-    held = [
-        (w.a, w.b, turn_sign(w) * rates[w.driver.key][which] if rates and isinstance(w.pair, Turn) else 0.0)
-        for w in welds
-    ]
-    return [*((s.a, s.b, 0.0) for s in slides), *held]
+_Kept = TypeVar("_Kept")
 
 
-def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -> dict[str, set[str]]:
-    """For each link all those with the same rotation but for given ones."""
-    alike = {n: {n} for n in links}
-    for a, b, _ in pairs:
-        merged = alike.get(a, {a}) | alike.get(b, {b})
-        for n in merged:
-            alike[n] = merged
-    return alike
+def _copied(kept: _Kept) -> _Kept:
+    """A collection, and collections in it, of their own; anything else as it is."""
+    if isinstance(kept, dict):
+        return {key: _copied(value) for key, value in kept.items()}  # type: ignore[return-value]
+    return set(kept) if isinstance(kept, set) else kept  # type: ignore[return-value]
 
 
-def same_turn(
-    group: Dyad | Cluster, pairs: Iterable[tuple[str, str, float]], without: Collection[str] = ()
-) -> dict[str, str]:
-    """For each link of a group one link with the same rotation but for given ones, as ``pairs`` turn: a known one if
-    there is any, none of those it is ``without``."""
-    inside = links_of(group)
-    alike = links_alike(inside, pairs)
-    own = {n: min(alike[n].difference(without), default=n) for n in inside}
-    return {n: next((m for m in sorted(alike[n]) if m not in inside), own[n]) for n in inside}
+def letter(order: Order) -> str:
+    """v or a."""
+    return "v" if order == "velocity" else "a"

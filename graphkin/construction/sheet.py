@@ -25,12 +25,14 @@ if TYPE_CHECKING:
     from graphkin.construction.centre_lines import TrainPlan
 
 __all__ = [
-    "DIAGRAMS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits", "Pose", "Rate",
-    "Scales", "Sheet", "Step", "Term", "either_way", "fitting_scale", "next_of_series",
+    "DIAGRAMS", "ORDERS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits",
+    "Order", "Pose", "Rate", "Scales", "Sheet", "Step", "Term", "either_way", "fitting_scale", "next_of_series",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
+Order = Literal["velocity", "acceleration"]
+ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 EXACT_NAME = "exact"  # of the instrument that errs nowhere
 
 

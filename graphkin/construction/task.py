@@ -8,9 +8,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.inversion import Inversion
-from graphkin.construction.net import TwoWays
-from graphkin.construction.polygon_pair import Order
-from graphkin.construction.sheet import Limits, Sheet
+from graphkin.construction.net import TwoUnknowns
+from graphkin.construction.sheet import ORDERS, Limits, Order, Sheet
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Dyad, Element, Structure, links_of, needed
 from graphkin.words import Phrase
@@ -19,9 +18,7 @@ if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
     from graphkin.construction.group_position import GroupTrial
 
-__all__ = ["ORDERS", "Task"]
-
-ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
+__all__ = ["Task"]
 
 
 @dataclass(frozen=True)
@@ -41,7 +38,7 @@ class Task:
     values: Mapping[str, float]
     branches: Mapping[int, int]
     trials: Mapping[Cluster, GroupTrial]
-    chains: Mapping[Dyad, TwoWays]
+    chains: Mapping[Dyad, TwoUnknowns]
     plans: Mapping[Cluster, GroupPlan]
     triangles: tuple[tuple[Inversion, int], ...]
     limits: Mapping[str, Limits]

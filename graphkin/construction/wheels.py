@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
-from graphkin.construction.polygon_pair import Order
+from graphkin.construction.sheet import Order
 from graphkin.construction.steps import Act
 from graphkin.errors import Problem, Unsolvable
 from graphkin.structure import Structure, meshes_of

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.polygon_acts import AddedRate, FoundVector, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
+from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Aid, Stroke, Vector

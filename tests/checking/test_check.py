@@ -12,8 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import graphkin
-from graphkin.construction import plan, polygons
-from graphkin.construction import terms as parts
+from graphkin.construction import equations, plan
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.model import AngleDriver
@@ -68,13 +67,13 @@ def test_any_class_ii_mechanism_is_drawn_as_it_is_solved(seed, kinds):
 
 
 def test_a_coriolis_vector_the_wrong_way_round_is_caught(monkeypatch):
-    right = parts._slide_parts
+    right = equations._slide_parts
 
     def wrong(plot, order, edge, slide):
         found = right(plot, order, edge, slide)
         return [replace(p, span=-p.span) if p.role == "coriolis" else p for p in found]
 
-    monkeypatch.setattr(parts, "_slide_parts", wrong)
+    monkeypatch.setattr(equations, "_slide_parts", wrong)
     result = graphkin.check(SIXBAR)
     assert not result.ok
     assert "a_D" in [str(r.symbol) for r in result.report.rows if not r.ok]
@@ -104,18 +103,18 @@ def test_a_guide_turned_by_a_tenth_of_a_degree_is_caught(monkeypatch):
 
 
 def test_a_normal_component_away_from_the_pivot_is_caught(monkeypatch):
-    right = parts._rigid_parts
+    right = equations._rigid_parts
 
     def wrong(plot, order, edge):
         found = right(plot, order, edge)
         return [replace(p, span=-p.span) if p.role == "normal" else p for p in found]
 
-    monkeypatch.setattr(parts, "_rigid_parts", wrong)
+    monkeypatch.setattr(equations, "_rigid_parts", wrong)
     assert not graphkin.check("fourbar-150-500-300-400").ok
 
 
 def test_an_angular_velocity_of_the_wrong_sense_is_caught(monkeypatch):
-    monkeypatch.setattr(polygons, "cross", lambda a, b: -(a.real * b.imag - a.imag * b.real))
+    monkeypatch.setattr(equations, "cross", lambda a, b: -(a.real * b.imag - a.imag * b.real))
     assert not graphkin.check("fourbar-150-500-300-400").ok
 
 

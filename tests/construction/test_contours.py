@@ -12,10 +12,9 @@ import pytest
 import graphkin
 from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.readings import read_off
-from graphkin.construction import execute, group_polygons, plan
+from graphkin.construction import execute, larger_groups, plan
 from graphkin.construction.board import EXACT, nudged
-from graphkin.construction.contours import Joint, contours
-from graphkin.construction.execution import Redrawn, positioned
+from graphkin.construction.execution import Redrawn, draw, positioned
 from graphkin.construction.polygon_acts import (
     Carried,
     DirectionLine,
@@ -25,6 +24,7 @@ from graphkin.construction.polygon_acts import (
     RateSeen,
     SeenFrom,
 )
+from graphkin.construction.seen_from import Joint, contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
@@ -101,11 +101,11 @@ def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: st
 def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
     name: str, links: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    usual = group_polygons.GroupPolygons._held
-    monkeypatch.setattr(group_polygons, "_against", lambda plan: False)
+    usual = larger_groups._rests_on
+    monkeypatch.setattr(larger_groups, "_against", lambda plan: False)
     for link in links:
         monkeypatch.setattr(
-            group_polygons.GroupPolygons, "_held", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
+            larger_groups, "_rests_on", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
         )
         result = graphkin.check(SCENES[name])
         assert {link} == {step.act.held for step in result.sheet.steps if isinstance(step.act, SeenFrom)}
@@ -208,10 +208,10 @@ def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name
     before = copy.deepcopy(vars(begun)["ends"]), set(begun.special), set(begun.ties), set(begun.seen)
     gone_on = begun.again(EXACT)
     for order, element in what.in_order:
-        gone_on.draw(order, element)
+        draw(gone_on, order, element)
     assert before == (begun.ends, begun.special, set(begun.ties), set(begun.seen))
-    # what no drawing changes, and how elements are drawn, once that is found
-    same = {"still", "touching", "block_of", "chains", "contours", "plans"}
+    # how elements are drawn, once that is found
+    same = {"chains", "contours", "plans"}
     changing = {key: value for key, value in vars(begun).items() if isinstance(value, dict | set | list)}
     assert same == {key for key, value in changing.items() if vars(gone_on)[key] is value}
 

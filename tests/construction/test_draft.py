@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from graphkin.construction import Cad, Scales, draft, pencil
-from graphkin.construction.as_seen import vectors_seen
 from graphkin.construction.polygon_acts import FoundVector
 from graphkin.construction.remarks import OffTheSheet, ZeroVector
+from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.strokes import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot

@@ -13,9 +13,9 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Slip, draft, execute, plan, removed_constraint
-from graphkin.construction.group_polygons import GroupPolygons
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.mechanism_acts import TrialPositions
+from graphkin.construction.polygons import Polygons
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.strokes import Ray
 from graphkin.scene import mechanism_of
@@ -83,14 +83,14 @@ def test_each_line_of_a_group_turned_by_a_tenth_of_a_degree_makes_readings_wrong
 
 @pytest.mark.parametrize("name", ["special point", "contour", "special point at infinity, moving", "trial polygons"])
 def test_check_fails_where_a_line_is_turned_by_a_tenth_of_a_degree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    init = GroupPolygons.__init__
+    init = Polygons.__init__
     first: list[Symbol] = []
 
     def line(symbol: Symbol, along: complex) -> complex:
         first.append(symbol)
         return along * TURNED if symbol == first[0] else along
 
-    monkeypatch.setattr(GroupPolygons, "__init__", lambda self, *args: init(self, *args[:4], Slip(line=line)))
+    monkeypatch.setattr(Polygons, "__init__", lambda self, *args: init(self, *args[:4], Slip(line=line)))
     assert not graphkin.check(POLYGONS[name]).ok
 
 

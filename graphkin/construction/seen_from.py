@@ -1,0 +1,213 @@
+"""Motion seen from a link of a larger group that is held still: contours of known shape, and how they are drawn.
+
+Whatever the rest of a group does, links that drivers inside it hold to each other move as one link at the moment, but
+for motions that the drivers give.  Seen with one link of such a contour held still, these are drawn first; the others
+are then points of the held link, each with a known vector more (Coriolis included), and the group is drawn as if the
+contour were one link.  A point's own velocity, seen from the held link, is that relative to the coincident point of it;
+other vectors bear its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.polygon_acts import (
+    ByImage,
+    ByRate,
+    Carried,
+    DirectionLine,
+    FoundVector,
+    ImageSeen,
+    LaidOff,
+    MeasuredRate,
+    PutBack,
+    RateSeen,
+    Resultant,
+    SamePlace,
+    SeenByRate,
+    SeenFrom,
+    Translated,
+)
+from graphkin.construction.polygons import Polygons, letter
+from graphkin.construction.sheet import DiagramName, Equation, Order, Sheet, Step, Term
+from graphkin.construction.sizes import OffCurves, RateTimes, Size, SquareOverRadius
+from graphkin.construction.slip import Slip
+from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster
+
+__all__ = ["Joint", "contours", "copy_steps", "seen", "vectors_seen", "with_held"]
+
+ALIKE = 1e-9  # of unit motions: what differs less moves alike
+Rows = list[np.ndarray]
+
+
+@dataclass(frozen=True)
+class Joint:
+    """What joins two links of a group: a hinge in a place, or, ``along`` a direction, a sliding pair; ``driven`` where
+    a driver gives how they turn or slide on each other."""
+
+    links: tuple[str, str]
+    at: complex
+    along: complex | None
+    driven: bool
+
+
+def contours(
+    links: Sequence[str], joints: Sequence[Joint], turning: Sequence[tuple[str, str]]
+) -> list[tuple[str, ...]]:
+    """The largest sets of links that can only move as one, drivers at rest, however the group hangs on others.
+
+    Links that a driver holds at their common pair are one already: a set of nothing else is left out.
+
+    Parameters
+    ----------
+    joints : those between links of the group
+    turning : further links whose rotations differ only by what drivers give
+    """
+    at = {name: 3 * i for i, name in enumerate(links)}
+    size = max((abs(j.at) for j in joints), default=1.0) or 1.0
+    rows: Rows = []
+    for one, two in turning:
+        rows.append(_row(at, one, two, (0.0, 0.0, 1.0)))
+    for joint in joints:
+        z = joint.at / size
+        # how a point there moves: by the motion at the origin and the rate of turning
+        across, up = (1.0, 0.0, -z.imag), (0.0, 1.0, z.real)
+        if joint.along is None or joint.driven:
+            rows += [_row(at, *joint.links, across), _row(at, *joint.links, up)]
+        else:
+            n = 1j * joint.along
+            rows.append(_row(at, *joint.links, tuple(n.real * x + n.imag * y for x, y in zip(across, up, strict=True))))
+        if joint.along is not None or joint.driven:
+            rows.append(_row(at, *joint.links, (0.0, 0.0, 1.0)))
+    _, sizes, turned = np.linalg.svd(np.array(rows))
+    free = turned[int(np.sum(sizes > ALIKE)) :].T.reshape(len(links), 3, -1)
+    sets: list[list[int]] = []
+    for i in range(len(links)):
+        home = next((one for one in sets if np.abs(free[one[0]] - free[i]).max(initial=0.0) < 10 * ALIKE), None)
+        if home is None:
+            sets.append([i])
+        else:
+            home.append(i)
+    found = [tuple(links[i] for i in one) for one in sets]
+    held = [set(j.links) for j in joints if j.driven]
+    return [one for one in found if len(one) > 1 and not _one_already(one, held)]
+
+
+def _row(at: dict[str, int], one: str, two: str, weights: Sequence[float]) -> np.ndarray:
+    row = np.zeros(3 * len(at))
+    row[at[one] : at[one] + 3] = weights
+    row[at[two] : at[two] + 3] = [-w for w in weights]
+    return row
+
+
+def _one_already(links: Sequence[str], held: Sequence[set[str]]) -> bool:
+    """Whether driven pairs alone hold links together."""
+    reached, grown = {links[0]}, True
+    while grown:
+        grown = False
+        for both in held:
+            if both & reached and not both <= reached:
+                reached, grown = reached | both, True
+    return reached >= set(links)
+
+
+# -- the polygons drawn so ---------------------------------------------------------------------------------------------
+
+
+def with_held(plot: Polygons, group: Cluster, held: str) -> Polygons:
+    """Empty polygons with a link of a group for the frame."""
+    made = plot.fork(0)
+    made.part_of, made.contours = group, {}
+    made.board.lengths = {}
+    made.slip = Slip(line=lambda symbol, along: plot.slip.line(seen(symbol, held), along))
+    made.begin(held)
+    return made
+
+
+def copy_steps(plot: Polygons, order: Order, group: Cluster, held: str, steps: int, equations: int) -> None:
+    """Put into the polygons of the mechanism what has been drawn with a link held still, after so many steps and
+    equations."""
+    apart = plot.seen[held]
+    further = len(plot.board.equations) - equations
+    for one in apart.board.equations[equations:]:
+        sides = tuple(tuple(_term(term, held) for term in side) for side in one.sides)
+        plot.board.equations.append(Equation(one.number + further, one.diagram, sides, group))
+    for step in apart.board.steps[steps:]:
+        act = _act(apart, step, held)
+        if act is not None and step.diagram != "mechanism":
+            number = None if step.equation is None else step.equation + further
+            plot.board.do(order, act, *_strokes(step, held), equation=number)
+
+
+def seen(symbol: Symbol, held: str) -> Symbol:
+    """A vector as it is seen from a held link."""
+    if symbol.of is None:
+        return symbol
+    if symbol.kind in ("v", "a") and symbol.to is None:
+        return Symbol(symbol.kind, symbol.of, PointRef(symbol.of.point, held))
+    return replace(symbol, seen=held)
+
+
+def vectors_seen(sheet: Sheet, diagram: DiagramName) -> Iterator[Aid]:
+    """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
+    held = {step.act.held for step in sheet.steps if isinstance(step.act, SeenFrom)}
+    special = {step.act.point for step in sheet.steps if isinstance(step.act, SpecialPoint)}
+    for step in sheet.steps if held else ():
+        for stroke in step.strokes if step.diagram == diagram else ():
+            if isinstance(stroke, Aid) and stroke.symbol.to is not None:
+                of, to = stroke.symbol.of, stroke.symbol.to
+                if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
+                    yield stroke
+
+
+def _term(term: Term, held: str) -> Term:
+    return replace(term, symbol=seen(term.symbol, held), size=_size(term.size, held))
+
+
+def _size(size: Size | None, held: str) -> Size | None:
+    if isinstance(size, RateTimes):
+        factor = seen(size.factor, held) if isinstance(size.factor, Symbol) else size.factor
+        return replace(size, links=(*size.links, held) if len(size.links) == 1 else size.links, factor=factor)
+    return replace(size, velocity=seen(size.velocity, held)) if isinstance(size, SquareOverRadius | OffCurves) else size
+
+
+def _strokes(step: Step, held: str) -> Iterator[Stroke]:
+    for stroke in step.strokes:
+        if isinstance(stroke, Vector | Aid):
+            yield Aid(seen(stroke.symbol, held), stroke.tail, stroke.tip, 0)
+        elif isinstance(stroke, Ray):
+            yield replace(stroke, symbol=seen(stroke.symbol, held))
+        elif isinstance(stroke, Bar) and isinstance(step.act, Carried):
+            yield stroke
+
+
+def _act(plot: Polygons, step: Step, held: str) -> Act | None:
+    """An act as it is said of what is seen from a link; None for end points that get a letter in the polygon itself."""
+    act, kind = step.act, letter("velocity" if step.diagram == "velocity" else "acceleration")
+
+    def to(ref: PointRef) -> Symbol | None:
+        return None if plot.fixed(ref) else seen(Symbol(kind, ref), held)
+
+    match act:
+        case LaidOff():
+            return replace(act, symbol=seen(act.symbol, held), size=_size(act.size, held))
+        case FoundVector() | DirectionLine() | Carried() | PutBack() | Resultant():
+            return replace(act, symbol=seen(act.symbol, held))
+        case MeasuredRate(rate, link, vector, bar, value, mm):
+            return RateSeen(rate, link, held, seen(vector, held), bar, value, mm)
+        case ByImage(point, (one, other), link, on_line):
+            corners = one.point, other.point, point.point
+            return ImageSeen(seen(Symbol(kind, point), held), (to(one), to(other)), corners, link, on_line)
+        case ByRate(point, start, link):
+            return SeenByRate(seen(Symbol(kind, point), held), start, to(start), link, held)
+        case SamePlace() | Translated():
+            vectors = (s for s in step.strokes if isinstance(s, Vector | Aid))
+            return next((Resultant(seen(v.symbol, held)) for v in vectors), None)
+    return None
