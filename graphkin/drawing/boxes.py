@@ -26,7 +26,8 @@ from graphkin.words import Phrase, Wording, in_all, languages
 
 __all__ = [
     "BARE", "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "TOLD", "Block", "FigurePage", "column", "foot",
-    "framed", "heading", "numbered", "numeral", "page", "panel", "prose", "row", "rows", "table", "without_titles",
+    "framed", "heading", "line", "numbered", "numeral", "page", "pages", "panel", "prose", "row", "rows", "table",
+    "without_titles",
 ]  # fmt: skip
 
 MARGIN = 8.0  # of a page
@@ -70,6 +71,12 @@ def prose(
     return Block(Piece({"labels": texts} if texts else {}), height * len(rows), width)
 
 
+def line(text: str, width: float, size: float = SIZE) -> Block:
+    """One line of text, smaller where it is wider than its width."""
+    height = LEADING * size
+    return Block(Piece({"labels": (Text(complex(0.0, BASE * height), fitted(text, size, width)),)}), height, width)
+
+
 def numeral(number: int, width: float, size: float = SIZE, *, bold: bool = False, step: int | None = None,
             classes: tuple[str, ...] = ()) -> Block:  # fmt: skip
     """A number at the left of what it numbers, which begins after a width."""
@@ -103,6 +110,19 @@ def row(*blocks: Block, gap: float = 0.0) -> Block:
         pieces.append(block.moved(complex(x, 0.0)))
         x += block.width + gap
     return Block(joined(pieces), max((one.height for one in blocks), default=0.0), max(0.0, x - gap))
+
+
+def pages(blocks: Iterable[Block], height: float, gap: float) -> list[Block]:
+    """Blocks below each other, as many to a page as it holds."""
+    made: list[list[Block]] = [[]]
+    y = 0.0
+    for block in blocks:
+        if made[-1] and y + block.height > height:
+            made.append([])
+            y = 0.0
+        made[-1].append(block)
+        y += block.height + gap
+    return [column(*some, gap=gap) for some in made]
 
 
 def rows(blocks: Sequence[Block], width: float, gap: float) -> list[Block]:
@@ -188,9 +208,9 @@ def foot(scale: str, width: float, language: str, note: str = "") -> Block:
 
 def page(
     head: Block, body: Block, low: Block, *, title: str, said: str, language: str, metadata: Mapping[str, object],
-    margin: float = MARGIN,
+    margin: float = MARGIN, height: float = 0.0,
 ) -> Drawing:  # fmt: skip
-    """Heading, body and foot on a page as wide and as high as they are.
+    """Heading, body and foot on a page as wide and as high as they are, or as high as its paper, the foot at its end.
 
     Parameters
     ----------
@@ -198,12 +218,12 @@ def page(
     language : "en", "zh" or "both"
     """
     top = margin + head.height + (GAP if head.height else 0.0)
-    end = top + body.height
+    after = low.height + min(BELOW, margin)
+    end = max(top + body.height, height - after)
     parts = body.moved(complex(margin, top)), head.moved(complex(margin, margin)), low.moved(complex(margin, end))
     width = max(block.width for block in (head, body, low)) + 2 * margin
-    height = end + low.height + min(BELOW, margin)
     return Drawing(
-        width, height, layer_groups(joined(parts)), title, said, languages(language)[0], dict(metadata)
+        width, end + after, layer_groups(joined(parts)), title, said, languages(language)[0], dict(metadata)
     )  # fmt: skip
 
 
@@ -264,9 +284,14 @@ class FigurePage:
             sheet = replace(sheet, scales=replace(sheet.scales, **{name: per_mm}))
         return scale_statement(sheet, self.convention, diagram)
 
+    def height_for(self, below: str, height: float) -> float:
+        """How high the body may be on a paper so high."""
+        head = heading(titles(self.sheet, self.language), below, self.width)
+        return height - MARGIN - head.height - 2 * GAP - foot("", self.width, self.language).height - BELOW
+
     def drawing(
         self, below: str, body: Block, scale: str | None, *, title: str, said: str, note: str = "",
-        metadata: Mapping[str, object] | None = None,
+        metadata: Mapping[str, object] | None = None, height: float = 0.0,
     ) -> Drawing:  # fmt: skip
         """The page with the titles of the scene.
 
@@ -275,10 +300,11 @@ class FigurePage:
         below : what stands below the titles
         scale, note : of the foot; there is none of a figure without a scale (None)
         title : what the figure is called, as a key of the table of words
+        height : of the paper, where the page is not as high as its content
         """
         low = BARE if scale is None else foot(scale, self.width, self.language, note)
         return page(
             heading(titles(self.sheet, self.language), below, self.width), body, low,
             title=figure_title(self.sheet, title, self.language), said=said, language=self.language,
-            metadata=facts(self.sheet, self.name) | dict(metadata or {}),
+            metadata=facts(self.sheet, self.name) | dict(metadata or {}), height=height,
         )  # fmt: skip

@@ -12,12 +12,12 @@ from graphkin.checking.readings import Reading, read_off
 from graphkin.checking.report import Compared, Report, deviation, exact, measured, paper
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import Block, row, table
 from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Primitive, Run, Text
 from graphkin.drawing.parts.given_shapes import along_its_guide, given_shapes, off_its_guide
 from graphkin.drawing.text import rich, wrapped
-from graphkin.plane import added_up, degrees
+from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word
 from graphkin.words.written import as_given
@@ -27,7 +27,7 @@ __all__ = [
     "table_rows",
 ]  # fmt: skip
 
-ROW, LEAST_ROW = 4.2, 3.75  # mm
+ROW, LEAST_ROW, GUTTER = 4.2, 3.75, 4.0  # mm
 NO_LENGTH = 1e-12  # of the mechanism's size: what is shorter are two points that fall together
 _LETTERS = {"v": 0, "omega": 1, "a": 2, "alpha": 4}
 _SHARES = (0.26, 0.18, 0.19, 0.19, 0.18)  # of the width: symbol, mm on paper, measured, exact, difference
@@ -52,15 +52,13 @@ def readings_table(
     many of them, the first ones, fit."""
     count, columns, row_height = _grid(len(rows), area, len(languages(language)))
     rows = rows[: max(0, count)]
-    width = (area.width - 4.0 * (columns - 1)) / columns
+    width = (area.width - GUTTER * (columns - 1)) / columns
     per_column = max(1, math.ceil(len(rows) / columns))
-    children: list[Primitive] = []
-    for c in range(columns):
-        part = rows[c * per_column : (c + 1) * per_column]
-        if part:
-            corner = complex(area.left + c * (width + 4.0), area.top)
-            children += _column(sheet, part, letters, language, corner, width, row_height)
-    return tuple(children), len(rows)
+    drawn = row(*(
+        _column(sheet, rows[k : k + per_column], letters, language, width, row_height)
+        for k in range(0, len(rows), per_column)
+    ), gap=GUTTER)  # fmt: skip
+    return drawn.moved(complex(area.left, area.top)).layers.get("answers", ()), len(rows)
 
 
 def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
@@ -72,16 +70,16 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
         found = (r for r in read_off(sheet, sheet.scene.find) if r.symbol.scope != "force")
         rows = [TableRow(reading) for reading in found]
     shown: list[TableRow] = []
-    for row in rows:
-        reading = row.reading
+    for entry in rows:
+        reading = entry.reading
         if reading.symbol.is_vector or reading.symbol.scope != "motion":
-            shown.append(row)
+            shown.append(entry)
             continue
-        alike = next((i for i, other in enumerate(shown) if _alike(other, row)), None)
+        alike = next((i for i, other in enumerate(shown) if _alike(other, entry)), None)
         if alike is not None:
             shown[alike] = replace(shown[alike], more=(*shown[alike].more, reading.symbol.link))
         elif reading.on_paper:
-            shown.append(row)
+            shown.append(entry)
     return sorted(shown, key=lambda row: row.rank)
 
 
@@ -105,62 +103,27 @@ def _grid(count: int, area: Box, heads: int) -> tuple[int, int, float]:
 
 
 def _column(
-    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, corner: complex, width: float, row: float
-) -> list[Primitive]:
-    compared = any(r.compared for r in rows)
-    shares = _SHARES if compared else (0.4, 0.25, 0.35)
-    edges = [corner.real + width * added_up(shares[:i]) for i in range(len(shares) + 1)]
-    size = 2.4
+    sheet: Sheet, rows: Sequence[TableRow], letters: Letters, language: str, width: float, line: float
+) -> Block:
+    shares = _SHARES if any(r.compared for r in rows) else (0.4, 0.25, 0.35)
     heads = ("quantity", "on paper", "measured", "exact", "difference")[: len(shares)]
-    children: list[Primitive] = []
-    y = corner.imag + 0.72 * row
-    for each in languages(language):
-        words = [word(head, each) for head in heads]
-        small = min(_head_size(one, edges[i + 1] - edges[i] - 1.2) for i, one in enumerate(words))
-        children += [_cell(rich(one, small), edges, i, y) for i, one in enumerate(words)]
-        y += 0.75 * row
-    rule = y - 0.42 * row
-    children.append(Line(complex(edges[0], rule), complex(edges[-1], rule), strokes.OUTLINE))
-    for n, one in enumerate(rows):
-        y = rule + (n + 0.72) * row
-        for i, runs in enumerate(_texts(sheet, one, letters, language, size)):
-            limit = edges[i + 1] - edges[i] - 0.8
-            if runs_width(runs) > limit:
-                runs = _shrunk(runs, limit)
-            children.append(_cell(runs, edges, i, y))
-    foot = rule + (len(rows) + 0.3) * row
-    children.append(Line(complex(edges[0], foot), complex(edges[-1], foot), strokes.DIMENSION))
-    return children
+    cells = [[*_texts(sheet, one, letters, language), "", ""][: len(shares)] for one in rows]
+    return table([[word(head, each) for head in heads] for each in languages(language)], cells,
+                 [width * share for share in shares], size=2.4, line=line, layer="answers")  # fmt: skip
 
 
-def _head_size(words: str, width: float) -> float:
-    return max(2.0, min(2.3, 2.3 * width / runs_width(rich(words, 2.3))))
-
-
-def _cell(runs: tuple[Run, ...], edges: Sequence[float], i: int, y: float) -> Text:
-    return Text(complex(edges[i], y), runs) if i == 0 else Text(complex(edges[i + 1] - 0.6, y), runs, "end")
-
-
-def _shrunk(runs: tuple[Run, ...], width: float) -> tuple[Run, ...]:
-    share = width / runs_width(runs)
-    return tuple(Run(r.text, r.x * share, r.y, max(2.0, r.size * share), r.italic, r.bold) for r in runs)
-
-
-def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str, size: float) -> list[tuple[Run, ...]]:
+def _texts(sheet: Sheet, row: TableRow, letters: Letters, language: str) -> list[str]:
     reading, compared = row.reading, row.compared
     unit, units = _unit(sheet, reading), sheet.scene.units
     name = letters.vector(reading.symbol)
     if row.more:
         name = f"{name[0]}_{{{','.join((reading.symbol.link, *row.more))}}}"
-    texts = [
-        rich(f"${name}$, {unit}" if unit else f"${name}$", size),
-        rich(written(paper(reading, compared)), size),
-        rich(written(measured(reading, sheet.scales, units, compared)), size),
-    ]
+    texts = [f"${name}$, {unit}" if unit else f"${name}$", written(paper(reading, compared)),
+             written(measured(reading, sheet.scales, units, compared))]  # fmt: skip
     if compared is not None:
         agrees = compared.uncertainty is None and compared.ok
-        texts.append(rich(written(exact(compared, units)), size))
-        texts.append(rich(term("agrees", language) if agrees else written(deviation(compared, units)), size))
+        texts += [written(exact(compared, units)),
+                  term("agrees", language) if agrees else written(deviation(compared, units))]  # fmt: skip
     return texts
 
 
