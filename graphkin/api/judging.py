@@ -169,7 +169,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
 
     def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
         found: list[tuple[str, complex | float]] = []
-        if symbol.scope in ("turn", "cycle"):
+        if symbol.scope in ("turn", "cycle") or symbol.kind == "arm":  # the lever has its arms at one position
             return found
         for motion in motions():
             for i, value in enumerate(solver.value_of(motion, symbol)):

@@ -87,7 +87,7 @@ def _notes(designed: Designed, language: str) -> list[Said]:
 
     def told(each: str) -> str:
         mark = word("colon", each)
-        return word("list comma", each).join(f"{say(one.what, each)}{mark}{number(one.found)}" for one in known)
+        return word("list comma", each).join(f"{say(one.what, each)}{mark}{one.shown(one.found)}" for one in known)
 
     if known:
         made.append(_each(language, lambda each: labelled("confirmed", told(each), each)))

@@ -70,7 +70,8 @@ def sheet_page(
     polygons = _Polygons(sheet, letters, spoken)
     velocity, acceleration, homeless = polygons.on(plan)
     lines = [line_to_set(line, sheet, letters, spoken) for line in written_lines(sheet, letters, spoken)]
-    words = _Writing(sheet, table_rows(sheet, report), letters, spoken, lines, homeless)
+    rows = table_rows(sheet, report)
+    words = _Writing(sheet, rows, letters, spoken, lines, homeless)
     writing, rest = words.on(plan, GIVEN[0])
     if rest and plan.equations:
         usual = (plan, *with_less_mechanism(plan, sheet))
@@ -97,7 +98,7 @@ def sheet_page(
         velocity,
         *writing,
         _step_number(spoken, plan.page),
-        title_block(sheet, report, letters, spoken, plan.block),
+        title_block(sheet, [row.compared for row in rows if row.compared], letters, spoken, plan.block),
     ]
     further = overleaf(sheet, rest, letters, spoken, plan.page)
     figures = [train_figure(sheet, language=spoken, convention=letters.convention)]

@@ -84,6 +84,12 @@ class Confirmed:
     ok: bool
     unit: str = ""
 
+    def shown(self, value: float) -> str:
+        """One of the two with its unit."""
+        if not math.isfinite(value):
+            return "–"
+        return number(value) + {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
+
 
 def design_scale(design: Design, natural: DesignSheet) -> float:
     """Units of length for one mm of paper: the file's own, or the finest of the series at which the construction
@@ -313,8 +319,8 @@ def _tables(
         return lengths
     turned = table(
         [[word(key, each) for key in ("confirmed", "given wish", "by the turn")] for each in every],
-        [[" ".join(dict.fromkeys(say(one.what, each) for each in every)), number(one.asked),
-          number(one.found) if math.isfinite(one.found) else "–"] for one in confirmed], (34.0, 20.0, 22.0),
+        [[" ".join(dict.fromkeys(say(one.what, each) for each in every)), one.shown(one.asked), one.shown(one.found)]
+         for one in confirmed], (34.0, 20.0, 22.0),
         layer="answers",
     )  # fmt: skip
     return row(lengths, turned, gap=4.0)

@@ -3,9 +3,11 @@ which a print is checked."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from graphkin.account.headings import punctuation, term, titles
 from graphkin.account.notation import Letters, scale_statement
-from graphkin.checking.report import Report
+from graphkin.checking.report import Compared
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
@@ -22,7 +24,8 @@ LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in it, for the check bar and for the scales
 
 
-def title_block(sheet: Sheet, report: Report | None, letters: Letters, language: str, box: Box) -> Piece:
+def title_block(sheet: Sheet, shown: Sequence[Compared], letters: Letters, language: str, box: Box) -> Piece:
+    """The block of a sheet: title, instrument, scales, and whether the ``shown`` readings agree."""
     lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
     two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
     names = titles(sheet, language)
@@ -47,9 +50,9 @@ def title_block(sheet: Sheet, report: Report | None, letters: Letters, language:
         words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
     words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
     answers: tuple[Primitive, ...] = ()
-    if report is not None:
-        wrong = sum(row.ok is False for row in report.rows)
-        whole = sum(row.ok is not None for row in report.rows)
+    if shown:
+        wrong = sum(row.ok is False for row in shown)
+        whole = sum(row.ok is not None for row in shown)
         phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
         answers = tuple(
             Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))

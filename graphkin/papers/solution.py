@@ -273,7 +273,8 @@ def _results(lesson: Lesson) -> TableBlock:
 
 
 def _verdict(lesson: Lesson) -> Said:
-    rows = lesson.report.rows
+    """Whether the readings of the table agree."""
+    rows = [row for row in lesson.results if row.ok is not None]
     wrong = [row for row in rows if row.ok is False]
     phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else Phrase("all agree", (len(rows),))
     return tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language))

@@ -13,6 +13,8 @@ import graphkin
 from graphkin.checking.closed_form import compare_lengths
 from graphkin.construction import EXACT, pencil
 from graphkin.construction.synthesis import construct
+from graphkin.drawing import Text
+from graphkin.drawing.ink.primitives import walk
 from graphkin.plane import direction
 from graphkin.scene.design_file import design_of, designs
 from graphkin.scene.sheet_tables import Tools
@@ -259,3 +261,10 @@ def test_what_a_turn_confirms_is_named_in_both_languages():
 def test_places_of_a_bar_that_are_given_stand_on_the_figure(design, said):
     drawn = re.sub(r"<[^>]*>|\s", "", found(design).figures["design"].content("svg").decode())
     assert said.replace(" ", "") in drawn
+
+
+def test_what_a_turn_confirms_stands_on_the_figure_with_its_unit():
+    made = found(SLIDER)
+    words = [t.string for t in walk(made.figures["design"].children) if isinstance(t, Text)]
+    stroke = f"{SLIDER['stroke']:g} mm"
+    assert [stroke, stroke] == words[words.index("stroke") + 1 :][:2]

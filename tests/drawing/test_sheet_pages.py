@@ -211,3 +211,11 @@ def test_a_guide_that_its_panel_cuts_keeps_its_letter(high, angle):
     names = {label.text.id for label in whole.labels if "length" not in label.text.id}
     assert "label-guide-0-k" in names
     assert names <= {label.text.id for label in cut.labels}
+
+
+@pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-guide-40deg"])
+def test_a_sheet_says_of_as_many_readings_that_they_agree_as_its_table_shows(name):
+    drawn = draw(name, figures=["sheet"])
+    rows = table_rows(drawn.checked.sheet, drawn.checked.report)
+    (said,) = [text for text in pages(drawn) if "readings agree" in text]
+    assert f"all {len(rows)} readings agree with the analytic solution" == said

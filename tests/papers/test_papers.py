@@ -245,3 +245,12 @@ def test_a_force_that_is_zero_has_no_residue_on_paper():
     zero = {row.symbol: row.on_paper for row in key if row.exact == 0.0 and row.on_paper is not None}
     assert "F_3/2" in zero
     assert {0.0} == set(zero.values())
+
+
+@pytest.mark.parametrize("name", ["hydraulic-cylinder", "engine-gas-force"])
+def test_a_solution_says_of_as_many_readings_that_they_agree_as_its_table_shows(tmp_path, name):
+    handout(name, out=tmp_path, formats=("html",), language="en", positions=1)
+    page = (tmp_path / "handout.html").read_text(encoding="utf-8")
+    said = re.search(r"all (\d+) readings agree", page, re.IGNORECASE)
+    table = page[: said.start()].rsplit("<table", 1)[1]
+    assert table.count("<tr") - 1 == int(said[1])
