@@ -21,7 +21,7 @@ from graphkin.drawing.parts.polygon import polygon_piece
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.stepwise import births, so_far, stepped
+from graphkin.drawing.stepwise import so_far, stepped
 from graphkin.drawing.text import plain, rich
 from graphkin.scene import mechanism_of
 
@@ -125,7 +125,7 @@ def row(sheet, title, y, language):
         content = extent(sheet, diagram)
         polygon = polygon_piece(PolygonOnPage(sheet, diagram, letters, language, around(content), 0j, ()))
         cell = framed(polygon, complex(LEFT + column * WIDE, y + HEAD), content)
-        drawn = so_far(stepped(layer_groups(cell), births(sheet)), first, last)
+        drawn = so_far(stepped(layer_groups(cell)), first, last)
         pieces.append(Piece({"stages": drawn if first else plainly(drawn)}))
     head = Text(complex(LEFT, y + 3.4), rich(f"{title}{COLON[language]}{said}", 3.4))
     return [*(thing for piece in pieces for thing in layer_groups(piece) or piece.drawn), head], bool(terms)

@@ -60,12 +60,13 @@ class NamedPoint:
 
 @dataclass(frozen=True)
 class Foot:
-    """The end of a component (mm from the pole); ``aid`` of one that leads to a special point or is laid off before its
-    turn."""
+    """The end of a component (mm from the pole) that the step of a number draws; ``aid`` of one that leads to a special
+    point or is laid off before its turn."""
 
     symbol: Symbol
     role: str
     at: complex
+    step: int
     aid: bool = False
 
 
@@ -88,8 +89,8 @@ class PolygonPoints:
         return tuple(step for step in self.sheet.steps if step.diagram == self.diagram)
 
     @cached_property
-    def _vectors(self) -> Mapping[Symbol, Vector]:
-        return {s.symbol: s for step in self._steps for s in step.strokes if isinstance(s, Vector)}
+    def _vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
+        return {s.symbol: (step.number, s) for step in self._steps for s in step.strokes if isinstance(s, Vector)}
 
     @cached_property
     def named(self) -> tuple[NamedPoint, ...]:
@@ -162,9 +163,9 @@ class PolygonPoints:
         return found
 
     def _components(self) -> Iterator[Foot]:
-        for vector in self._vectors.values():
+        for step, vector in self._vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
-                yield Foot(vector.symbol, vector.role, vector.tip)
+                yield Foot(vector.symbol, vector.role, vector.tip, step)
 
     def _aids(self) -> Iterator[Foot]:
         """Known components that lead to a special point, or are laid off before their turn."""
@@ -179,7 +180,7 @@ class PolygonPoints:
                     continue
                 if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:
                     known.add(symbol)
-                    yield Foot(symbol, KNOWN[symbol.kind], tip, aid=True)
+                    yield Foot(symbol, KNOWN[symbol.kind], tip, step.number, aid=True)
 
 
 def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:

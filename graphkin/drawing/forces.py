@@ -22,7 +22,7 @@ from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.free_body import free_body, sketch_height
 from graphkin.drawing.ink.primitives import Group
 from graphkin.drawing.place.piece import Piece, layer_groups
-from graphkin.drawing.stepwise import stepped
+from graphkin.drawing.stepwise import tied
 from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, listed, say
@@ -121,7 +121,7 @@ def group_picture(
     ends the names of its parts."""
     page = FigurePage(sheet, "forces", spoken, letters, width)
     whole = column(*_pictures(page, forces, stage, group, Counter(), tag), gap=CLOSE)
-    parts = stepped(layer_groups(whole.piece), {})  # leaders come with their names
+    parts = tied(layer_groups(whole.piece))  # leaders come with their names
     return Drawing(max(width, whole.width), whole.height, parts, figure_title(sheet, "forces", spoken),
                    page.said("force described")[0], languages(spoken)[0])  # fmt: skip
 

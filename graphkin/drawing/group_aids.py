@@ -20,7 +20,7 @@ from graphkin.drawing.ink.symbols import arrowhead
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, same_place, step_number
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece
+from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
 from graphkin.plane import cross, dot, unit
 
@@ -82,7 +82,8 @@ def aids_in_mechanism(sheet: Sheet) -> Piece:
             for number, z in enumerate(curve.at, 1):
                 parts += [Line(page(z + w), page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
                 name = f"label-trial-{curve.point}-{number}"
-                text = Text(0j, symbol(str(number), 2.0), "start", strokes.GREY, name, ("label", "trial"))
+                numeral = symbol(str(number), 2.0)
+                text = Text(0j, numeral, "start", strokes.GREY, name, ("label", "trial"), since=step.number)
                 labels.append(Label(text, page(z), rank=4))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
@@ -131,7 +132,7 @@ def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                     labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=5))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
-        yield Piece({"construction": (drawn,)}, tuple(labels))
+        yield dated(Piece({"construction": (drawn,)}, tuple(labels)), step.number)
 
 
 def _apart(aid: Aid) -> bool:

@@ -21,7 +21,7 @@ from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.stepwise import births, so_far, stepped
+from graphkin.drawing.stepwise import so_far, stepped
 from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import paper_of
@@ -69,7 +69,7 @@ def parts(sheet: Sheet, diagram: DiagramName, letters: Letters, language: str) -
         strip = Box(0.0, panel.bottom, width, panel.bottom + strip_height(sheet, diagram, width))
         origin = panel.centre - content.centre
         piece, _ = polygon_with_insets(sheet, diagram, letters, language, panel, origin, strip)
-    return tuple(g for g in stepped(layer_groups(joined((piece,))), births(sheet)) if isinstance(g, Group))
+    return tuple(g for g in stepped(layer_groups(joined((piece,)))) if isinstance(g, Group))
 
 
 def cropped(

@@ -29,7 +29,7 @@ from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.stepwise import births, stepped
+from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
@@ -140,10 +140,9 @@ class _Frames:
     def data(self, view: View) -> dict[str, object]:
         lesson = view.lesson
         first = languages(lesson.language)[0]
-        born = births(lesson.sheet)
         figures = []
         for name, drawing in self._figures(view):
-            layers = replace(drawing, children=stepped(drawing.children, born)) if name != "centres" else drawing
+            layers = replace(drawing, children=stepped(drawing.children)) if name != "centres" else drawing
             layers = replace(layers, desc=f"{spoken_words(drivers(lesson.sheet, lesson.letters), first)}. "
                                           f"{_described(lesson, name, first)}")  # fmt: skip
             caption = f"{words_html(_title(lesson, name), first)} "

@@ -3,8 +3,9 @@ from __future__ import annotations
 import pytest
 
 from graphkin.account.notation import letters_of
+from graphkin.api.drawn import draw
 from graphkin.drawing.ink.primitives import Group, Text, walk
-from graphkin.drawing.stepwise import births, so_far, step_of, stepped
+from graphkin.drawing.stepwise import so_far, step_of, stepped
 from graphkin.papers.pictures import parts
 from graphkin.scene import library
 from tests.drawn import drafted
@@ -31,11 +32,11 @@ def test_a_name_appears_with_what_it_names():
 
 
 def test_what_comes_later_is_not_there():
-    sheet, layers = _layers("sixbar-guide-40deg", "velocity")
+    _, layers = _layers("sixbar-guide-40deg", "velocity")
     ids = {t.id for t in walk(so_far(layers, 9, 16)) if isinstance(t, Group)}
     assert "v_D3" in ids
     assert "v_D" not in ids
-    assert 18 == births(sheet)["v_D"]
+    assert {"v_D": 18} == {t.id: t.step for t in walk(layers) if isinstance(t, Group) and t.id == "v_D"}
 
 
 def test_what_was_there_before_is_faded_and_what_is_new_is_not():
@@ -47,5 +48,21 @@ def test_what_was_there_before_is_faded_and_what_is_new_is_not():
 
 
 def test_steps_are_given_once():
-    sheet, layers = _layers("sixbar-guide-40deg", "velocity")
-    assert layers == stepped(layers, births(sheet))
+    _, layers = _layers("sixbar-guide-40deg", "velocity")
+    assert layers == stepped(layers)
+
+
+def test_letters_in_an_inset_appear_with_it_and_not_with_the_last_one():
+    _, layers = _layers("loader-cylinder", "acceleration")
+    insets = {t.id: t.step for t in walk(layers) if isinstance(t, Group) and "detail" in t.classes}
+    captions = {t.id.removeprefix("label-"): t.step for t in walk(layers) if isinstance(t, Text)}
+    assert {"detail-acceleration-1": 48, "detail-acceleration-2": 65} == insets
+    assert insets == {id: captions[id] for id in insets}
+    assert (48, 48) == (captions["detail-acceleration-B"], captions["detail-foot-an_E-H7"])
+
+
+def test_a_file_leaves_unsaid_since_when_a_name_is_there_and_a_page_of_steps_says_it():
+    (layer,) = (g for g in draw("sixbar-guide-40deg").figures["velocity"].children if g.id == "velocity")
+    ends = [g for g in layer.children if "end" in g.classes]
+    assert {None} == {g.step for g in ends}
+    assert {g.since for g in ends} == {g.step for g in stepped(ends)} != {None}

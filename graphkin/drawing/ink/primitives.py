@@ -174,7 +174,8 @@ class Text:
     """Runs of text about a point of the baseline.
 
     ``anchor`` says which part of the whole text stands at the point: "start", "middle" or "end".  ``id`` and
-    ``classes`` are those of the element in the SVG, ``step`` the number of the step that puts it there.
+    ``classes`` are those of the element in the SVG, ``step`` is the number of the step of which it tells, ``since`` of
+    that from which on it is there.
     """
 
     at: complex
@@ -184,6 +185,7 @@ class Text:
     id: str = ""
     classes: tuple[str, ...] = ()
     step: int | None = None
+    since: int | None = None
 
     @property
     def string(self) -> str:
@@ -191,7 +193,7 @@ class Text:
         return "".join(run.text for run in self.runs)
 
     def moved(self, by: complex) -> Text:
-        return Text(self.at + by, self.runs, self.anchor, self.colour, self.id, self.classes, self.step)
+        return Text(self.at + by, self.runs, self.anchor, self.colour, self.id, self.classes, self.step, self.since)
 
     def recoloured(self, change: Recolour) -> Text:
         return replace(self, colour=change(self.colour))
@@ -238,7 +240,8 @@ class Travel:
 @dataclass(frozen=True)
 class Group:
     """Things that belong together: ``layer`` names it as a layer for Inkscape, ``title`` says in words what it is,
-    ``step`` is the number of the step that puts it there, ``motion`` how it moves on a screen."""
+    ``step`` is the number of the step whose strokes it holds, ``since`` of that from which on it is there, ``motion``
+    how it moves on a screen."""
 
     children: tuple[Primitive, ...]
     id: str = ""
@@ -247,6 +250,7 @@ class Group:
     title: str = ""
     step: int | None = None
     motion: Travel | None = None
+    since: int | None = None
 
     def moved(self, by: complex) -> Group:
         """With the same children, of which each moves itself."""
@@ -295,7 +299,8 @@ def map_tree(
     for thing in children:
         if isinstance(thing, Group):
             inside = map_tree(thing.children, change)
-            thing = Group(inside, thing.id, thing.classes, thing.layer, thing.title, thing.step, thing.motion)
+            words = thing.id, thing.classes, thing.layer, thing.title
+            thing = Group(inside, *words, thing.step, thing.motion, thing.since)
         changed = change(thing)
         if changed is not None:
             found.append(changed)

@@ -23,7 +23,7 @@ from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, sense_arc
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, joined
+from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import fitted, symbol
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
@@ -87,7 +87,8 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
         caption = fitted(name, 2.8, box.width - 1.6)
     words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
     group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
-    return Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), inner
+    drawn = [step.number for step in sheet.steps if vector in step.strokes]
+    return dated(Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), max(drawn, default=None)), inner
 
 
 def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:

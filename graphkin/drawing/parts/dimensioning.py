@@ -17,7 +17,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, Text
 from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
-from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, shapes, sliders
+from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, link_since, shapes, sliders
 from graphkin.drawing.place.dimensions import (
     GAP,
     LEAST_EXTENSION,
@@ -343,7 +343,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             continue
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
         told = rich(f"$φ_{{{index}}}$ = {number(math.degrees(turns[0]), 5)}°", SIZE)
-        yield driven_value(driver.key, told, at)
+        yield driven_value(sheet, driver.key, told, at)
 
 
 def _extension(start: complex, end: complex) -> Line:
@@ -385,12 +385,13 @@ def travels(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             start = pose.origin + pose.axis * slider.slide.guide.through / sheet.scales.length
             runs = rich(f"$s_{{{slide_index(sheet, key)}}}$ = {written(as_given(value))}", SIZE)
             parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
-            yield parts or driven_value(key, runs, (start.conjugate(), slider.at.conjugate()))
+            yield parts or driven_value(sheet, key, runs, (start.conjugate(), slider.at.conjugate()))
 
 
-def driven_value(key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
+def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
     """The value of a driver as a label; it is given, so everything else gives way to it."""
-    return Label(Text(0j, runs, "start", strokes.BLACK, f"{DRIVEN}{key.replace('/', '-')}", ("label",)), mark, rank=0)
+    id, since = f"{DRIVEN}{key.replace('/', '-')}", link_since(sheet, key.split("/")[0])
+    return Label(Text(0j, runs, "start", strokes.BLACK, id, ("label",), since=since), mark, rank=0)
 
 
 def _shown(sheet: Sheet) -> list[Slider]:

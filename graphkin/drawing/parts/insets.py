@@ -32,7 +32,7 @@ from graphkin.drawing.parts.polygon_on_page import END_RADIUS, Detail, PolygonOn
 from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.obstacles import free_boxes, obstacles_of
-from graphkin.drawing.place.piece import Piece, cut_to, joined, middle_of, moved_piece
+from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece
 from graphkin.drawing.text import fitted, symbol
 from graphkin.scene.symbol import PointRef
 
@@ -224,13 +224,14 @@ def _detail_inset(
         if inner.distance(spot) == 0.0:
             parts.append(Circle(spot, END_RADIUS, fill=strokes.BLACK))
             id = f"label-detail-{point.text.id.removeprefix('label-')}"
-            names.append(Label(replace(point.text, id=id, step=detail.crowd), spot, point.toward, rank=1))
+            name = replace(point.text, id=id, step=detail.crowd, since=here.since(detail))
+            names.append(Label(name, spot, point.toward, rank=1))
     words = f"{term('detail', here.language).replace('{0}', f'{detail.factor:g}')}"
     id = f"detail-{here.diagram}-{number}"
     runs = fitted(words, 2.6, box.width - 1.6)
     caption = Text(complex(box.centre.real, box.bottom - 1.6), runs, "middle", id=f"label-{id}", step=detail.crowd)
     group = Group(tuple(parts), id=id, classes=("inset", "detail"), step=detail.crowd)
-    return Piece({here.diagram: (group,), "labels": (caption,)}, tuple(names)), inner
+    return dated(Piece({here.diagram: (group,), "labels": (caption,)}, tuple(names)), here.since(detail)), inner
 
 
 CLOSE = 5.0  # mm: the symbols of nearer points overlap

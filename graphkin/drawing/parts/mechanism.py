@@ -15,6 +15,7 @@ import numpy as np
 
 from graphkin.account.notation import Letters
 from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
@@ -30,11 +31,12 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     MechanismOnPaper,
     Slider,
     page,
+    points_since,
 )
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.meeting import Floats, Points
-from graphkin.drawing.place.piece import Piece, cut_to, ink_box, joined, kept_in, middle_of
+from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.model import AngleDriver, SlideDriver
@@ -49,7 +51,8 @@ def links(here: MechanismOnPaper) -> Piece:
     areas = [_link(here, shape) for shape in here.shapes if shape.corners]
     bars = sorted((shape for shape in here.shapes if not shape.corners), key=lambda shape: _depth(here, shape))
     profiles = [group for one in here.cams for group in _profile(here, one)]
-    slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",)) for one in here.curved)
+    slots = (Group(tuple(_curved(here, one)), id=f"slot-{one.slot.bar}", classes=("link",), since=here.stands)
+             for one in here.curved)  # fmt: skip
     return Piece({"mechanism": (*profiles, *areas, _frame(here), *slots, *(_link(here, shape) for shape in bars))})
 
 
@@ -95,15 +98,15 @@ NORMAL, FACE = 9.0, 13.0
 def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
     """A cam with its profile, the follower's roller or face, tangent and normal where they touch."""
     across = 1j * one.normal
-    yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",))
+    yield Group((_cam_alone(here, one),), id=f"cam-{one.cam.link}", classes=("cam",), since=here.stands)
     end = tuple(_follower_end(here, one))
     if end:
-        yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",))
+        yield Group(end, id=f"follower-{one.cam.follower}", classes=("cam",), since=here.stands)
     beyond = one.contact + one.roller * one.normal
     thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
             (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
     lines = tuple(Line(page(a), page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
-    yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",))
+    yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
 
 
 def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
@@ -135,7 +138,7 @@ def _frame(here: MechanismOnPaper) -> Group:
         elif here.ground in (b.slide.a, b.slide.b):
             parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
     parts += [*outlines_of(here, here.ground), *wheels_of(here, here.ground), *faces_of_frame(here)]
-    return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",))
+    return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",), since=here.since(here.ground))
 
 
 def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
@@ -166,7 +169,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
         if b.slide.a == shape.link and b.slide.key in here.cylinders:
             start, end = here.rod(b)
             parts.append(Line(page(start), page(end), strokes.LINK.coloured(colour)))
-    return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",))
+    return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
 
 
 def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
@@ -215,9 +218,13 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
 
 def joints(here: MechanismOnPaper, without: Collection[str] = ()) -> Piece:
     """Every point but some with its symbol, and the letters that want a place beside them."""
-    points = [point for point in here.places if point not in without]
-    drawn = tuple(Group(tuple(_joint(here, p)), id=f"point-{p}", classes=("point",)) for p in points)
-    return Piece({"mechanism": drawn}, tuple(_letter(here, point) for point in points))
+    found = points_since(here.sheet)
+    pieces = [Piece({"mechanism": ()})]
+    for point in here.places:
+        if point not in without:
+            drawn = Group(tuple(_joint(here, point)), id=f"point-{point}", classes=("point",))
+            pieces.append(dated(Piece({"mechanism": (drawn,)}, (_letter(here, point),)), found.get(point)))
+    return joined(pieces)
 
 
 def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
@@ -279,13 +286,14 @@ def link_names(here: MechanismOnPaper, panel: Box | None = None) -> Piece:
     return Piece(labels=(*_numbers(here), *_guides(here, panel), *_frame_name(here)))
 
 
-def _number(link: str, colour: str) -> Text:
-    return Text(0j, plain(link, bold=True), "start", colour, f"label-link-{link}", ("label", "link-number"))
+def _number(here: MechanismOnPaper, link: str, colour: str) -> Text:
+    classes = "label", "link-number"
+    return Text(0j, plain(link, bold=True), "start", colour, f"label-link-{link}", classes, since=here.since(link))
 
 
 def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
     for shape in here.shapes:
-        text = _number(shape.link, here.colour(shape.link))
+        text = _number(here, shape.link, here.colour(shape.link))
         whole = _cylinder_part(here, shape.link) or shape.longest
         block = next((b.at for b in here.sliders if b.slide.a == shape.link), None)
         if whole is not None:
@@ -331,7 +339,7 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
     if spots:
         foot = here.foot(pivots[0]) if pivots else 0.0
         away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
-        yield Label(_number(here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
+        yield Label(_number(here, here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
 
 
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
@@ -405,7 +413,9 @@ def _with_lengths(
 ) -> Piece | None:
     drawn = [thing for layer in ("construction", "mechanism", "answers") for thing in bare.layers[layer]]
     lengths = drawn_lengths(here.sheet, drawn, panel, most)
-    return None if lengths is None else joined((bare, lengths, link_names(here, panel), _marks(here)))
+    if lengths is None:
+        return None
+    return joined((bare, dated(lengths, here.stands), link_names(here, panel), _marks(here)))
 
 
 RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
@@ -513,7 +523,8 @@ def _driver_arc(
     place = clear.arc(centres, DRIVER_RADIUS)
     sense = 1 if (driver.omega if speed else driver.alpha) > 0 else -1
     id = f"driver-{driver.link}{'' if speed else '-alpha'}"
-    return _arc("mechanism", place, sense, 1 if speed else 2, here.colour(driver.link), markup, id)
+    piece = _arc("mechanism", place, sense, 1 if speed else 2, here.colour(driver.link), markup, id)
+    return dated(piece, here.since(driver.link))
 
 
 def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
@@ -530,12 +541,17 @@ def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
     letter = "V" if here.letters.convention == "us" else "v"
     text = Text(0j, symbol(f"{letter}_{{{index}}}"), "start", strokes.BLACK, f"label-{id}", ("label",))
     arrow = Group((line, head), id=id, classes=("driver",))
-    return Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
+    piece = Piece({"mechanism": (arrow,)}, (Label(text, (tail, tip), (phase(side),)),))
+    return dated(piece, here.since(driver.key.split("/")[0]))
 
 
 def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
     """Angular velocities and accelerations measured on the drawing."""
     pieces = [Piece({"answers": ()})]
+    acts = [(step.number, step.act) for step in here.sheet.steps]
+    found: dict[tuple[str, str], int] = {
+        (act.rate, act.link): n for n, act in acts if isinstance(act, MeasuredRate | AddedRate | PlanDrawn)
+    }  # fmt: skip
     named = (here.scene.instead_of or here.scene).by_name  # not of bars that stand for cams
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
         for link, rate in own.items():
@@ -544,7 +560,8 @@ def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
             place = clear.arc(_centres_of_turn(here, link, here.ground), RADIUS)
             sense = 1 if rate.value > 0 else -1
             markup, colour = f"{sign}_{{{link}}}", here.colour(link)
-            pieces.append(_arc("answers", place, sense, heads, colour, markup, f"{kind}-{link}"))
+            arc = _arc("answers", place, sense, heads, colour, markup, f"{kind}-{link}")
+            pieces.append(dated(arc, found.get((kind, link))))
     return joined(pieces)
 
 
@@ -583,7 +600,8 @@ def _springs(here: MechanismOnPaper) -> Piece:
             continue
         poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
         a, b = (pose.place(at) for pose, at in poses)
-        drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",)))
-        text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",))
+        since = max((number for number in map(here.since, one.links) if number), default=None)
+        drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",), since=since))
+        text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",), since=since)
         names.append(Label(text, (page(a), page(b)), rank=1))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()

@@ -15,6 +15,8 @@ from functools import cached_property
 from graphkin.account.notation import Letters
 from graphkin.construction.cam_outline import outlines_on_paper, station
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import links_drawn
+from graphkin.construction.strokes import Mark
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link
@@ -100,6 +102,34 @@ class LinkShape:
         return max(self.segments, key=lambda s: abs(s[1] - s[0]), default=None)
 
 
+def stands_since(sheet: Sheet) -> int | None:
+    """The step from which on the mechanism stands; what is found later in it is no part of it."""
+    steps = [step.number for step in sheet.steps if step.diagram == "mechanism"]
+    polygons = min((step.number for step in sheet.steps if step.diagram != "mechanism"), default=math.inf)
+    return max((number for number in steps if number < polygons), default=max(steps, default=None))
+
+
+def link_since(sheet: Sheet, link: str) -> int | None:
+    """The step from which on a link is there: all its points are marked, and it is drawn."""
+    steps, last = [step for step in sheet.steps if step.diagram == "mechanism"], stands_since(sheet)
+    if link == sheet.scene.frame.name or last is None:
+        return steps[0].number if steps else None
+    if link not in sheet.scene.by_name:
+        return last
+    found = points_since(sheet)
+    drawn = next((step.number for step in steps if link in links_drawn(step.act)), 0)
+    return max([drawn, *(found.get(point, last) for point in sheet.scene.by_name[link].points)]) or last
+
+
+def points_since(sheet: Sheet) -> Mapping[str, int]:
+    """The step that marks each point of the mechanism first."""
+    found: dict[str, int] = {}
+    for step in sheet.steps:
+        for mark in (s for s in step.strokes if step.diagram == "mechanism" and isinstance(s, Mark)):
+            found.setdefault(mark.ref.point, step.number)
+    return found
+
+
 @dataclass(frozen=True)
 class MechanismOnPaper:
     """A sheet's mechanism with the letters of a convention; places in mm, y up, about the world's origin."""
@@ -114,6 +144,15 @@ class MechanismOnPaper:
     @property
     def ground(self) -> str:
         return self.sheet.scene.frame.name
+
+    def since(self, link: str) -> int | None:
+        """The step from which on a link is there."""
+        return link_since(self.sheet, link)
+
+    @cached_property
+    def stands(self) -> int | None:
+        """The step from which on the mechanism stands."""
+        return stands_since(self.sheet)
 
     @cached_property
     def shapes(self) -> tuple[LinkShape, ...]:

@@ -23,7 +23,7 @@ from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhea
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, points, same_place, step_number
 from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.meeting import Flags, Points, meets
-from graphkin.drawing.place.piece import Piece, joined
+from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
 
@@ -48,7 +48,7 @@ def rings(here: PolygonOnPage) -> Iterator[Group]:
     """A ring about each place that is drawn again larger."""
     for number, d in enumerate(here.enlarged, 1):
         ring = Circle(here.at(d.centre), d.ring, stroke=strokes.CONSTRUCTION)
-        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd)
+        yield Group((ring,), id=f"ring-{here.diagram}-{number}", classes=("ring",), step=d.crowd, since=here.since(d))
 
 
 def _images(here: PolygonOnPage) -> Iterator[Primitive]:
@@ -84,7 +84,7 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 parts += _head(clipped, here.at(bar.b))
                 names += _carried(here, step.act.symbol, clipped)
             drawn = Group(tuple(parts), classes=("construction",), step=step.number)
-            yield Piece({"construction": (drawn,)}, tuple(names))
+            yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
 
 
 def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
@@ -118,7 +118,8 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                     text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
                     names.append(Label(text, free, rank=4, key=step_number(step.number)))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
-            yield Piece({"construction": (Group(lines, classes=("direction",), step=step.number),)}, tuple(names))
+            drawn = Group(lines, classes=("direction",), step=step.number)
+            yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
 
 
 def _line(here: PolygonOnPage, ray: Ray, end: complex) -> tuple[Segment | None, Segment | None]:
@@ -190,13 +191,13 @@ def _name(
     first = vectors[0]
     written = here.letters.vector if length == 0.0 else here.letters.arrow
     markup = " = ".join(written(v.symbol) for v in vectors)
-    id = f"label-{first.symbol.id}"
+    id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
     if length == 0.0:
-        text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",))
-        return Label(text, here.at(first.tip), rank=3, key=step_number(here.vectors[first.symbol][0]))
+        text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",), since=step)
+        return Label(text, here.at(first.tip), rank=3, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
-    text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",))
-    key = step_number(here.vectors[first.symbol][0], text.colour)
+    text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
+    key = step_number(step, text.colour)
     ends = [letters.get(same_place(end), "") for end in (first.tail, first.tip)]
     between = "→".join(ends) if all(ends) else ""
     return Label(text, here.drawn(first), rank=2 if resultants and not us else 1, key=key, between=between)

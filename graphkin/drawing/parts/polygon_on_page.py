@@ -16,16 +16,16 @@ from graphkin.account.headings import spoken_ref
 from graphkin.account.notation import Letters, pole
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import SERIES, DiagramName, Sheet, Step
-from graphkin.construction.strokes import Aid, Bar, Vector
+from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Segment, Stroke, Text
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece, joined
+from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import SMALLEST, plain, symbol
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol
 
 __all__ = [
     "END_RADIUS", "Detail", "PolygonOnPage", "details", "extent",
@@ -71,6 +71,16 @@ class PolygonOnPage:
     def lettered(self) -> PolygonPoints:
         """Its points with their letters; those of special points as far as they lie on the panel."""
         return PolygonPoints(self.sheet, self.diagram, self.letters, lambda z: self.panel.distance(self.at(z)) == 0.0)
+
+    @cached_property
+    def ends_since(self) -> Mapping[PointRef, int]:
+        """The step that marks the end point of each point first."""
+        marks = ((s.ref, step.number) for step in self.steps for s in step.strokes if isinstance(s, Mark))
+        return dict(reversed([*marks]))
+
+    def since(self, detail: Detail) -> int:
+        """The step from which on a place that is drawn again larger is all there."""
+        return detail.crowd or max(self.vectors[vector.symbol][0] for vector in detail.vectors)
 
     @cached_property
     def shifts(self) -> Mapping[Symbol, complex]:
@@ -269,10 +279,11 @@ def _ends(here: PolygonOnPage, places: Sequence[Place]) -> Iterator[Piece]:
             id = f"{here.diagram}-{ref}".replace("@", "")
             dot = _dot(here.at(place.at), i + (number == 0))
             group = Group((dot,), id=id, classes=("end",), title=spoken_ref(ref, here.language))
-            yield Piece({here.diagram: (group,)}, (), (here.at(place.at),))
+            yield dated(Piece({here.diagram: (group,)}, (), (here.at(place.at),)), here.ends_since[ref])
         if number and moving:
             markup = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
-            yield Piece(labels=_named(here, markup, place.at, f"label-{here.diagram}-{moving[0]}", 0, place.at))
+            names = _named(here, markup, place.at, f"label-{here.diagram}-{moving[0]}", 0, place.at)
+            yield dated(Piece(labels=names), here.ends_since[moving[0]])
 
 
 def _dot(at: complex, ring: int) -> Circle:
@@ -289,7 +300,8 @@ def _feet(here: PolygonOnPage, feet: Sequence[tuple[Foot, str]]) -> Iterator[Pie
         if foot.aid and here.panel.distance(at) > 0.0:
             continue
         dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
-        yield Piece({here.diagram: (dot,)}, _named(here, markup, foot.at, f"label-{id}", 1, foot.at), (at,))
+        names = _named(here, markup, foot.at, f"label-{id}", 1, foot.at)
+        yield dated(Piece({here.diagram: (dot,)}, names, (at,)), foot.step)
 
 
 def _pole(here: PolygonOnPage, place: Place) -> Piece:
@@ -303,7 +315,7 @@ def _pole(here: PolygonOnPage, place: Place) -> Piece:
     names = _named(here, markup, 0j, f"label-pole-{here.diagram}", 0, away)
     if markup != letter:
         names = tuple(replace(name, key=Text(0j, symbol(letter))) for name in names)
-    return Piece({here.diagram: (group,)}, names)
+    return dated(Piece({here.diagram: (group,)}, names), here.steps[0].number if here.steps else None)
 
 
 def _named(here: PolygonOnPage, markup: str, at: complex, id: str, rank: int, away: complex) -> tuple[Label, ...]:

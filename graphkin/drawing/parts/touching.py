@@ -14,7 +14,7 @@ from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import Piece
+from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
 
 __all__ = ["contact_marks", "faces_of_frame", "marks_cut_free", "outlines_of", "replacing_links", "wheels_of"]
@@ -111,7 +111,7 @@ def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
 def contact_marks(here: MechanismOnPaper) -> Piece:
     """At every contact the common normal n-n and the common tangent t-t."""
     links = _on_paper(here)
-    return _marks((contact.name, *links.contact(contact)) for contact in links.contacts())
+    return dated(_marks((contact.name, *links.contact(contact)) for contact in links.contacts()), here.stands)
 
 
 def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:

@@ -113,7 +113,7 @@ def _entry(name: Text, key: Text | None, between: str) -> Text:
         runs = _behind(key.runs, name.runs, BEHIND)
     if between:
         runs = _behind(runs, rich(f": ${between}$"), 0.0)
-    return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"))
+    return Text(0j, runs, "start", name.colour, f"listed-{name.id}", (*name.classes, "listed"), since=name.since)
 
 
 def _behind(first: tuple[Run, ...], second: tuple[Run, ...], gap: float) -> tuple[Run, ...]:

@@ -25,7 +25,8 @@ from graphkin.drawing.ink.primitives import (
 from graphkin.drawing.place.labels import Label, Mark
 
 __all__ = [
-    "LAYERS", "Piece", "cut_to", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece", "renamed",
+    "LAYERS", "Piece", "cut_to", "dated", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece",
+    "renamed",
 ]  # fmt: skip
 
 # In the order of drawing.
@@ -58,6 +59,18 @@ def joined(pieces: Iterable[Piece]) -> Piece:
         labels += piece.labels
         marks += piece.marks
     return Piece(layers, labels, marks)
+
+
+def dated(piece: Piece, since: int | None) -> Piece:
+    """The piece with the number of the step from which on it is there on its parts and names that have none."""
+
+    def known(thing: Primitive) -> Primitive:
+        return replace(thing, since=since) if isinstance(thing, Group | Text) and thing.since is None else thing
+
+    layers = {layer: tuple(map(known, things)) for layer, things in piece.layers.items()}
+    names = (label.text if label.text.since else replace(label.text, since=since) for label in piece.labels)
+    labels = (replace(label, text=name) for label, name in zip(piece.labels, names, strict=True))
+    return Piece(layers, tuple(labels), piece.marks)
 
 
 def layer_groups(piece: Piece) -> tuple[Group, ...]:

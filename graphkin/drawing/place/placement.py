@@ -119,7 +119,7 @@ class Placement:
         text, box = self.texts[request], self.boxes[request]
         leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
         at = complex(position.left - box.left, position.top - box.top)
-        text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step)
+        text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
         return Placed(text, position.box, leader, self.clear[i], i in self.keyed)
 
     @property
@@ -266,7 +266,7 @@ class Placement:
             label = self.labels[i]
             assert label.key is not None
             classes = ("label", *label.key.classes)
-            self.texts.append(replace(label.key, id=label.text.id, classes=classes))
+            self.texts.append(replace(label.key, id=label.text.id, classes=classes, since=label.text.since))
             self.boxes.append(box_about(label.key.runs))
             requests.append(label.request(self.boxes[-1]))
         first = self.panel.ask(requests)
