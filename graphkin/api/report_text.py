@@ -246,11 +246,11 @@ def turn_text(turn: TurnStudy, language: str) -> list[str]:
 
 def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     """The greatest and the least of each joint force, couple and balance."""
-    from graphkin.study.force_diagrams import force_extremes
-
     scene = turn.scene
     if not scene.loading:
         return []
+    from graphkin.study.force_diagrams import force_extremes  # it loads the drawing board
+
     try:
         found = force_extremes(turn.reach)
     except Unsolvable as stop:

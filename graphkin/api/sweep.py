@@ -109,7 +109,6 @@ def sweep(
     """
     from graphkin.solver import structure_of
     from graphkin.study.designs import designs_of
-    from graphkin.study.graphical import known_ordinate
     from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
@@ -147,12 +146,15 @@ def sweep(
         positions = (given.positions.count if given.positions is not None else 0) or ROWS
     ways: dict[Way, list[str]] = {"derivative": wishes["differentiate"], "integral": wishes["integrate"]}
     on_paper = tuple((way, name) for way, names in ways.items() for name in names)
-    for way, name in on_paper:
-        known_ordinate(given, name, way)
-    if on_paper and made.keys:
-        raise CallError(
-            Problem("differentiate, integrate", Phrase("do not go with designs"), Phrase("give one design"))
-        )
+    if on_paper:
+        from graphkin.study.graphical import known_ordinate  # it loads the drawing board
+
+        for way, name in on_paper:
+            known_ordinate(given, name, way)
+        if made.keys:
+            raise CallError(
+                Problem("differentiate, integrate", Phrase("do not go with designs"), Phrase("give one design"))
+            )
     elsewhere = () if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))

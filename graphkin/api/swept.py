@@ -125,10 +125,10 @@ class Swept(OfScene, Result):
     @cached_property
     def time(self) -> TimeStudy | None:
         """The study over the time of a scene whose drivers move by laws; None of others, and over designs."""
-        from graphkin.study.over_time import study_time
-
         if self.over.designs.keys or not moves_by_law(self.over.scene):
             return None
+        from graphkin.study.over_time import study_time  # it loads the drawing board
+
         return study_time(self.over.scene, self._wished)
 
     @property
@@ -178,18 +178,19 @@ class Swept(OfScene, Result):
         pages = {}
         if asked or not self.chords:
             pages = diagrams(self.turn, self.language, asked=asked, over=over)
-        from graphkin.study.graphical_page import chords_page
+        if self.chords:
+            from graphkin.study.graphical_page import chords_page
 
-        drawn = {name: chords_page(one, self.turn.reach, self.language) for name, one in self.chords.items()}
-        return {**pages, **drawn}
+            pages |= {name: chords_page(one, self.turn.reach, self.language) for name, one in self.chords.items()}
+        return pages
 
     @cached_property
     def chords(self) -> Mapping[str, Chords]:
         """What was differentiated or integrated on paper, by the names of their figures."""
-        from graphkin.study.graphical import graphical
-
         if not self.on_paper:
             return {}
+        from graphkin.study.graphical import graphical  # it loads the drawing board
+
         reach = self.over.base.reach
         return {f"{way}-{name.replace('/', '-')}": graphical(reach, name, way) for way, name in self.on_paper}
 
@@ -208,6 +209,8 @@ class Swept(OfScene, Result):
     @property
     def files(self) -> Mapping[str, bytes]:
         """The tables of what was differentiated or integrated on paper."""
+        if not self.on_paper:
+            return {}
         from graphkin.study.graphical_page import chords_table
 
         return {f"{name}.csv": chords_table(chords, self.over.base.reach) for name, chords in self.chords.items()}

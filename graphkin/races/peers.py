@@ -1,4 +1,6 @@
-"""Other programs on the same work, where they are installed and can do it; one that cannot is named with the reason."""
+"""Other programs on the same work, where they are installed and can do it; one that cannot is named with the reason.
+
+This module is not in the wheel: whoever races other programs does so from the repository."""
 
 from __future__ import annotations
 
@@ -12,27 +14,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.races.computed import Numeric
-from graphkin.races.timing import Entry, best_time
+from graphkin.races.timing import Entry, Skipped, best_time
 from graphkin.races.work import FINE, Work
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, Slide, Turn
-from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from pylinkage.components import Component
     from pylinkage.simulation import Linkage
 
-__all__ = ["PEERS", "Skipped", "pylinkage", "scipy_root"]
+__all__ = ["PEERS", "pylinkage", "scipy_root"]
 
-
-
-class Skipped(Exception):
-    """A peer that is left out, and why: a key of the table of words with what stands in its gaps."""
-
-    def __init__(self, key: str, *args: str) -> None:
-        super().__init__(key, *args)
-        self.why = Phrase(f"skip {key}", args)
 
 
 def _need(name: str) -> None:

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 from importlib import metadata
 from typing import Literal
 
-__all__ = ["Entry", "Family", "Machine", "best_time", "this_machine"]
+from graphkin.words import Phrase
+
+__all__ = ["Entry", "Family", "Machine", "Skipped", "best_time", "this_machine"]
 
 ENOUGH, MOST = 0.08, 40  # s, runs
 
@@ -35,6 +37,14 @@ class Entry:
     acceleration_cost: float
     velocity_error: float | None
     acceleration_error: float | None
+
+
+class Skipped(Exception):
+    """A peer that is left out, and why: a key of the table of words with what stands in its gaps."""
+
+    def __init__(self, key: str, *args: str) -> None:
+        super().__init__(key, *args)
+        self.why = Phrase(f"skip {key}", args)
 
 
 def best_time(run: Callable[[], object], repeats: int, least: float = 2e-3) -> float:

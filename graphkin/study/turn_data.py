@@ -10,7 +10,6 @@ from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.study.extremes import Extreme, Traced
-from graphkin.study.force_diagrams import force_extremes
 from graphkin.study.turn import Output, TurnStudy
 
 __all__ = ["design_row", "to_json"]
@@ -102,6 +101,8 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
     """Greatest and least of joint forces, couples and balances; nothing without masses and loads."""
     if not turn.scene.loading:
         return {}
+    from graphkin.study.force_diagrams import force_extremes  # it loads the drawing board
+
     try:
         found = force_extremes(turn.reach)
     except Unsolvable as stop:

@@ -95,6 +95,12 @@ def test_a_check_waits_for_no_room_that_its_scene_does_not_need():
     assert set() == idle & loaded("check", "shaper-scheme-2")
 
 
+def test_a_sweep_without_figures_waits_for_no_drawing_board():
+    program = "import graphkin, sys; s = graphkin.sweep('shaper-scheme-2'); s.table, s.data; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert set() == {"graphkin.construction", "graphkin.drawing", "matplotlib"} & set(done.stdout.split())
+
+
 def test_the_version_is_printed():
     assert run("--version").stdout.startswith("graphkin ")
 

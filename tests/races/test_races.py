@@ -5,21 +5,28 @@ from __future__ import annotations
 import importlib.util
 import subprocess
 import sys
+import tomllib
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from unittest.mock import patch
 
 import numpy as np
 import pytest
 
 import graphkin
+import graphkin.races
 from graphkin.api.studied import SpeedAccuracy
-from graphkin.races import Race, race, race_page, race_table, timing, to_json
+from graphkin.races import Race, peers, race, race_page, race_table, timing, to_json
 from graphkin.races.chart import lessons
-from graphkin.races.peers import Skipped, pylinkage
+from graphkin.races.peers import pylinkage
+from graphkin.races.run import _peer
+from graphkin.races.timing import Skipped
 from graphkin.scene import mechanism_of
+from graphkin.words import say
 from tests.drawing.chart_words import off_the_page, overlapping
 
+ROOT = Path(__file__).parents[2]
 SIXBAR = "sixbar-guide-40deg"
 SEEDS = 12  # drawings of a pencil, whose mean error hangs less on one of them than that of a race
 
@@ -116,6 +123,16 @@ def test_a_peer_that_is_not_installed_is_left_out_by_name(monkeypatch: pytest.Mo
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(Skipped, match="not installed"):
         next(pylinkage(None, 1))
+
+
+def test_what_runs_other_programs_is_not_in_the_wheel_and_the_race_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert [Path(peers.__file__)] == [ROOT / path for path in wheel["exclude"]]
+    monkeypatch.setitem(sys.modules, "graphkin.races.peers", None)
+    monkeypatch.delattr(graphkin.races, "peers")
+    with pytest.raises(Skipped) as error:
+        _peer("scipy", None, 1)
+    assert "is raced from the repository alone" == say(error.value.why, "en")
 
 
 def test_a_mechanism_without_closed_form_is_refused_by_name() -> None:
