@@ -1,90 +1,86 @@
-"""Steps in words and in numbers: the sentence of each, and what is computed in it from what is measured.
+"""A voice: how a sheet is spoken of in one school of notation, and what is told of a step in it.
 
-Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; the lines of numbers are
-the same in every language.
+Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; sums are the same in every
+language.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Generic, TypeVar
 
-from graphkin.account.arithmetic import laid_sum, parts_by_rates, plan_sum, rate_sum
-from graphkin.account.end_letters import Markup, names_in_letters
-from graphkin.account.headings import number, written
-from graphkin.account.lettered_steps import LetteredSteps
-from graphkin.account.measured_lengths import scale_of, times_scale, unit_of
+from graphkin.account.end_letters import EndLetters, Markup, names_in_letters
+from graphkin.account.measured_lengths import times_scale
 from graphkin.account.notation import Letters
-from graphkin.account.reasons import reasons
-from graphkin.account.written_lines import by_rates
-from graphkin.construction.polygon_acts import ByRate, Carried, LaidOff, MeasuredRate, PlanDrawn, RateSeen, SeenByRate
-from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, Size, SquareOverRadius
-from graphkin.construction.strokes import Aid, Bar, Vector
+from graphkin.construction.sheet import Sheet, Step
+from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
+from graphkin.construction.steps import Act
+from graphkin.construction.strokes import Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, say, word
-from graphkin.words.written import MOST, in_markup, on_paper, pointing
+from graphkin.words import Neutral, Phrase, parts, word
+from graphkin.words.written import in_markup
 
-__all__ = ["Speaker", "capital", "whole_sentence"]
+__all__ = ["Told", "Voice", "capital", "whole_sentence"]
 
-_RATE = re.compile(r"([ωα])_\{([^{}]*)\}")
-_MARKED_RATE = re.compile("([ωα]_{)\x02([^\x03}]*)\x03}")
-_OPEN, _CLOSE = "\x02", "\x03"  # around symbols until the sentence is whole; no argument can hold them
+_RATE = re.compile(r"([ωα]_\{[^{}]*(?:\}|$))")  # in the words of a table; open where its index is a gap
 
 
 @dataclass(frozen=True)
-class Speaker:
-    """Says the steps of one sheet in one convention."""
+class Voice:
+    """Speaks of one sheet in the letters of one convention."""
 
     sheet: Sheet
     letters: Letters
 
     def sentence(self, phrase: Phrase, language: str) -> str:
         """A phrase as a sentence with its full stop."""
-        said = say(phrase, language, lambda thing: self._show(thing, language))
-        said = _MARKED_RATE.sub(r"\1\2}", said)  # a link whose name could be that of a bar
-        # symbols stand between marks; a rate whose index is a gap of the sentence is marked here
-        parts = re.split(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", said)
-        for i in range(0, len(parts), 2):
-            parts[i] = _RATE.sub(f"{_OPEN}\\g<0>{_CLOSE}", parts[i])
-        parts[1::2] = [f"{_OPEN}{symbol}{_CLOSE}" for symbol in parts[1::2]]
-        said = "".join(parts).replace(_CLOSE + _OPEN, "").replace(_OPEN, "$").replace(_CLOSE, "$")
-        return whole_sentence(said, language)
+        return whole_sentence(self.say(phrase, language), language)
 
-    def step(self, step: Step, language: str) -> str:
-        """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
-        return self.sentence(self._lettered.phrase(step), language)
+    def say(self, phrase: Phrase, language: str) -> str:
+        """A phrase with its symbols between dollar signs; symbols side by side are one."""
+        pieces: list[tuple[bool, str]] = []  # whether it is a symbol, and what it is
 
-    def why(self, equation: Equation, language: str) -> str:
-        """Why an equation is as it is written, in sentences; "" where there is nothing to say."""
-        told = (self.sentence(phrase, language) for phrase in reasons(self.sheet, equation))
-        return word("between sentences", language).join(told)
+        def add(is_symbol: bool, text: str) -> None:
+            if pieces and pieces[-1][0] == is_symbol:
+                text = pieces.pop()[1] + text
+            pieces.append((is_symbol, text))
 
-    @cached_property
-    def _lettered(self) -> LetteredSteps:
-        return LetteredSteps(self.sheet, self.letters)
+        index_open = False  # a rate of the table waits for its index
+        for part in parts(phrase, language, lambda thing: self._show(thing, language)):
+            if isinstance(part, Markup):
+                add(True, part)
+                continue
+            if index_open:
+                index, closed, part = part.partition("}")
+                add(True, index + closed)
+                index_open = not closed
+            for i, text in enumerate(part.replace("$$", "\0").split("$")):
+                for k, piece in enumerate(_RATE.split(text) if not i % 2 else [text]):
+                    if piece:
+                        add(bool(i % 2 or k % 2), piece.replace("\0", "$$"))
+                        index_open = index_open or (k % 2 == 1 and not piece.endswith("}"))
+        return "".join(f"${text}$" if is_symbol else text for is_symbol, text in pieces)
 
     def _show(self, thing: object, language: str) -> str:
-        if isinstance(thing, Markup):
-            return self._marked(thing)
+        if isinstance(thing, Neutral | Markup):
+            return thing
         if isinstance(thing, Symbol):
-            return self._marked(self.letters.vector(thing))
+            return Markup(self.letters.vector(thing))
         if isinstance(thing, PointRef):
-            return self._marked(self.point(thing))
+            return Markup(self.point(thing))
         if isinstance(thing, Direction):
-            return self._marked(self.letters.direction(thing, self.sheet.scene.frame.name))
+            return Markup(self.letters.direction(thing, self.sheet.scene.frame.name))
         if isinstance(thing, Given):
             return word("given", language).lower()
         if isinstance(thing, RateTimes | SquareOverRadius | OffCurves | RollingCurves):
-            return self._marked(self.letters.size(thing))
-        text = str(thing)
-        names = names_in_letters(self.letters, text)
-        return in_markup(text) if names is None else ", ".join(map(self._marked, names))
-
-    def _marked(self, markup: str) -> str:
-        return f"{_OPEN}{markup}{_CLOSE}"
+            return Markup(self.letters.size(thing))
+        names = names_in_letters(self.letters, str(thing))
+        if names is None:
+            return in_markup(str(thing))
+        return Markup(names[0]) if len(names) == 1 else ", ".join(f"${name}$" for name in names)
 
     def point(self, ref: PointRef) -> str:
         """A point, with the link as a further index where coincident points are told apart."""
@@ -94,48 +90,62 @@ class Speaker:
             return base
         return f"{base[:-1]},{link}}}" if base.endswith("}") else f"{base}_{{{link}}}"
 
-    # -- numbers -----------------------------------------------------------------------------------------------------
+    def symbol(self, symbol: Symbol) -> str:
+        """A vector or a rate, between dollar signs."""
+        return f"${self.letters.vector(symbol)}$"
 
-    def work(self, step: Step) -> tuple[str, ...]:
-        """What is computed in a step, as lines of symbols and numbers."""
-        if isinstance(step.act, MeasuredRate | RateSeen):
-            return self._rate(step.act)
-        if isinstance(step.act, PlanDrawn):
-            letter = "ω" if step.act.rate == "omega" else "α"
-            return () if step.act.known else (f"${letter}_{{{step.act.link}}}$ = {plan_sum(step.act)}",)
-        if isinstance(step.act, LaidOff) and not step.act.is_zero:
-            drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
-            return self._laid_off(step.diagram, step.act.symbol, step.act.size, abs(drawn.span))
-        if isinstance(step.act, Carried) and step.equation is not None:
-            sides = self.sheet.equations[step.equation - 1].sides
-            size = next((t.size for side in sides for t in side if t.symbol == step.act.symbol), None)
-            bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
-            return self._laid_off(step.diagram, step.act.symbol, size, abs(bar.b - bar.a)) if bar and size else ()
-        measured = tuple(self._measured(step.diagram, s) for s in step.strokes if isinstance(s, Vector))
-        return (*self._by_rate(step, step.act), *measured) if isinstance(step.act, ByRate | SeenByRate) else measured
+    @cached_property
+    def ends(self) -> EndLetters:
+        """The letters of the end points in the polygons."""
+        return EndLetters(self.sheet, self.letters)
 
-    def _by_rate(self, step: Step, act: ByRate | SeenByRate) -> Iterator[str]:
-        """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
-        per, unit = scale_of(self.sheet, step.diagram), unit_of(self.sheet, step.diagram)
-        parts = parts_by_rates(self.sheet, step.diagram, act)
-        for said, part in zip(by_rates(self.sheet, step, act, self.letters), parts, strict=True):
-            yield said
-            yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(part.span)))} mm,  {pointing(part.span)}°"
 
-    def _rate(self, act: MeasuredRate | RateSeen) -> tuple[str, ...]:
-        omega = act.rate == "omega"
-        value = rate_sum(self.sheet, act) or f"{number(abs(act.value), MOST)} {'rad/s' if omega else 'rad/s²'}"
-        links = act.link if isinstance(act, MeasuredRate) else act.link + act.held
-        return (f"${'ω' if omega else 'α'}_{{{links}}}$ = {value}",)
+ActType = TypeVar("ActType", bound=Act)
 
-    def _laid_off(self, diagram: DiagramName, symbol: Symbol, size: Size | None, length: float) -> tuple[str, ...]:
-        computed, laid = laid_sum(self.sheet, diagram, size, length)
-        return f"${self.letters.vector(symbol)}$ = {computed}", laid
 
-    def _measured(self, diagram: DiagramName, vector: Vector) -> str:
+@dataclass(frozen=True)
+class Told(Generic[ActType]):
+    """What is told of a step: its sentence, what is computed in it, and what is written on the sheet to repeat it.
+
+    Each is made when it is asked for; an act that is told in another way has a class of its own, named in a ``TOLD`` of
+    `graphkin.account.tell`.
+    """
+
+    voice: Voice
+    step: Step
+    act: ActType
+
+    shares_line = False  # with the step before, where that is told by the same class
+
+    @property
+    def sheet(self) -> Sheet:
+        return self.voice.sheet
+
+    @property
+    def sentence(self) -> Phrase:
+        """With the letters of the points from which it goes and in which it ends, where there are some."""
+        return self.lettered() or self.step.phrase
+
+    def lettered(self) -> Phrase | None:
+        """The step as it is said on paper; None where the sentence of the act itself says enough."""
+        return None
+
+    def sums(self) -> Iterable[str]:
+        """What is computed in it, as lines of symbols and numbers: here each vector as it is measured."""
+        return (self._measured(s) for s in self.step.strokes if isinstance(s, Vector))
+
+    def _measured(self, vector: Vector) -> str:
         size = abs(vector.span)
-        value = times_scale(self.sheet, diagram, size) if size else "0"
-        return f"${self.letters.vector(vector.symbol)}$ = {value}"
+        value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
+        return f"{self.voice.symbol(vector.symbol)} = {value}"
+
+    def above_equation(self, language: str) -> Iterator[str]:
+        """What is written before its equation, where that begins with it."""
+        yield from ()
+
+    def lines(self, language: str) -> Iterator[str]:
+        """What is written of it."""
+        yield from ()
 
 
 def whole_sentence(text: str, language: str) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.account.notation import Letters, letters_of
-from graphkin.account.voice import Speaker
+from graphkin.account.tell import Account
 from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import FIGURES, Drawn, known_figures
@@ -315,15 +315,15 @@ def _points(motion: Motion) -> dict[str, Json]:
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = _spoken(options.language, scene)
-    speaker = Speaker(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
+    account = Account(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
         found = reach(scene)
         limits: dict[str, Json] = {**found._asdict(), "why": say(found.why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [
-        {"n": step.number, "figure": step.diagram, "html": words_html(speaker.step(step, spoken)),
-         "work": [words_html(line) for line in speaker.work(step)]}
+        {"n": step.number, "figure": step.diagram, "html": words_html(account.step(step, spoken)),
+         "work": [words_html(line) for line in account.work(step)]}
         for step in sheet.steps
     ]  # fmt: skip
     return {
@@ -332,7 +332,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
             for symbol, on_paper, measured, exact, unit, ok in reading_words(drawn.checked)
         ],
         "agrees": drawn.ok,
-        "steps": steps + _force_steps(drawn, speaker.letters, spoken),
+        "steps": steps + _force_steps(drawn, account.letters, spoken),
         "range": limits,
         "drivers": [
             {"key": d.key, "angle": isinstance(d, AngleDriver), "now": scene.unit_of(d).said(drawn.motion.values[0][i]),

@@ -9,7 +9,7 @@ from cmath import phase
 from collections.abc import Iterator
 
 from graphkin.account.end_letters import SAME
-from graphkin.account.trial_words import numeral
+from graphkin.account.tell.groups import numeral
 from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.account.notation import Letters, letters_of
-from graphkin.account.voice import Speaker
+from graphkin.account.tell import Account
 from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import COVERAGE, Uncertainty
 from graphkin.construction.forces import ForceSheet, forces_on
@@ -83,8 +83,8 @@ class Lesson:
         return letters_of(self.sheet, self.convention)  # type: ignore[arg-type]
 
     @cached_property
-    def speaker(self) -> Speaker:
-        return Speaker(self.sheet, self.letters)
+    def account(self) -> Account:
+        return Account(self.sheet, self.letters)
 
     @cached_property
     def stages(self) -> tuple[Stage, ...]:

@@ -241,7 +241,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
     moving = [*drivers(lesson.sheet, letters).split(",  "), *_speeds(scene)]
     yield Paragraph(_labelled(lesson, "driver", moving, "list comma"))
     for sense in _senses(scene):
-        yield Paragraph(tuple((each, lesson.speaker.sentence(sense, each)) for each in languages(lesson.language)))
+        yield Paragraph(tuple((each, lesson.account.sentence(sense, each)) for each in languages(lesson.language)))
     if starts := rolling_starts(lesson.sheet):
         yield Paragraph(_labelled(lesson, "rolling starts", starts, "list comma"))
     if scene.loading:
@@ -273,7 +273,7 @@ def _guide(lesson: Lesson, guide: PlacedGuide, language: str) -> str:
 def reach(lesson: Lesson) -> Iterator[Paragraph]:
     """That only a part of the mechanism is on the paper, where nothing asked for needs the rest."""
     for phrase in lesson.sheet.left_out:
-        yield Paragraph(tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language)))
+        yield Paragraph(tuple((each, lesson.account.sentence(phrase, each)) for each in languages(lesson.language)))
 
 
 def _speeds(scene: Mechanism) -> Iterator[str]:

@@ -183,12 +183,12 @@ def stage_title(lesson: Lesson, stage: Stage) -> Said:
 
 def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
-    speaker = lesson.speaker
+    account = lesson.account
     return tuple(
         StepItem(
             step.number,
-            tuple((each, speaker.step(step, each)) for each in languages(lesson.language)),
-            speaker.work(step),
+            tuple((each, account.step(step, each)) for each in languages(lesson.language)),
+            account.work(step),
         )
         for step in stage.steps
     )
@@ -210,7 +210,7 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     words = equation_words(lesson, stage.equation)
     drawn = equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words)
     yield Picture(drawn, joined=True)
-    why = tuple((each, lesson.speaker.why(stage.equation, each)) for each in languages(lesson.language))
+    why = tuple((each, lesson.account.why(stage.equation, each)) for each in languages(lesson.language))
     if any(text for _, text in why):
         yield Paragraph(why, small=True)
 
@@ -250,7 +250,7 @@ def _remarks(lesson: Lesson) -> Iterator[Block]:
     if notes:
         yield Heading(said("remarks", lesson.language), 3)
     for note in notes:
-        yield Paragraph(tuple((each, lesson.speaker.sentence(note, each)) for each in languages(lesson.language)))
+        yield Paragraph(tuple((each, lesson.account.sentence(note, each)) for each in languages(lesson.language)))
 
 
 def _results(lesson: Lesson) -> TableBlock:
@@ -277,4 +277,4 @@ def _verdict(lesson: Lesson) -> Said:
     rows = [row for row in lesson.results if row.ok is not None]
     wrong = [row for row in rows if row.ok is False]
     phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else Phrase("all agree", (len(rows),))
-    return tuple((each, lesson.speaker.sentence(phrase, each)) for each in languages(lesson.language))
+    return tuple((each, lesson.account.sentence(phrase, each)) for each in languages(lesson.language))

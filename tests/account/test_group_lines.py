@@ -9,8 +9,8 @@ import pytest
 
 from graphkin import draw
 from graphkin.account.end_letters import EndLetters
-from graphkin.account.group_lines import GroupLines
 from graphkin.account.notation import letters_of
+from graphkin.account.tell import Account
 from graphkin.account.written_lines import written_lines
 from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import TrialPositions
@@ -127,10 +127,12 @@ def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
 @pytest.mark.parametrize("scene", [BARE, UNBARRED, HELD, WELDED], ids=["bare", "unbarred", "held", "welded"])
 def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
     sheet = draft(mechanism_of(scene))
-    acts = [step.act for step in sheet.steps if isinstance(step.act, AddedRate)]
-    assert {"omega", "alpha"} == {act.rate for act in acts}
-    for act in acts:
-        line = GroupLines(sheet, letters_of(sheet, "chinese"), "en").added(act).replace("\u00a0", " ")
+    steps = [step for step in sheet.steps if isinstance(step.act, AddedRate)]
+    assert {"omega", "alpha"} == {step.act.rate for step in steps}
+    account = Account(sheet, letters_of(sheet, "chinese"))
+    for step in steps:
+        act, (line,) = step.act, account.told(step).lines("en")
+        line = line.replace("\u00a0", " ")
         terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
         value = float(value.replace("−", "-"))
         rates = sheet.omega if act.rate == "omega" else sheet.alpha

@@ -7,9 +7,8 @@ from decimal import Decimal
 import pytest
 
 from graphkin import read
-from graphkin.account.lettered_steps import LetteredSteps
 from graphkin.account.notation import letters_of
-from graphkin.account.voice import Speaker
+from graphkin.account.tell import Account
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
@@ -22,7 +21,7 @@ pytestmark = pytest.mark.quick
 
 def _six_bar():
     sheet = draft(mechanism_of("sixbar-guide-40deg"))
-    return sheet, Speaker(sheet, letters_of(sheet, "chinese"))
+    return sheet, Account(sheet, letters_of(sheet, "chinese"))
 
 
 def _at(name, degrees):
@@ -52,7 +51,7 @@ def test_a_coriolis_part_is_computed_from_a_measured_rate_and_a_measured_velocit
 )
 def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
     sheet = _at(name, at)
-    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
     lines = [line for step in sheet.steps for line in speaker.work(step)]
     divided = [re.fullmatch(r"([\d.]+) \S+ ÷ ([\d.]+) \S+ = ([\d.]+) mm", line) for line in lines]
     said = [tuple(map(Decimal, one.groups())) for one in divided if one]
@@ -63,7 +62,7 @@ def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
 
 def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
     sheet = _at("sixbar-420rpm", 60)
-    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
     rates = (s for s in sheet.steps if isinstance(s.act, MeasuredRate))
     step = next(s for s in rates if (s.act.rate, s.act.link) == ("alpha", "4"))
     assert "106.1 rad/s²" in speaker.sentence(step.phrase, "en")
@@ -73,7 +72,7 @@ def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
 @pytest.mark.parametrize("name", sorted(library()))
 def test_a_ratio_of_an_image_is_the_quotient_of_the_lengths_before_it(name):
     sheet = draft(mechanism_of(name))
-    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
     for step in sheet.steps:
         for language in ("en", "zh"):
             said = re.findall(r"= ([\d.]+) : ([\d.]+) = (\d+(?:\.\d+)?)", speaker.step(step, language))
@@ -90,9 +89,9 @@ def test_the_guide_bar_on_paper_divides_its_image_as_it_is_written():
 
 def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_twice():
     sheet = _at("sixbar-420rpm", 60)
-    lettered = LetteredSteps(sheet, letters_of(sheet, "chinese"))
+    account = Account(sheet, letters_of(sheet, "chinese"))
     tiny = next(s for s in sheet.steps if isinstance(s.act, LaidOff) and str(s.act.symbol) == "an_F/E")
-    assert "lay off from" == lettered.phrase(tiny).key
+    assert "lay off from" == account.told(tiny).sentence.key
 
 
 @pytest.mark.parametrize(("convention", "expected"), [("chinese", ["b", "c", "p_2"]), ("us", ["V_B", "V_C", "V_P"])])
@@ -111,7 +110,7 @@ def test_a_sentence_ends_and_begins_as_its_language_does():
 
 def _reasons(name, language):
     lesson = handout(name, language=language, formats=("pdf",)).lesson
-    return {e.number: lesson.speaker.why(e, language) for e in lesson.sheet.equations}
+    return {e.number: lesson.account.why(e, language) for e in lesson.sheet.equations}
 
 
 @pytest.mark.parametrize("name", ["geneva-step", "cam-eccentric-flat-slider", "wheel-on-rail"])
@@ -119,7 +118,7 @@ def _reasons(name, language):
 def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
     told = " ".join(_reasons(name, language).values())
     sheet = draft(mechanism_of(name))
-    speaker = Speaker(sheet, letters_of(sheet, "chinese"))
+    speaker = Account(sheet, letters_of(sheet, "chinese"))
     told += " ".join(plain_words(speaker.step(s, language)) for s in sheet.steps if s.diagram == "mechanism")
     assert [] == re.findall(r"(?:link|构件) [A-Z]\w*/\w+", told)
     assert {"en": "runs along", "zh": "导路运动"}[language] in told
@@ -127,7 +126,7 @@ def test_a_reason_names_no_link_that_the_scene_does_not_have(name, language):
 
 def _steps(name, language, convention="chinese"):
     sheet = draft(mechanism_of(name))
-    speaker = Speaker(sheet, letters_of(sheet, convention))
+    speaker = Account(sheet, letters_of(sheet, convention))
     return [plain_words(speaker.step(step, language)) for step in sheet.steps]
 
 

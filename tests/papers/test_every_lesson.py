@@ -9,7 +9,7 @@ import re
 import pytest
 
 from graphkin.account.notation import letters_of
-from graphkin.account.voice import Speaker
+from graphkin.account.tell import Account
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import ByRate
@@ -27,7 +27,7 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
     for name in library():
         sheet = draft(mechanism_of(name))
         for convention in ("chinese", "us", "british", "russian"):
-            speaker = Speaker(sheet, letters_of(sheet, convention))
+            speaker = Account(sheet, letters_of(sheet, convention))
             for step in sheet.steps:
                 for markup in (
                     speaker.sentence(step.phrase, "en"),
@@ -42,9 +42,9 @@ def test_symbols_in_sentences_are_closed_in_every_scene_and_convention():
 def test_every_term_that_an_equation_draws_has_a_reason(name):
     lesson = handout(name, language="en", formats=("pdf",)).lesson
     for equation in lesson.sheet.equations:
-        said = lesson.speaker.why(equation, "en")
+        said = lesson.account.why(equation, "en")
         terms = {t.symbol for side in equation.sides for t in side if t.direction_known} - {equation.sides[0][0].symbol}
-        named = [lesson.speaker.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
+        named = [lesson.account.point(s.of) for s in terms if s.of and s.kind in ("v", "an", "ar", "ak")]
         assert [] == [name for name in named if name not in said]
 
 
@@ -53,7 +53,7 @@ def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead(
     steps = [step for step in lesson.sheet.steps if isinstance(step.act, ByRate)]
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.speaker.work(step)))
+        told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.account.work(step)))
         laid = sum(cmath.rect(float(mm), math.radians(float(way.replace("−", "-")))) for mm, way in told)
         drawn = {s.of.point: v.span for s, v in lesson.sheet.vectors(step.diagram).items() if s.of and s.to is None}
         assert abs(laid - (drawn["C"] - drawn["B"])) < 0.1

@@ -1,16 +1,16 @@
-"""Steps of the mechanism in its position as they are said on paper: each point with the lengths and the side by which a
-ruler and a compass find it."""
+"""Steps of the mechanism in its position as they are told: each point with the lengths and the side by which a ruler
+and a compass find it."""
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from functools import reduce
+from typing import Any, TypeVar
 
-from graphkin.account.group_steps import tried_in_positions
 from graphkin.account.headings import number
+from graphkin.account.voice import Told
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -21,82 +21,69 @@ from graphkin.construction.mechanism_acts import (
     LinkPoints,
     PathDrawn,
     PathsCross,
-    TrialPositions,
 )
-from graphkin.construction.sheet import Sheet, Step
-from graphkin.construction.steps import phrase_of
+from graphkin.construction.steps import Act, phrase_of
 from graphkin.construction.strokes import Bar, CompassArc, Mark
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase
 from graphkin.words.written import on_paper, true_minus
 
-__all__ = ["PositionSteps"]
+__all__ = ["TOLD"]
 
 SAME = 1e-6  # mm
 STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
+ActType = TypeVar("ActType", bound=Act)
 
 
-@dataclass(frozen=True)
-class PositionSteps:
-    """Says how one sheet's mechanism is placed."""
+class _InPosition(Told[ActType]):
+    def at(self, point: str) -> complex | None:
+        return self.sheet.points.get(PointRef(point))
 
-    sheet: Sheet
 
-    def phrase(self, step: Step) -> Phrase | None:
-        """A step as a sentence to be; None where its own says enough."""
-        act = step.act
-        if isinstance(act, FixedPoints):
-            return self._fixed(act)
-        if isinstance(act, LaidOffAngle):
-            key = "lay off angle from link" if act.to else "lay off angle from x"
-            return Phrase(key, (act.link, true_minus(f"{math.degrees(act.angle):.6g}"), act.hinge, act.to))
-        if isinstance(act, LinkPoints):
-            return self._link(step, act)
-        if isinstance(act, TrialPositions):
-            return tried_in_positions(self.sheet, act)
-        if isinstance(act, CompassArcs):
-            one, other, at = (self._at(p) for p in (*act.about, act.point))
-            if one is None or other is None or at is None or abs(other - one) < SAME:
-                return None
-            return _from_arcs(act.about, act.radii, act.point, cross(other - one, at - one))
-        if isinstance(act, ArcOnPath):
-            return self._on_path(act)
-        return self._touching(step, act) if isinstance(act, GuideTouching) else None
-
-    def _fixed(self, act: FixedPoints) -> Phrase | None:
+class _Fixed(_InPosition[FixedPoints]):
+    def lettered(self) -> Phrase | None:
         """Fixed points and guides by their places on paper."""
-        places = [(p, self._at(p)) for p in act.points]
+        places = [(p, self.at(p)) for p in self.act.points]
         told = [Phrase("place of a point", (p, *_coordinates(z))) for p, z in places if z is not None]
         for guide in self.sheet.scene.frame.guides.values():
             if guide.name:
                 through = guide.through / self.sheet.scales.length
                 angle = math.degrees(cmath.phase(guide.direction))
                 told.append(Phrase("place of a guide", (guide.name, *_coordinates(through), _degrees(angle))))
-        return Phrase("fixed on paper", (act.frame, reduce(_listed, told))) if told else None
+        return Phrase("fixed on paper", (self.act.frame, reduce(_listed, told))) if told else None
 
-    # -- the points of a link ----------------------------------------------------------------------------------------
 
-    def _link(self, step: Step, act: LinkPoints) -> Phrase | None:
+class _Angle(_InPosition[LaidOffAngle]):
+    def lettered(self) -> Phrase | None:
+        act = self.act
+        key = "lay off angle from link" if act.to else "lay off angle from x"
+        return Phrase(key, (act.link, true_minus(f"{math.degrees(act.angle):.6g}"), act.hinge, act.to))
+
+
+class _Link(_InPosition[LinkPoints]):
+    def lettered(self) -> Phrase | None:
         """Each new point of a link from those that stand there already."""
-        own = self.sheet.structure.links[act.link].points if act.link in self.sheet.structure.links else {}
-        standing, found = self._before(step)
+        link, links = self.act.link, self.sheet.structure.links
+        own = links[link].points if link in links else {}
+        standing, found = self._before()
         known = [p for p in own if p in standing]
         told: list[Phrase] = []
-        for name in sorted(act.points, key=lambda p: p not in found):
-            said = self._joined(act.link, known, name) if name in found else self._marked(step, act.link, known, name)
+        for name in sorted(self.act.points, key=lambda p: p not in found):
+            said = self._joined(known, name) if name in found else self._marked(known, name)
             if said is None:
                 return None
             told.append(said)
             known.append(name)
         return reduce(_in_turn, told) if told else None
 
-    def _joined(self, link: str, known: list[str], name: str) -> Phrase:
+    def _joined(self, known: list[str], name: str) -> Phrase:
+        link = self.act.link
         return Phrase("place joined", (known[0], name, link)) if known else Phrase("place alone", (name, link))
 
-    def _marked(self, step: Step, link: str, known: list[str], name: str) -> Phrase | None:
-        at = self._at(name)
-        places = {p: z for p in known if (z := self._at(p)) is not None}
+    def _marked(self, known: list[str], name: str) -> Phrase | None:
+        link, at = self.act.link, self.at(name)
+        places = {p: z for p in known if (z := self.at(p)) is not None}
         if at is None:
             return None
         if not places:
@@ -108,10 +95,10 @@ class PositionSteps:
             p, q = max(bars, key=lambda b: abs(places[b[0]] - places[b[1]]))
             return _from_two((p, places[p]), (q, places[q]), name, at)
         (pivot, start), *_ = places.items()
-        through = self._guide_through(step, link, pivot)
+        through = self._guide_through(pivot)
         if through is not None:
             return _along((pivot, start), through, name, at)
-        laid = any(isinstance(a, LaidOffAngle) and a.link == link for a in self._acts(step))
+        laid = any(isinstance(a, LaidOffAngle) and a.link == link for a in self._acts())
         span = at - start
         if abs(span) < SAME:
             return None
@@ -121,20 +108,20 @@ class PositionSteps:
         return Phrase("place polar", (pivot, _degrees(math.degrees(cmath.phase(span))), pivot + name,
                                       on_paper(abs(span)), name))  # fmt: skip
 
-    def _guide_through(self, step: Step, link: str, pivot: str) -> tuple[str, complex] | None:
+    def _guide_through(self, pivot: str) -> tuple[str, complex] | None:
         """The pin that has directed a link's guide from its pivot."""
-        for act in self._acts(step):
-            if isinstance(act, GuideThrough) and act.pivot == pivot and link in act.pair.split("/"):
-                at = self._at(act.through)
+        for act in self._acts():
+            if isinstance(act, GuideThrough) and act.pivot == pivot and self.act.link in act.pair.split("/"):
+                at = self.at(act.through)
                 return (act.through, at) if at is not None else None
         return None
 
-    def _before(self, step: Step) -> tuple[frozenset[str], frozenset[str]]:
-        """Points that stand on the paper before a step, and those of them that were found but belong to no link yet."""
+    def _before(self) -> tuple[frozenset[str], frozenset[str]]:
+        """Points that stand on the paper before the step, and those of them that were found but are on no link yet."""
         standing: set[str] = set()
         found: set[str] = set()
         for one in self.sheet.steps:
-            if one is step:
+            if one is self.step:
                 break
             if one.diagram == "mechanism":
                 standing |= {s.ref.point for s in one.strokes if isinstance(s, Mark)}
@@ -142,17 +129,26 @@ class PositionSteps:
                     found.add(one.act.point)
         return frozenset(standing), frozenset(found - standing)
 
-    def _acts(self, step: Step) -> Iterator[object]:
-        """What was done before a step, the last first."""
-        before = self.sheet.steps[: self.sheet.steps.index(step)]
+    def _acts(self) -> Iterator[object]:
+        """What was done before the step, the last first."""
+        before = self.sheet.steps[: self.sheet.steps.index(self.step)]
         return (one.act for one in reversed(before) if one.diagram == "mechanism")
 
-    # -- of two crossings --------------------------------------------------------------------------------------------
 
-    def _on_path(self, act: ArcOnPath) -> Phrase | None:
+class _Arcs(_InPosition[CompassArcs]):
+    def lettered(self) -> Phrase | None:
+        act = self.act
+        one, other, at = (self.at(p) for p in (*act.about, act.point))
+        if one is None or other is None or at is None or abs(other - one) < SAME:
+            return None
+        return _from_arcs(act.about, act.radii, act.point, cross(other - one, at - one))
+
+
+class _ArcOnPath(_InPosition[ArcOnPath]):
+    def lettered(self) -> Phrase | None:
         """Which of the crossings of an arc with a straight path is meant, as it is seen on the paper."""
-        centre, at = self._at(act.about), self._at(act.point)
-        path = next((bar for bar in self._path(act.point)), None)
+        centre, at = self.at(self.act.about), self.at(self.act.point)
+        path = next((bar for bar in self._path()), None)
         if centre is None or at is None or path is None:
             return None
         half = dot(at - centre, path) * path  # from the middle between the crossings
@@ -160,25 +156,24 @@ class PositionSteps:
             return None
         upright = abs(half.imag) > abs(half.real)
         side = ("upper" if half.imag > 0 else "lower") if upright else ("right" if half.real > 0 else "left")
-        return Phrase(f"crossing {side}", (phrase_of(act),))
+        return Phrase(f"crossing {side}", (phrase_of(self.act),))
 
-    def _path(self, point: str) -> Iterator[complex]:
-        """The direction of the straight path of a point."""
+    def _path(self) -> Iterator[complex]:
+        """The direction of the straight path of the point."""
         for step in self.sheet.steps:
-            if isinstance(step.act, PathDrawn) and step.act.point == point:
+            if isinstance(step.act, PathDrawn) and step.act.point == self.act.point:
                 yield from (unit(s.b - s.a) for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME)
 
-    def _touching(self, step: Step, act: GuideTouching) -> Phrase | None:
+
+class _Touching(_InPosition[GuideTouching]):
+    def lettered(self) -> Phrase | None:
         """Which of the two tangents: the side of the crossing of its circles."""
-        arcs = [s for s in step.strokes if isinstance(s, CompassArc)]
-        one, other = self._at(act.pivot), self._at(act.through)
+        arcs = [s for s in self.step.strokes if isinstance(s, CompassArc)]
+        one, other = self.at(self.act.pivot), self.at(self.act.through)
         if one is None or other is None or not arcs:
             return None
         side = "left" if cross(other - one, arcs[0].at - one) > 0 else "right"
-        return Phrase(f"tangent {side}", (phrase_of(act), act.pivot, act.through))
-
-    def _at(self, point: str) -> complex | None:
-        return self.sheet.points.get(PointRef(point))
+        return Phrase(f"tangent {side}", (phrase_of(self.act), self.act.pivot, self.act.through))
 
 
 def _from_two(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
@@ -232,3 +227,9 @@ def _clean(mm: float) -> float:
 
 def _degrees(angle: float) -> str:
     return true_minus(number(round(angle, 2) + 0.0))
+
+
+TOLD: Mapping[type, type[Told[Any]]] = {
+    FixedPoints: _Fixed, LaidOffAngle: _Angle, LinkPoints: _Link, CompassArcs: _Arcs, ArcOnPath: _ArcOnPath,
+    GuideTouching: _Touching,
+}  # fmt: skip
