@@ -7,8 +7,8 @@ from functools import cache
 from graphkin.checking.report import Report
 from graphkin.construction import Sheet, draft
 from graphkin.drawing import Drawing
-from graphkin.drawing.figure_pages import figures as single_figures
-from graphkin.drawing.sheet import sheet_page
+from graphkin.drawing.figures.diagrams import diagram_figures
+from graphkin.drawing.figures.sheet import sheet_page
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import mechanism_of
 
@@ -36,4 +36,4 @@ def figures(
     """The single figures of a construction, and the pages of that for the sheet, with its check."""
     whole = sheet_page(on_sheet, report, language=language, convention=convention)
     pages = {"sheet": whole, **{f"sheet-{number}": page for number, page in enumerate(whole.further, 2)}}
-    return single_figures(own, language, convention) | pages
+    return diagram_figures(own, language, convention) | pages

@@ -239,7 +239,7 @@ class Centred(OfScene, Result):
     def in_motion(self) -> Drawing:
         """The centres over the whole motion with their paths: an SVG that plays.  Of many links only the centres
         against the frame."""
-        from graphkin.drawing.centres_in_motion import centres_in_motion
+        from graphkin.drawing.figures.centres_in_motion import centres_in_motion
         from graphkin.study.centre_paths import centre_paths
 
         frame, whole = self.mechanism.frame.name, self.mechanism.instead_of or self.mechanism
@@ -296,7 +296,7 @@ class Centred(OfScene, Result):
     @cached_property
     def figure(self) -> Drawing:
         """The mechanism with all its centres, and the circle diagram."""
-        from graphkin.drawing.centres import centres_figure
+        from graphkin.drawing.figures.centres import centres_figure
 
         for_paper(self.mechanism)
         return centres_figure(self.centres, self.turning, language=self.language, convention=self.convention)

@@ -83,7 +83,7 @@ class Centroded(OfScene, Result):
 
     @cached_property
     def figure(self) -> Drawing:
-        from graphkin.drawing.centres_in_motion import centrodes_figure
+        from graphkin.drawing.figures.centres_in_motion import centrodes_figure
 
         mm = self.centres.links.mm
         pose = self.centres.links.poses[self.link]

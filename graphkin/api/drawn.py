@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from graphkin.api.arguments import (
     ON_SHEETS,
@@ -22,6 +22,7 @@ from graphkin.api.checked import Checked, asked_here, checked, drawn_symbols, ha
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.construction import EXACT, Plan, execute, plan
+from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
 from graphkin.structure.analysis import driven_by
 
-__all__ = ["Drawn", "draw", "known_figures"]
+__all__ = ["Drawn", "draw", "drawn_figure", "known_figures"]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -104,7 +105,7 @@ class Drawn(OfScene, Result):
         these are drawn."""
         made: dict[str, Drawing] = {}
         for name in self.wanted:
-            figure = FIGURES[name].make(self)
+            figure = drawn_figure(self, name)
             if figure is not None:
                 made[name] = figure
                 made.update({f"{name}-{number}": page for number, page in enumerate(figure.further, 2)})
@@ -124,7 +125,7 @@ class Drawn(OfScene, Result):
         """The files of its figures.  Raises Disagreement for a value that was drawn exactly and is out of tolerance."""
         known_words(formats, text=text)
         if self.checked.sheet.instrument == EXACT.name:
-            forces = self.with_forces if {"forces", "lever"}.intersection(self.wanted) else None
+            forces = self.with_forces if any(figure_kinds()[name].needs == "forces" for name in self.wanted) else None
             for made in (self.checked, forces):
                 if made is not None:
                     made.report.must_agree(self.mechanism)
@@ -137,172 +138,79 @@ class Drawn(OfScene, Result):
         return self.figures["sheet"]._repr_svg_() if "sheet" in self.wanted else super()._repr_svg_()
 
 
-@dataclass(frozen=True)
-class FigureKind:
-    """A figure that can be asked for by name.
-
-    by_itself : whether it is drawn of a scene where no figure is asked for by name
-    make : draws it; None where there is nothing to draw
-    of_all : whether it shows all links, whatever is asked
-    """
-
-    by_itself: Callable[[Mechanism], bool]
-    make: Callable[[Drawn], Drawing | None]
-    of_all: bool = False
+def _small_sheet(drawn: Drawn) -> tuple[Any, ...]:
+    return drawn.small.sheet, drawn.small.report
 
 
-def _always(scene: Mechanism) -> bool:
-    return True
+def _at_contacts(drawn: Drawn) -> tuple[Any, ...] | None:
+    return None if drawn.checked.at_contacts is None else (drawn.checked.at_contacts.sheet,)
 
 
-def _mechanism(drawn: Drawn) -> Drawing:
-    from graphkin.drawing.figure_pages import mechanism_figure
-
-    return mechanism_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
-
-
-def _velocity(drawn: Drawn) -> Drawing:
-    from graphkin.drawing.figure_pages import velocity_figure
-
-    return velocity_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
-
-
-def _acceleration(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.figure_pages import acceleration_figure
-
-    if not drawn.checked.sheet.vectors("acceleration"):
-        return None
-    return acceleration_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
-
-
-def _sheet(drawn: Drawn) -> Drawing:
-    from graphkin.drawing.sheet import sheet_page
-
-    small = drawn.small
-    return sheet_page(small.sheet, small.report, language=drawn.language, convention=drawn.convention)
-
-
-def _centres(drawn: Drawn) -> Drawing:
+def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
     from graphkin.construction.centres import speeds
-    from graphkin.drawing.centres import centres_figure
 
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres
     exact = whole.sheet.instrument == EXACT.name
     values = {d.key: whole.sheet.drivers[d.key] for d in whole.part.drivers}
     found = whole.centres.in_room(ROOM) if exact else found_centres(whole.part, values)
-    return centres_figure(found, speeds(found), language=drawn.language, convention=drawn.convention)
+    return found, speeds(found)
 
 
-def _forces(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.forces import forces_figure
-
+def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
     whole = drawn.with_forces
-    if whole is None or whole.forces is None:
-        return None
-    return forces_figure(
-        whole.sheet, whole.forces, whole.report, language=drawn.language, convention=drawn.convention
-    )
+    return None if whole is None or whole.forces is None else (whole.sheet, whole.forces, whole.report)
 
 
-def _lever(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.lever import lever_figure
-
-    whole = drawn.with_forces
-    if whole is None or whole.forces is None:
-        return None
-    sheet = replace(whole.sheet, scales=whole.report.scales)
-    return lever_figure(sheet, whole.forces, language=drawn.language, convention=drawn.convention)
+def _structures(drawn: Drawn) -> tuple[Any, ...]:
+    return execute(_whole(drawn)), [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
 
 
-def _plan(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.train import train_figure
-
-    return train_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
-
-
-def _rolls(scene: Mechanism) -> bool:
-    return bool(scene.gears) or any(c.rolling for c in scene.contacts)
-
-
-def _contacts(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.figure_pages import acceleration_figure, velocity_figure
-
-    other = drawn.checked.at_contacts
-    if other is None:
-        return None
-    spoken = {"language": drawn.language, "convention": drawn.convention}
-    pages = [velocity_figure(other.sheet, **spoken)]
-    if other.sheet.vectors("acceleration"):
-        pages.append(acceleration_figure(other.sheet, **spoken))
-    return replace(pages[0], further=tuple(pages[1:]))
-
-
-def _touches(scene: Mechanism) -> bool:
-    return any(not c.rolling for c in scene.contacts) or bool(scene.cams) or any(not s.block for s in scene.slots)
-
-
-def _loops(drawn: Drawn) -> Drawing | None:
-    from graphkin.drawing.loops import loops_figure
-
-    return loops_figure(drawn.checked.sheet, language=drawn.language, convention=drawn.convention)
-
-
-def _structure(drawn: Drawn) -> Drawing:
-    from graphkin.drawing.structure import structure_figure
-
-    structure = drawn.plan.structure
-    whole = execute(replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales))
-    others = [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
-    return structure_figure(whole, others, language=drawn.language, convention=drawn.convention)
-
-
-def _positions(drawn: Drawn) -> Drawing:
+def _positions(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.shown_positions import shown_positions
-    from graphkin.drawing.positions import positions_figure
     from graphkin.solver.named_positions import named_positions
 
     places = named_positions(drawn.mechanism)
-    structure = drawn.plan.structure
-    whole = replace(plan(structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales)
-    shown = shown_positions(whole, places.values if places else {})
-    return positions_figure(shown, language=drawn.language, convention=drawn.convention)
+    return (shown_positions(_whole(drawn), places.values if places else {}),)
 
 
-def _polygons(drawn: Drawn) -> Drawing:
+def _sheets_beside(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.shown_positions import sheets_beside
-    from graphkin.drawing.polygons_beside import polygons_beside
 
-    sheets = sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside)
-    return polygons_beside(sheets, language=drawn.language, convention=drawn.convention)
+    return (sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside),)
 
 
-def _cams(drawn: Drawn) -> Drawing | None:
+def _cams(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.cams import cam_made
 
-    spoken = drawn.language or drawn.mechanism.sheet.language
-    pages = [one.figure(spoken) for one in cam_made(drawn.mechanism)]
-    return replace(pages[0], further=tuple(pages[1:])) if pages else None
+    return drawn.mechanism, [(one.sheet, one.phrases()) for one in cam_made(drawn.mechanism)]
 
 
-FIGURES: Mapping[str, FigureKind] = {
-    "mechanism": FigureKind(_always, _mechanism),
-    "velocity": FigureKind(_always, _velocity),
-    "acceleration": FigureKind(_always, _acceleration),
-    "sheet": FigureKind(_always, _sheet),
-    "centres": FigureKind(_always, _centres),
-    "structure": FigureKind(lambda scene: False, _structure, of_all=True),
-    "positions": FigureKind(lambda scene: scene.positions is not None, _positions, of_all=True),
-    "polygons": FigureKind(lambda scene: False, _polygons, of_all=True),
-    "cam": FigureKind(lambda scene: bool(scene.cams), _cams),
-    "contacts": FigureKind(_touches, _contacts, of_all=True),
-    "plan": FigureKind(_rolls, _plan, of_all=True),
-    "loops": FigureKind(lambda scene: bool(scene.loops), _loops, of_all=True),
-    "forces": FigureKind(lambda scene: bool(scene.loading), _forces, of_all=True),
-    "lever": FigureKind(lambda scene: bool(scene.loading), _lever, of_all=True),
+def _whole(drawn: Drawn) -> Plan:
+    """The plan of all links at the scales of the drawing."""
+    return replace(plan(drawn.plan.structure, drawn.checked.sheet.drivers, ()), scales=drawn.plan.scales)
+
+
+SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
+    "sheet": lambda drawn: (drawn.checked.sheet,),
+    "small sheet": _small_sheet,
+    "sheet at contacts": _at_contacts,
+    "sheets beside": _sheets_beside,
+    "centres": _centres,
+    "forces": _forces,
+    "structures": _structures,
+    "positions": _positions,
+    "cams": _cams,
 }
-"""Every figure of `draw` by its name: the one place where a further figure is entered."""
+"""What figures are drawn of, by the name under which they ask for it; None where the scene has nothing of it."""
+
+
+def drawn_figure(drawn: Drawn, name: str) -> Drawing | None:
+    """A figure by its name; None where there is nothing to draw."""
+    figure = figure_kinds()[name]
+    given = SUPPLIES[figure.needs](drawn)
+    return None if given is None else figure.draw(*given, language=drawn.language, convention=drawn.convention)
 
 
 def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, ...]:
@@ -313,14 +221,14 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
     CallError : every name that is no figure
     """
     if names is None:
-        return tuple(name for name, figure in FIGURES.items() if figure.by_itself(scene))
+        return tuple(name for name, figure in figure_kinds().items() if figure.by_itself(scene))
     wanted = Phrase("give a list velocity")
     if isinstance(names, str):
         raise CallError(Problem("figures", Phrase("found value", value=f'{names!r:.60}'), wanted))
     names = as_list("figures", names, wanted)
-    known = [isinstance(name, str) and name in FIGURES for name in names]
+    known = [isinstance(name, str) and name in figure_kinds() for name in names]
     wrong = [
-        Problem("figure", f'"{name!s:.60}"', did_you_mean(str(name)[:60], FIGURES))
+        Problem("figure", f'"{name!s:.60}"', did_you_mean(str(name)[:60], figure_kinds()))
         for name, right in zip(names, known, strict=True) if not right
     ]  # fmt: skip
     if wrong:
@@ -367,7 +275,7 @@ def draw(
     given = as_scene(scene)
     wanted = known_figures(given, figures)
     asked = drawn_symbols(given, find)
-    given = for_paper(given, () if any(FIGURES[name].of_all for name in wanted) else asked_here(asked))
+    given = for_paper(given, () if any(figure_kinds()[name].of_all for name in wanted) else asked_here(asked))
     given, values = placed(given, at)
     hand = hand_of(given, instrument, seed)
     structure = solver.structure_of(given)

@@ -12,7 +12,7 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.limits import Turned, TurnOfCrank
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.positions import Shown
+from graphkin.drawing.figures.positions import Shown
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol

@@ -14,8 +14,8 @@ from graphkin.api.cams import CamMade
 from graphkin.api.designed import Designed
 from graphkin.checking.closed_form import predict_cam, predict_lengths
 from graphkin.checking.uncertainty import COVERAGE
-from graphkin.drawing.cam import cam_given, cam_pictures
-from graphkin.drawing.synthesis import asked_words, construction_picture, step_words
+from graphkin.drawing.figures.cam import cam_given, cam_pictures
+from graphkin.drawing.figures.synthesis import asked_words, construction_picture, step_words
 from graphkin.papers.blocks import Said, said
 from graphkin.papers.drawn_task import DrawnTask, TaskResult, papers_of_task
 from graphkin.papers.paper import Paper

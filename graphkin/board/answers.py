@@ -20,13 +20,13 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from graphkin.api.arguments import known_words
-from graphkin.api.drawn import FIGURES
 from graphkin.board import building, pictures
 from graphkin.board.moving import pulled
 from graphkin.board.pictures import FigureOptions
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.construction.sheet import Scales
+from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -422,7 +422,7 @@ def _names(desk: Desk, asked: Asked) -> Answer:
     """The words of the page in a language."""
     spoken = asked.spoken
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
-    return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(FIGURES)}
+    return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(figure_kinds())}
 
 
 QUESTIONS: Mapping[str, tuple[type[Asked], Callable[[Desk, Any], Answer]]] = {

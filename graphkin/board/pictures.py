@@ -15,13 +15,13 @@ from graphkin.account.notation import Letters, letters_of
 from graphkin.account.tell import Account
 from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
-from graphkin.api.drawn import FIGURES, Drawn, known_figures
+from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.moving import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.drawing.figures.in_motion import figure_in_motion
 from graphkin.drawing.force_stages import force_stages
-from graphkin.drawing.in_motion import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
@@ -291,7 +291,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
     found = {}
     for name in drawn.wanted:
         try:
-            made = FIGURES[name].make(drawn)
+            made = drawn_figure(drawn, name)
         except GraphkinError as error:
             found[name] = f"<p>{words_html(in_markup(_said(error, _spoken(drawn.language, drawn.mechanism))))}</p>"
             continue

@@ -21,7 +21,7 @@ from graphkin.account.given_loads import spring_lines
 from graphkin.account.notation import Letters, force_letters, pole
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.lever import lever_on_page
+from graphkin.drawing.figures.lever import lever_on_page
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say
 

@@ -21,7 +21,7 @@ from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.forces import force_scale
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.drawing.figure_pages import figures
+from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import Unsolvable
 from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
@@ -249,7 +249,7 @@ def _typeset(lesson: Lesson, papers: _Documents) -> dict[str, bytes]:
             "solution.pdf": pdf(papers.solution),
             "key.pdf": pdf(papers.key),
         }
-    drawn = figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
     return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
 
 

@@ -17,12 +17,13 @@ from graphkin.construction.centres import Centres
 from graphkin.construction.polygon_acts import OnPlan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet, next_of_series
 from graphkin.drawing.box import Box
-from graphkin.drawing.cam import cam_pictures, scaled_cam
-from graphkin.drawing.centres import background
+from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
+from graphkin.drawing.figures.centres import background
+from graphkin.drawing.figures.forces import group_equation, group_picture
+from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.force_stages import force_stages
-from graphkin.drawing.forces import group_equation, group_picture
 from graphkin.drawing.ink.primitives import Group
-from graphkin.drawing.lever import lever_figure
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
@@ -30,7 +31,6 @@ from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import stepped
-from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.papers.answer_key import way

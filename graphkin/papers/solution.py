@@ -10,10 +10,10 @@ from graphkin.account.notation import scale_statement
 from graphkin.checking.report import exact, measured
 from graphkin.construction.polygon_acts import DirectionLine, OnPlan
 from graphkin.construction.sheet import Sheet
+from graphkin.drawing.figures.forces import group_equation, group_picture
+from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.force_stages import ForceStage, force_stages
-from graphkin.drawing.forces import group_equation, group_picture
-from graphkin.drawing.lever import lever_figure
-from graphkin.drawing.train import moving_plans, train_figure
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.answer_key import length_on_paper, unsigned, way
 from graphkin.papers.blocks import (

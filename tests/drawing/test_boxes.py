@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from itertools import combinations
+from pathlib import Path
 
 import pytest
 
+from graphkin.api.drawn import SUPPLIES
+from graphkin.drawing import figures
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, column, foot, framed, heading, page, panel, prose, row, rows, table
+from graphkin.drawing.figures import figure_kinds
+from graphkin.drawing.figures.diagrams import DIAGRAMS
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.drawing.place.piece import Piece, ink_box
+from graphkin.words import word
 
 LONG = "the velocity polygon turned by 90 degrees is a rigid lever about its pole " * 3
 
@@ -83,3 +90,16 @@ def test_a_page_holds_heading_body_and_foot_clear_of_each_other() -> None:
     boxes = [text_box(thing) for thing in walk(made.children) if isinstance(thing, Text)]
     assert Box(0.0, 0.0, made.width, made.height).grown(-1.0).holds(ink_box(made.children))
     assert [] == [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
+
+
+def test_every_figure_is_named_once_and_supplied_with_what_it_needs() -> None:
+    folder = Path(figures.__file__).parent
+    written = [name for file in folder.glob("*.py") for name in re.findall(r'Figure\("(\w+)"', file.read_text())]
+    assert len(written) == len(set(written))
+    assert {*written, *DIAGRAMS} == {*figure_kinds()}
+    assert set() == {figure.needs for figure in figure_kinds().values()} - {*SUPPLIES}
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_every_figure_has_a_name_on_the_page(language: str) -> None:
+    assert [] == [name for name in figure_kinds() if not word(f"page figure {name}", language, "")]

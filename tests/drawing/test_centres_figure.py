@@ -14,7 +14,7 @@ from graphkin.api.centroded import centrodes
 from graphkin.construction import Room
 from graphkin.construction.centres import Centres, speeds
 from graphkin.drawing.box import Box
-from graphkin.drawing.centres import background, centres_figure
+from graphkin.drawing.figures.centres import background, centres_figure
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.parts.centre_marks import centre_marks

@@ -30,6 +30,7 @@ from graphkin.drawing.boxes import (
     prose,
     row,
 )  # fmt: skip
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
@@ -46,7 +47,7 @@ from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, say, word
 
-__all__ = ["background", "centres_figure", "circle_diagram", "stroke_of"]
+__all__ = ["FIGURES", "background", "centres_figure", "circle_diagram", "stroke_of"]
 
 HALF = 1.9  # mm of a line left out to either side of its number
 CLEAR = 1.55  # mm from a number's middle to anything else
@@ -306,3 +307,6 @@ def _description(centres: Centres, turning: Mapping[str, Turning], letters: Lett
             for phrase in velocity_sentences(centres, turning)
         ]
     return "\n".join(said)
+
+
+FIGURES = (Figure("centres", centres_figure, "centres", lambda scene: True, place=5),)

@@ -16,7 +16,7 @@ from graphkin.construction.centres import Centres
 from graphkin.construction.centres.pairs import LinkPair
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
-from graphkin.drawing.centres import background
+from graphkin.drawing.figures.centres import background
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.parts.centre_marks import mark_of

@@ -17,6 +17,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows
 from graphkin.drawing.equations import write_sum
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.free_body import free_body, sketch_height
@@ -27,7 +28,7 @@ from graphkin.drawing.tables import TableRow, readings_table
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, listed, say
 
-__all__ = ["forces_figure", "group_equation", "group_picture"]
+__all__ = ["FIGURES", "forces_figure", "group_equation", "group_picture"]
 
 SKETCH = 64.0  # mm, width of a sketch
 AROUND = 11.0  # mm of room around a polygon
@@ -197,3 +198,6 @@ def _tables(page: FigurePage, some: Sequence[TableRow]) -> Iterator[Block]:
         if shown == 0:
             return
         left = left[shown:]
+
+
+FIGURES = (Figure("forces", forces_figure, "forces", lambda scene: bool(scene.loading), of_all=True, place=13),)

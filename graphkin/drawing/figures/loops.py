@@ -14,6 +14,7 @@ from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
 from graphkin.construction.sheet import Sheet, next_of_series
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
@@ -28,7 +29,7 @@ from graphkin.plane import added_up
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Neutral, Phrase, in_all, languages, say
 
-__all__ = ["loop_blocks", "loops_figure"]
+__all__ = ["FIGURES", "loop_blocks", "loops_figure"]
 
 PANEL = (84.0, 62.0)  # width and least height of a polygon's panel (mm)
 ROOM = 11.0  # around a polygon, for names
@@ -251,3 +252,6 @@ def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
             points = ", ".join(loop.loop.points)
             said.append(say(Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), points)), each))
     return ". ".join(said)
+
+
+FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.loops), of_all=True, place=12),)

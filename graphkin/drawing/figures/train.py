@@ -10,6 +10,7 @@ from graphkin.account.notation import Letters
 from graphkin.construction.centre_lines import PlanLine, TrainPlan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, arrow
@@ -19,10 +20,11 @@ from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import rich, symbol
 from graphkin.drawing.train_scheme import scheme
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["moving_plans", "train_figure"]
+__all__ = ["FIGURES", "moving_plans", "train_figure"]
 
 ROOM = 9.0  # mm above and below a line of centres
 SCHEME = 68.0
@@ -187,3 +189,10 @@ def _scales(page: FigurePage, plan: TrainPlan) -> tuple[str, str, str]:
         angular = f"{head} = {number(times * per)} {unit}"
     of_plan = page.scale("velocity" if plan.order == "velocity" else "acceleration", plan.scales.speed)
     return page.scale("mechanism", plan.scales.length), of_plan, angular
+
+
+def _rolls(scene: Mechanism) -> bool:
+    return bool(scene.gears) or any(contact.rolling for contact in scene.contacts)
+
+
+FIGURES = (Figure("plan", train_figure, by_itself=_rolls, of_all=True, place=11),)

@@ -24,9 +24,11 @@ from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN
 from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
+from graphkin.drawing.figures import Figure
+from graphkin.drawing.figures.loops import loops_figure
+from graphkin.drawing.figures.train import train_figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text, moved, walk
-from graphkin.drawing.loops import loops_figure
 from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
 from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
 from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets
@@ -39,11 +41,10 @@ from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
 from graphkin.drawing.text import fitted, plain
 from graphkin.drawing.title_block import title_block
-from graphkin.drawing.train import train_figure
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import languages, word
 
-__all__ = ["sheet_page"]
+__all__ = ["FIGURES", "sheet_page"]
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
@@ -285,3 +286,4 @@ def _equations(
     return joined(parts), lines[count:], senses[len(shown) :]
 
 
+FIGURES = (Figure("sheet", sheet_page, "small sheet", lambda scene: True, place=4),)

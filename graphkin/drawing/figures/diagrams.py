@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+
 from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, drivers, punctuation, remarks
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
@@ -13,35 +18,28 @@ from graphkin.drawing.parts.scans import background_piece, scan_piece
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, joined, moved_piece
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.scene.model import Mechanism
 from graphkin.words import languages
 
-__all__ = ["acceleration_figure", "figures", "mechanism_figure", "velocity_figure"]
+__all__ = ["FIGURES", "diagram_figure", "diagram_figures"]
 
+DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 ROOM = 12.0  # mm around the figure, for names
 
 
-def mechanism_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
-    """The mechanism at its true scale, on a page of its own.
+def diagram_figure(
+    diagram: DiagramName, sheet: Sheet, *, language: str | None = None, convention: str | None = None
+) -> Drawing | None:
+    """The mechanism or one of its polygons at its true scale, on a page of its own; None of accelerations that were not
+    drawn.
 
     Parameters
     ----------
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    return _figure(sheet, "mechanism", language, convention)
-
-
-def velocity_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
-    """The velocity polygon at its true scale, on a page of its own; parameters as for `mechanism_figure`."""
-    return _figure(sheet, "velocity", language, convention)
-
-
-def acceleration_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
-    """The acceleration polygon at its true scale, on a page of its own; parameters as for `mechanism_figure`."""
-    return _figure(sheet, "acceleration", language, convention)
-
-
-def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention: str | None) -> Drawing:
+    if diagram == "acceleration" and not sheet.vectors(diagram):
+        return None
     page = FigurePage.of(sheet, diagram, language, convention)
     spoken, letters = page.language, page.letters
     piece, content = mechanism_piece(sheet, letters) if diagram == "mechanism" else (Piece(), extent(sheet, diagram))
@@ -72,8 +70,26 @@ def _figure(sheet: Sheet, diagram: DiagramName, language: str | None, convention
     )  # fmt: skip
 
 
-def figures(sheet: Sheet, language: str | None = None, convention: str | None = None) -> dict[str, Drawing]:
-    """The figures of a sheet by name: "mechanism", "velocity", and "acceleration" where it was drawn."""
-    names: list[DiagramName] = ["mechanism", "velocity", "acceleration"]
-    shown = names if sheet.vectors("acceleration") else names[:2]
-    return {name: _figure(sheet, name, language, convention) for name in shown}
+def diagram_figures(
+    sheet: Sheet, language: str | None = None, convention: str | None = None, names: Sequence[DiagramName] = DIAGRAMS
+) -> dict[str, Drawing]:
+    """Those of the figures of a sheet that were drawn, by name."""
+    made = ((name, diagram_figure(name, sheet, language=language, convention=convention)) for name in names)
+    return {name: page for name, page in made if page is not None}
+
+
+def contacts_figure(sheet: Sheet, *, language: str | None = None, convention: str | None = None) -> Drawing:
+    """The polygons at the points of contact, a page each."""
+    velocity, *further = diagram_figures(sheet, language, convention, DIAGRAMS[1:]).values()
+    return replace(velocity, further=tuple(further))
+
+
+def _touches(scene: Mechanism) -> bool:
+    return any(not c.rolling for c in scene.contacts) or bool(scene.cams) or any(not s.block for s in scene.slots)
+
+
+FIGURES = (
+    *(Figure(name, partial(diagram_figure, name), by_itself=lambda scene: True, place=place)
+      for place, name in enumerate(DIAGRAMS, 1)),
+    Figure("contacts", contacts_figure, "sheet at contacts", _touches, of_all=True, place=10),
+)  # fmt: skip

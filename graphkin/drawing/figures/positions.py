@@ -14,6 +14,7 @@ from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
 from graphkin.drawing.ink.symbols import BLOCK_LENGTH, BLOCK_WIDTH
@@ -30,7 +31,7 @@ from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Neutral, Wording
 
-__all__ = ["Shown", "positions_figure"]
+__all__ = ["FIGURES", "Shown", "positions_figure"]
 
 ROOM = 16.0  # mm around the figure, for names
 OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 52.0) for side in (-1.0, 1.0))  # mm
@@ -290,3 +291,8 @@ def _measured_lines(shown: Shown, page_: FigurePage) -> list[str]:
     for output, why in shown.without.items():
         said += page_.said("no limits", output, why)
     return said
+
+
+FIGURES = (
+    Figure("positions", positions_figure, "positions", lambda scene: scene.positions is not None, of_all=True, place=7),
+)

@@ -6,6 +6,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from graphkin.account.headings import number, once, term
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
@@ -25,6 +26,7 @@ from graphkin.drawing.boxes import (
     row,
     table,
 )  # fmt: skip
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
@@ -39,7 +41,7 @@ from graphkin.version import __version__
 from graphkin.words import Phrase, in_all, languages, say, word
 from graphkin.words.written import in_markup
 
-__all__ = ["cam_figure", "cam_given", "cam_pictures", "scaled_cam"]
+__all__ = ["FIGURES", "cam_figure", "cam_given", "cam_pictures", "scaled_cam"]
 
 WIDTH, MARGIN, GUTTER = 186.0, 12.0, 8.0  # mm of the page between its margins, and between columns of the table
 LETTER = 3.0
@@ -332,3 +334,22 @@ def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
     tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))
     return row(*tables, gap=GUTTER)
+
+
+def cams_figure(
+    scene: Mechanism, cams: Sequence[tuple[CamSheet, Sequence[Phrase]]], *, language: str | None = None,
+    convention: str | None = None,
+) -> Drawing | None:  # fmt: skip
+    """A page for each cam; None where there is none.
+
+    Parameters
+    ----------
+    cams : what was drawn of each, and what is found of it
+    language : "en", "zh" or "both"; the scene's own if None
+    convention : says nothing here, since the letters of cams are those of all books
+    """
+    pages = [cam_figure(scene, sheet, told, language or scene.sheet.language) for sheet, told in cams]
+    return replace(pages[0], further=tuple(pages[1:])) if pages else None
+
+
+FIGURES = (Figure("cam", cams_figure, "cams", lambda scene: bool(scene.cams), place=9),)

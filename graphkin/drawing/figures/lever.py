@@ -9,10 +9,12 @@ from dataclasses import replace
 from graphkin.account.forces import lever_sum
 from graphkin.account.headings import drivers, written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
+from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
 from graphkin.construction.sheet import Extent, Sheet, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import INSIDE, Block, FigurePage, column, table
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
@@ -26,7 +28,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["lever_figure", "lever_on_page"]
+__all__ = ["FIGURES", "lever_figure", "lever_on_page"]
 
 HIGHEST = 130.0  # mm of a lever
 ARROW, ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
@@ -36,19 +38,22 @@ DIGITS = 5
 
 
 def lever_figure(
-    sheet: Sheet, forces: ForceSheet, *, language: str | None = None, convention: str | None = None
+    sheet: Sheet, forces: ForceSheet, report: Report | None = None, *, language: str | None = None,
+    convention: str | None = None,
 ) -> Drawing | None:
     """A lever for each driver, at the scale of the velocities; None where nothing that balances moves.
 
     Parameters
     ----------
     sheet, forces : what is drawn of motion and of forces
+    report : its check, where that has scales of its own
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
     shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in forces.levers[k]]
     if not shown:
         return None
+    sheet = sheet if report is None else replace(sheet, scales=report.scales)
     page = FigurePage.of(sheet, "lever", language, convention)
     why = [Phrase("lever reason", (f"${pole(page.convention, 'velocity')}$",))]
     why += [Phrase("lever couple")] * any(row.pair for _, _, lever in shown for row in lever.rows)
@@ -185,3 +190,6 @@ def _row(row: LeverRow, newtons: float, letters: Letters) -> tuple[str, str, str
     moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
     name = f"{'−' * row.turned}${force_letters(letters.convention, row.symbol)}$" + " / $l$" * (row.pair is not None)
     return name, written(size), written(arm), moment
+
+
+FIGURES = (Figure("lever", lever_figure, "forces", lambda scene: bool(scene.loading), of_all=True, place=14),)

@@ -29,7 +29,7 @@ def figure_in_motion(
     sheet: Sheet, diagram: DiagramName, *, language: str | None = None, convention: str | None = None
 ) -> Drawing:
     """The mechanism or one of its polygons, every name beside what it names wherever that is; parameters as for
-    `graphkin.drawing.figure_pages.mechanism_figure`."""
+    `graphkin.drawing.figures.diagrams.diagram_figure`."""
     spoken = language or sheet.scene.sheet.language
     letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
     if diagram == "mechanism":

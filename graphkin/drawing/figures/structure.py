@@ -13,6 +13,7 @@ from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
@@ -30,7 +31,7 @@ from graphkin.scene.model import AngleDriver, Follower, SlideDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
-__all__ = ["structure_figure"]
+__all__ = ["FIGURES", "structure_figure"]
 
 DIAGRAM = (96.0, 84.0)  # mm, room of the numbered diagram
 PART = (56.0, 46.0)  # of a group
@@ -300,3 +301,6 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
             labels.append(Label(Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",)), at))
     return parts, labels
+
+
+FIGURES = (Figure("structure", structure_figure, "structures", of_all=True, place=6),)

@@ -20,13 +20,14 @@ from graphkin.construction.plan import scales_for
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, framed, line, panel, prose, row
+from graphkin.drawing.figures import Figure
 from graphkin.drawing.parts.insets import polygon_with_insets
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.place.piece import Piece, renamed
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
 
-__all__ = ["polygons_beside"]
+__all__ = ["FIGURES", "polygons_beside"]
 
 GUTTER = 4.0  # mm between panels
 PANELS: Mapping[int, tuple[float, float]] = {1: (190.0, 100.0), 2: (93.0, 96.0), 3: (89.67, 92.0)}
@@ -100,3 +101,6 @@ def _position(
 def _plain(name: str) -> str:
     """A name as it may stand in an id: a prime becomes p."""
     return "".join(c if c.isalnum() else "p" if c in "'′" else "-" for c in name)
+
+
+FIGURES = (Figure("polygons", polygons_beside, "sheets beside", of_all=True, place=8),)

@@ -1,0 +1,46 @@
+"""Figures that can be asked for by name.  Each is a file of this folder that says in its ``FIGURES`` what it is called,
+what it needs and how it is drawn; nothing else has to be told of it but its words."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING
+
+from graphkin.scene.model import Mechanism
+
+if TYPE_CHECKING:
+    from graphkin.drawing.write.drawing import Drawing
+
+__all__ = ["Figure", "figure_kinds"]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure that can be asked for by name.
+
+    draw : draws it from what it needs, with keywords ``language`` and ``convention``; None where there is nothing to
+        draw
+    needs : of what it is drawn ("sheet", "forces", ...), as `graphkin.draw` supplies it
+    by_itself : whether it is drawn of a scene where no figure is asked for by name
+    of_all : whether it shows all links, whatever is asked
+    place : where it stands among the figures
+    """
+
+    name: str
+    draw: Callable[..., Drawing | None]
+    needs: str = "sheet"
+    by_itself: Callable[[Mechanism], bool] = lambda scene: False
+    of_all: bool = False
+    place: float = 100.0
+
+
+@cache
+def figure_kinds() -> Mapping[str, Figure]:
+    """Every figure by its name, in their order."""
+    modules = (import_module(f"{__name__}.{file.name}") for file in iter_modules(__path__))
+    found = [one for module in modules for one in getattr(module, "FIGURES", ())]
+    return {one.name: one for one in sorted(found, key=lambda one: one.place)}
