@@ -22,7 +22,7 @@ from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, points, same_place, step_number
 from graphkin.drawing.place.labels import Label, Obstacles
-from graphkin.drawing.place.meeting import Flags, Points, meets
+from graphkin.drawing.place.obstacles import first_free
 from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import symbol
 from graphkin.scene.symbol import Symbol
@@ -235,20 +235,11 @@ def step_numbers(
     by_vectors = (along[:, :, None] + (1j * way * off)[:, None, None] * sides).reshape(len(shown), -1)
     by_names = [_by_name(name, size) for (_, _, name), size in zip(shown, half.tolist(), strict=True)]
     places = np.hstack((by_vectors, np.array(by_names)))
-    reach = half[:, None] + CLEAR * (1 + 1j)
-    free = _inside(places, reach, panel) & ~_covered(places, reach, around)
-    found: list[Text] = []
-    taken: list[Box] = []
-    for i, text in enumerate(texts):
-        for j in np.flatnonzero(free[i]):
-            place = complex(places[i, j])
-            box = boxes[i].moved(place - boxes[i].centre)
-            if not any(box.overlaps(other) for other in taken):
-                taken.append(box.grown(CLEAR))
-                at = place - boxes[i].centre
-                found.append(replace(text, at=at))
-                break
-    return tuple(found)
+    found = first_free([*places], half.tolist(), around, CLEAR, panel)
+    return tuple(
+        replace(text, at=complex(row[i]) - box.centre)
+        for text, box, row, i in zip(texts, boxes, places, found, strict=True) if i is not None
+    )  # fmt: skip
 
 
 def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
@@ -257,25 +248,3 @@ def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
         return (complex(np.nan, np.nan),) * 4
     middle, x, y = name.centre, name.width / 2 + BESIDE + half.real, name.height / 2 + BESIDE + half.imag
     return middle - x, middle + x, middle + 1j * y, middle - 1j * y
-
-
-def _inside(places: Points, reach: Points, panel: Box) -> Flags:
-    low, high = places - reach, places + reach
-    across = (low.real >= panel.left) & (high.real <= panel.right)
-    return across & (low.imag >= panel.top) & (high.imag <= panel.bottom)
-
-
-def _covered(places: Points, reach: Points, around: Obstacles) -> Flags:
-    """Whether anything drawn meets a box at a place."""
-    lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
-    size = np.broadcast_to(reach, places.shape)
-    covered: Flags = np.zeros(places.size, dtype=bool)
-    covered[meets(lines, places.ravel(), size.ravel())[1]] = True
-    covered = covered.reshape(places.shape)
-    if around.areas:
-        middles = np.array([box.centre for box in around.areas])
-        sizes = np.array([complex(box.width, box.height) / 2 for box in around.areas])
-        off, room = places[..., None] - middles, size[..., None] + sizes
-        over = (np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)
-        covered = covered | np.asarray(over.any(axis=-1))
-    return covered

@@ -1,11 +1,14 @@
-"""What stands in the way of a label on a figure: solid lines, dashed lines, and areas that no label may cover; and room
-along the edges of a panel that nothing drawn or written takes.
+"""What stands in the way on a figure: solid lines, dashed lines, and areas that nothing may cover; and what takes the
+first free of its places: numbers of steps, insets, lists of names.
 """
 
 from __future__ import annotations
 
 import math
-from itertools import pairwise
+from collections.abc import Sequence
+from itertools import accumulate, pairwise
+
+import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
@@ -22,8 +25,9 @@ from graphkin.drawing.ink.primitives import (
     walk,
 )
 from graphkin.drawing.place.labels import Obstacles
+from graphkin.drawing.place.meeting import Flags, Points, meets
 
-__all__ = ["CLEAR", "free_boxes", "obstacles_of"]
+__all__ = ["CLEAR", "first_free", "free_boxes", "obstacles_of"]
 
 # A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
 # link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
@@ -91,22 +95,60 @@ STEP = 6.0  # mm from one place tried to the next along the edge of the panel
 CLEAR = 2.0  # mm between an inset and what is drawn
 
 
+def first_free(
+    choices: Sequence[Points], halves: Sequence[complex], around: Obstacles, clear: float, panel: Box | None = None
+) -> list[int | None]:
+    """For some boxes, one after the other, the index of the first of its places where it stands clear of everything.
+
+    Parameters
+    ----------
+    choices : middles (mm) of the places of each box in the order of liking, nan for none
+    halves : half the size of each box (mm, across and down)
+    around : what is drawn and written
+    clear : mm around a box that are free of all that, and of the boxes before it
+    panel : no box comes nearer to its edge than that either
+    """
+    sizes = [len(places) for places in choices]
+    middles = np.concatenate(choices)
+    half = np.repeat(np.array(halves), sizes)
+    reach = half + clear * (1 + 1j)
+    free = ~_covered(middles, reach, around)
+    if panel is not None:
+        low, high = middles - reach, middles + reach
+        free &= (low.real >= panel.left) & (high.real <= panel.right)
+        free &= (low.imag >= panel.top) & (high.imag <= panel.bottom)
+    found: list[int | None] = []
+    for first, size, own in zip(accumulate(sizes, initial=0), sizes, halves, strict=False):
+        places = middles[first : first + size]
+        open_ = (free[first : first + size] & ~np.isnan(places)).nonzero()[0]
+        found.append(int(open_[0]) if open_.size else None)
+        if open_.size:  # it is in the way of those that come behind it
+            off, room = middles - places[open_[0]], reach + own
+            free &= (np.abs(off.real) >= room.real) | (np.abs(off.imag) >= room.imag)
+    return found
+
+
+def _covered(middles: Points, reach: Points, around: Obstacles) -> Flags:
+    """On which boxes of these middles and half sizes anything stands."""
+    lines = np.array((*around.solid, *around.dashed), dtype=complex).reshape(-1, 2)
+    covered: Flags = np.zeros(len(middles), dtype=bool)
+    covered[meets(lines, middles, reach)[1]] = True
+    if around.areas:
+        areas = np.array([(box.centre, complex(box.width, box.height) / 2) for box in around.areas])
+        off, room = middles[:, None] - areas[:, 0], reach[:, None] + areas[:, 1]
+        covered |= ((np.abs(off.real) < room.real) & (np.abs(off.imag) < room.imag)).any(axis=1)
+    return covered
+
+
 def free_boxes(
     count: int, size: tuple[float, float], panel: Box, obstacles: Obstacles, clear: float = CLEAR
 ) -> list[Box]:
     """Up to ``count`` boxes of a size (mm) along the edges of a panel, ``clear`` (mm) of what is drawn; corners
     first."""
-    found: list[Box] = []
-    for box in _places(size, panel):
-        if len(found) == count:
-            break
-        wide = box.grown(clear)
-        if any(wide.overlaps(other) for other in (*found, *obstacles.areas)):
-            continue
-        if any(wide.clip(*segment) for segment in (*obstacles.solid, *obstacles.dashed)):
-            continue
-        found.append(box)
-    return found
+    boxes = _places(size, panel)
+    middles = np.array([box.centre for box in boxes], dtype=complex)
+    found = first_free([middles] * count, [complex(*size) / 2] * count, obstacles, clear) if count else []
+    return [boxes[i] for i in found if i is not None]
 
 
 def _places(size: tuple[float, float], panel: Box) -> list[Box]:

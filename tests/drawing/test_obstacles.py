@@ -1,0 +1,51 @@
+"""What takes the first free of its places."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphkin.drawing.box import Box
+from graphkin.drawing.place.labels import Obstacles
+from graphkin.drawing.place.obstacles import first_free, free_boxes
+
+PANEL = Box(0.0, 0.0, 100.0, 100.0)
+HALF = 3 + 2j
+PLACES = np.array((20 + 20j, 50 + 50j, 80 + 80j))
+LINE, BOX = ((20 - 5j, 20 + 40j),), (Box(48.0, 48.0, 52.0, 52.0),)
+
+
+@pytest.mark.parametrize(("around", "index"), [
+    (Obstacles(), 0),
+    (Obstacles(solid=LINE), 1),
+    (Obstacles(dashed=LINE), 1),
+    (Obstacles(solid=LINE, areas=BOX), 2),
+    (Obstacles(solid=LINE, areas=(*BOX, Box(70.0, 70.0, 90.0, 90.0))), None),
+])  # fmt: skip
+def test_a_box_takes_the_first_of_its_places_on_which_nothing_stands(around, index):
+    assert [index] == first_free([PLACES], [HALF], around, 0.5)
+
+
+@pytest.mark.parametrize(("clear", "index"), [(0.9, 0), (1.1, 1)])
+def test_a_box_stands_so_far_off_what_is_drawn_and_off_the_edge_of_its_panel(clear, index):
+    beside = Obstacles(solid=((24 + 0j, 24 + 40j),))
+    assert [index] == first_free([PLACES], [HALF], beside, clear)
+    at_the_edge = np.array((4 + 20j, 50 + 50j))
+    assert [index] == first_free([at_the_edge], [HALF], Obstacles(), clear, PANEL)
+
+
+def test_boxes_are_in_the_way_of_those_behind_them():
+    apart = np.array((20 + 20j, 26 + 20j, 26.4 + 20j, 27 + 20j))
+    assert [0, 2] == first_free([apart, apart], [HALF, HALF], Obstacles(), 0.3)
+    assert [0, 1] == first_free([apart, apart], [HALF, HALF], Obstacles(), 0.0)
+
+
+def test_a_place_that_is_none_is_not_taken():
+    nowhere = complex(np.nan, np.nan)
+    assert [None, 1] == first_free([np.array([nowhere]), np.array((nowhere, 5 + 5j))], [HALF] * 2, Obstacles(), 0.5)
+
+
+def test_boxes_at_the_edge_of_a_panel_begin_in_its_corners():
+    found = free_boxes(3, (20.0, 10.0), PANEL, Obstacles(areas=(Box(90.0, 90.0, 99.0, 99.0),)))
+    assert [Box(0.0, 90.0, 20.0, 100.0), Box(80.0, 0.0, 100.0, 10.0), Box(0.0, 0.0, 20.0, 10.0)] == found
+    assert [] == free_boxes(1, (120.0, 10.0), PANEL, Obstacles())
