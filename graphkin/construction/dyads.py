@@ -7,10 +7,10 @@ places of the links, and for each what was drawn.  A driven link: the angle or t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.construction.links_on_paper import PlacedLinks, Poses, RigidBody, across, hinge, inner_hinge, rail
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, RigidBody, across, apart, hinge, inner_hinge, rail
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -27,9 +27,9 @@ from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
-from graphkin.structure import Driven, Dyad, DyadKind, Rolled, Slide, Turn
+from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled, Slide, Turn
 
-__all__ = ["Meeting", "Story", "drive", "meet"]
+__all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meet"]
 
 Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
 
@@ -55,6 +55,10 @@ class Meeting:
     def sharpness(self) -> float:
         """Sine of the angle at which the two loci cross on paper."""
         return min(1.0, self.sine if self.cross is None else self.cross)
+
+    def nearest(self, poses: Poses) -> int | None:
+        """Which of the possible places lies nearest to where the links are expected; None where there is none."""
+        return min(range(len(self.poses)), key=lambda k: apart(self.poses[k], poses), default=None)
 
 
 def _nothing(_: int) -> Story:
@@ -250,3 +254,38 @@ _MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody],
 def meet(frame: PlacedLinks, dyad: Dyad) -> Meeting:
     """Draw the loci of a dyad and find where they meet."""
     return _MEETINGS[dyad.kind](frame, dyad, RigidBody(frame, dyad.first), RigidBody(frame, dyad.second))
+
+
+Choose = Callable[[int, Dyad | Cluster], Poses | None]
+"""Where the links of a group lie, by its place among the elements; None where they cannot be placed."""
+
+
+def assemble(
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+) -> Iterator[Element]:
+    """Place links element by element, each of which is given once it stands; ends where one cannot be placed.
+
+    Parameters
+    ----------
+    choose : which of the possible places the links of a group take
+    rolled : how far what rolls has gone (rad, m), where the values on paper do not tell
+    """
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            if rolled is not None and isinstance(element.driver, Rolled):
+                paper.values = {**paper.values, element.driver.key: rolled(element.driver)}
+            poses: Poses | None = {element.link: drive(paper, element)[0]}
+        else:
+            poses = choose(i, element)
+        if poses is None:
+            return
+        paper.poses.update(poses)
+        paper.settle(list(poses))
+        yield element
+
+
+def assembled(
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+) -> bool:
+    """Place the links of all elements, as `assemble`; whether they could be."""
+    return len(list(assemble(paper, elements, choose, rolled))) == len(elements)

@@ -4,26 +4,28 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.dyads import drive, meet
+from graphkin.construction.dyads import assembled, meet
 from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism, clusters, reduced_mechanisms
 from graphkin.construction.removed_constraint import RemovedConstraint
 from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
-from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
 from graphkin.structure.assembly import out_of_reach, ways
 
-__all__ = ["Choices", "best_first", "best_reduced", "drawn_near", "fitted", "found_near", "moved_to", "standing"]
+__all__ = [
+    "Choices", "Pace", "best_first", "best_reduced", "drawn_near", "fitted", "found_near", "moved", "moved_to",
+    "standing", "walk",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 
@@ -102,20 +104,53 @@ def _walk(
         abs(target[d.key] - own[d.key]) / (1.0 if isinstance(d, AngleDriver) else scene.size) for d in scene.drivers
     )
     longest = 1.0 / max(1, math.ceil(length / STEP))
-    step = last = longest / 64  # nothing says yet where the links go
-    before, at, t = dict(start), dict(start), 0.0
-    while t < 1.0:
-        step = min(step, longest, 1.0 - t)
-        guess = _ahead(before, at, step / last) if t > 0.0 else at
-        found = found_near(choices, elements, _part_way(own, target, t + step), guess, at)
-        if found is None or _moved(guess, found) > SURPRISE + _moved(at, found) * (0.3 if t > 0.0 else 0.0):
+    # nothing says yet where the links go: the first step is small
+    pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e8)
+
+    def near(t: float, guess: Poses, at: Poses) -> Poses | None:
+        return found_near(choices, elements, _part_way(own, target, t), guess, at)
+
+    part, poses = [(0.0, start), *walk(near, start, 0.0, 1.0, pace)][-1]
+    return dict(poses), part
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How a motion is followed: its longest and its first step, so far from where it was expected a link may be found
+    (in the size of the mechanism; and at the first step), and the step below which it is taken to end."""
+
+    longest: float
+    first: float
+    surprise: float
+    at_first: float
+    shortest: float
+
+
+def walk(
+    near: Callable[[float, Poses, Poses], Poses | None], start: Poses, begin: float, end: float, pace: Pace
+) -> Iterator[tuple[float, Poses]]:
+    """The positions from one to another, each followed from the one before; they end where the motion does.
+
+    Parameters
+    ----------
+    near : the position at a place of the way near which it is guessed, and the one before; None where nothing fits
+    begin, end : places of the way
+    """
+    before, at, t = start, start, begin
+    step = last = pace.first
+    while t < end:
+        step = min(step, pace.longest, end - t)
+        going = t > begin
+        guess = _ahead(before, at, step / last) if going else at
+        found = near(t + step, guess, at)
+        if found is None or moved(guess, found) > (pace.surprise + 0.3 * moved(at, found) if going else pace.at_first):
             step /= 2
-            if step < longest / 1e8:
-                break
+            if step < pace.shortest:
+                return
             continue
-        before, at, t, last = at, found, (1.0 if step >= 1.0 - t else t + step), step
+        before, at, t, last = at, found, (end if step >= end - t else t + step), step
         step *= 2
-    return at, t
+        yield t, at
 
 
 def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
@@ -123,14 +158,15 @@ def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
     made = {}
     for name, pose in at.items():
         old = before[name]
-        turn = pose.axis / old.axis
-        axis = pose.axis * cmath.rect(1.0, cmath.phase(turn) * times)
+        axis = pose.axis * cmath.rect(1.0, cmath.phase(pose.axis / old.axis) * times)
         made[name] = Pose(pose.origin + (pose.origin - old.origin) * times, axis / abs(axis))
     return made
 
 
-def _moved(one: Poses, other: Poses, size: float = 1.0) -> float:
-    return max(abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in one.items())
+def moved(one: Poses, other: Poses, size: float = 1.0) -> float:
+    """How far the link that moves most does (in the size of the mechanism, and its direction)."""
+    apart = (abs(p.origin - other[n].origin) / size + abs(p.axis - other[n].axis) for n, p in one.items())
+    return max(apart, default=0.0)
 
 
 def found_near(
@@ -142,38 +178,27 @@ def found_near(
     ground = structure.scene.frame.name
     values = structure.followed(values)
     frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
-    for element in elements:
-        if isinstance(element, Driven):
-            if isinstance(element.driver, Rolled):
-                value = rolled_near(structure, frame, element.driver, guess if start is None else start, guess)
-                frame.values = {**frame.values, element.driver.key: value}
-            frame.poses[element.link], _ = drive(frame, element)
-            continue
+    from_there = guess if start is None else start
+
+    def choose(_: int, element: Dyad | Cluster) -> Poses | None:
         if isinstance(element, Dyad):
-            near = _nearest(frame, element, guess)
-        else:
-            trial = _best(choices, element, frame, guess)
-            if trial is not None and element.rolling:
-                rolled = choices.last[element].rolled_from(guess if start is None else start, frame.mm)
-                near = fitted(rolled, frame, guess)
-            else:
-                near = None if trial is None else _closed(trial, frame, guess)
-        if near is None:
-            return None
-        frame.poses.update(near)
-    return dict(frame.poses)
+            return _nearest(frame, element, guess)
+        trial = _best(choices, element, frame, guess)
+        if trial is not None and element.rolling:
+            return fitted(choices.last[element].rolled_from(from_there, frame.mm), frame, guess)
+        return None if trial is None else _closed(trial, frame, guess)
+
+    def rolled(driver: Rolled) -> float:
+        return rolled_near(structure, frame, driver, from_there, guess)
+
+    return dict(frame.poses) if assembled(frame, elements, choose, rolled) else None
 
 
 def _nearest(frame: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
     """The assembly of a dyad that lies nearest to a guess."""
     meeting = meet(frame, dyad)
-    if not meeting.poses:
-        return None
-    return min(
-        meeting.poses,
-        key=lambda poses: added_up(abs(p.origin - guess[n].origin) ** 2 + abs(p.axis - guess[n].axis) ** 2
-                              for n, p in poses.items()),
-    )  # fmt: skip
+    branch = meeting.nearest(guess)
+    return None if branch is None else meeting.poses[branch]
 
 
 @dataclass(frozen=True)
@@ -207,7 +232,7 @@ def _tried(
         if two is None:
             return None
         slopes.append((np.array(reduced.gaps(two)) - gap) / NUDGE)
-        grown = max(_moved(group, two.poses, size), 1e-12) / NUDGE
+        grown = max(moved(group, two.poses, size), 1e-12) / NUDGE
         each.append(slopes[-1] / grown)
         quality = min(quality, 2.0 / grown)
     least = float(np.linalg.svd(np.array(each), compute_uv=False)[-1]) if len(at) > 1 else abs(float(each[0][0]))
@@ -256,17 +281,12 @@ def drawn_near(
 ) -> PlacedLinks | None:
     """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
     frame = reduced.opened(known, [float(v) for v in values])
-    for element in reduced.elements:
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-            frame.settle([element.link])
-            continue
-        near = _nearest(frame, element, guess)
-        if near is None:
-            return None
-        frame.poses.update(near)
-        frame.settle(list(near))
-    return frame
+
+    def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
+        assert isinstance(dyad, Dyad)
+        return _nearest(frame, dyad, guess)
+
+    return frame if assembled(frame, reduced.elements, choose) else None
 
 
 def best_reduced(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
-from graphkin.construction.follow import best_first, drawn_near, fitted
+from graphkin.construction.follow import Choices, best_first, best_reduced, drawn_near, fitted, standing
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
 from graphkin.construction.mechanism_acts import LaidOffAngle, RollingStarts, TrialPositions
 from graphkin.construction.reduced_mechanism import ReducedMechanism
@@ -26,10 +26,10 @@ from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.construction.trial_tables import table_of_one, table_of_several
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver
-from graphkin.structure import Driven, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Element, links_of
 from graphkin.words import Phrase
 
-__all__ = ["GroupTrial", "placed_by_trial", "trial_story"]
+__all__ = ["GroupTrial", "nearest_assembly", "placed_by_trial", "trial_story"]
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -54,6 +54,36 @@ class GroupTrial:
         """Where the links lie, at the scale of a sheet."""
         mm = frame.mm * self.reduced.structure.scene.size
         return {name: pose.scaled(mm) for name, pose in self.poses.items()}
+
+
+def nearest_assembly(
+    choices: Choices, elements: Sequence[Element], frame: PlacedLinks, poses: Poses, starting: Choices | None = None
+) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
+    """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
+    placed, so that links lie where they are known to lie (``poses``).
+
+    Parameters
+    ----------
+    starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
+    """
+    branches: dict[int, int] = {}
+    trials: dict[Cluster, GroupTrial] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Dyad):
+            branches[i] = meet(frame, element).nearest(poses) or 0
+        elif isinstance(element, Cluster):
+            if starting is not None and element.rolling:
+                reduced = standing(starting, element, frame, poses)
+            else:
+                reduced = best_reduced(choices, element, frame, poses)
+            if reduced is None:
+                links = Phrase("links", links=", ".join(element.links))
+                raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
+            given = starting is not None and bool(element.rolling)
+            trials[element] = GroupTrial(reduced.rolled_from(poses, frame.mm), poses, given)
+        for name in links_of(element):
+            frame.poses[name] = poses[name]
+    return branches, trials
 
 
 def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:

@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction.board import EXACT, Board, Instrument
-from graphkin.construction.dyads import drive, meet
+from graphkin.construction.dyads import assembled, drive, meet
 from graphkin.construction.elements import draw_element
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.mechanism_acts import HeldStill
 from graphkin.construction.polygons import Polygons
-from graphkin.construction.position import Branches, branches_at, choose, draw_position, place, start_board
+from graphkin.construction.position import Branches, as_meant, branches_at, draw_position, place, start_board
 from graphkin.construction.sheet import ORDERS, DiagramName, Pose, Scales, Step
 from graphkin.construction.steps import Cause
 from graphkin.errors import Problem, Unsolvable
@@ -195,7 +195,8 @@ def own_assembly(
     while i < len(elements):
         group = next((e for e in structure.elements if isinstance(e, Cluster) and elements[i] in e.parts), None)
         if group is None:
-            choose(opened, frame, i, elements[i], chosen)
+            meant = as_meant(opened, frame, chosen)
+            assembled(frame, elements[i : i + 1], lambda _, dyad, i=i, meant=meant: meant(i, dyad))  # type: ignore[misc]
             i += 1
             continue
         run = [j for j in range(i, len(elements)) if elements[j] in group.parts]

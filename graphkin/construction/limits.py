@@ -16,24 +16,23 @@ from numpy.polynomial import chebyshev
 
 from graphkin.construction.board import Instrument
 from graphkin.construction.cams_in_place import follower_limits
-from graphkin.construction.dyads import meet
-from graphkin.construction.follow import Choices, best_reduced, found_near
-from graphkin.construction.group_position import GroupTrial
+from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
+from graphkin.construction.group_position import nearest_assembly
 from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.position import place
-from graphkin.construction.sheet import LimitPosition, Limits, Pose, Scales
+from graphkin.construction.sheet import LimitPosition, Limits, Scales
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Dyad, Element, Slide, Structure, links_of
+from graphkin.structure import Element, Slide, Structure, links_of
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
 __all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
 
 STEP = math.radians(3.0)
-SURPRISE = 0.05  # so far from where it was expected a link may be found, in the size of the mechanism
+SURPRISE, AT_FIRST = 0.05, 0.28  # so far from where it was expected a link may be found, and at first
 SMALLEST = 1e-5  # steps shorter than this part of the usual one find nothing
 NODES = 16
 RESOLVED = 1e-13
@@ -87,34 +86,27 @@ class TurnOfCrank:
         choices = Choices(structure, elements)
         placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
         start = {name: pose for name, pose in poses.items() if name in placed}
-        before = at = Turned(values[driver.key], start)
-        turn = cls(structure, elements, values, choices, (at,))
-        found = [at]
-        end, step = at.value + math.tau, STEP
-        last = step
-        while at.value < end - 1e-12:
-            step = min(step, end - at.value)
-            guess = _ahead(before.poses, at.poses, step / last) if len(found) > 1 else at.poses
-            here = turn.near(at.value + step, guess)
-            allowed = SURPRISE if len(found) > 1 else 4 * SURPRISE
-            if here is None or _moved(guess, here.poses) > allowed + 0.3 * _moved(at.poses, here.poses):
-                step /= 2
-                if step < SMALLEST * STEP:
-                    raise Unsolvable("no whole turn", _short(why, driver.link, at.value))
-                continue
-            before, at, last = at, here, step
-            found.append(at)
-            step = min(2 * step, STEP)
-        if _moved(start, at.poses) > CLOSED:
+        value = values[driver.key]
+        turn = cls(structure, elements, values, choices, (Turned(value, start),))
+        found = [*turn.positions]
+        pace = Pace(STEP, STEP, SURPRISE, AT_FIRST, SMALLEST * STEP)
+        end = value + math.tau
+        found += (Turned(*one) for one in walk(lambda at, guess, _: turn._poses(at, guess), start, value, end, pace))
+        at = found[-1]
+        if at.value < end:
+            raise Unsolvable("no whole turn", _short(why, driver.link, at.value))
+        if moved(start, at.poses) > CLOSED:
             raise Unsolvable("no whole turn", Problem(why, Phrase("the motion does not repeat after one turn")))
         return cls(structure, elements, values, choices, tuple(found))
 
     def near(self, value: float, guess: Poses) -> Turned | None:
         """The position at a crank's value, near to where it is expected; None where nothing fits there."""
-        driver = self.structure.scene.drivers[0]
-        values = {**self.values, driver.key: value}
-        poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
+        poses = self._poses(value, guess)
         return None if poses is None else Turned(value, poses)
+
+    def _poses(self, value: float, guess: Poses) -> Poses | None:
+        values = {**self.values, self.structure.scene.drivers[0].key: value}
+        return found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
 
     def limits(self, output: Slide | str, why: str) -> tuple[Turned, Turned, float]:
         """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
@@ -224,16 +216,7 @@ def _drawn_again(
     def drawn(limit: LimitPosition) -> LimitPosition:
         there = {**values, key: limit.value}
         frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
-        branches, trials = {}, {}
-        choices = Choices(structure, elements)
-        for i, element in enumerate(elements):
-            if isinstance(element, Dyad):
-                ways = meet(frame, element).poses
-                branches[i] = min(range(len(ways)), key=lambda k: _moved(ways[k], limit.poses))
-            elif isinstance(element, Cluster):
-                reduced = best_reduced(choices, element, frame, limit.poses)
-                if reduced is not None:
-                    trials[element] = GroupTrial(reduced, limit.poses)
+        branches, trials = nearest_assembly(Choices(structure, elements), elements, frame, limit.poses)
         return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand, trials).frame.poses)
 
     return Limits(drawn(limits.low), drawn(limits.high), limits.swing)
@@ -259,19 +242,5 @@ def _travels(output: Slide | str, positions: Sequence[Turned]) -> list[float]:
     for here in positions:
         travels.append(_along(output, here, travels[-1] if travels else 0.0))
     return travels
-
-
-def _ahead(before: Poses, at: Poses, times: float) -> dict[str, Pose]:
-    """The next position if everything went on as in the last step."""
-    made = {}
-    for name, pose in at.items():
-        old = before[name]
-        axis = pose.axis * cmath.rect(1.0, cmath.phase(pose.axis / old.axis) * times)
-        made[name] = Pose(pose.origin + (pose.origin - old.origin) * times, axis)
-    return made
-
-
-def _moved(one: Poses, other: Poses) -> float:
-    return max((abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items()), default=0.0)
 
 

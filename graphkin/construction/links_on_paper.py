@@ -13,7 +13,8 @@ from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
 __all__ = [
-    "LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "hinge", "inner_hinge", "pushed_by_driver", "rail",
+    "LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
+    "pushed_by_driver", "rail",
 ]  # fmt: skip
 
 

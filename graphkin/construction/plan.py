@@ -13,20 +13,19 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.dyads import meet
 from graphkin.construction.execution import carried_out, finished
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
-from graphkin.construction.links_on_paper import PlacedLinks, apart
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.net import contacts_of
 from graphkin.construction.polygon_acts import Asked
-from graphkin.construction.position import branches_at
+from graphkin.construction.position import branches_at, rolled_position
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import DIAGRAMS, ORDERS, DiagramName, Extent, Order, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -38,12 +37,10 @@ from graphkin.structure import (
     Rolled,
     Structure,
     analyse,
-    links_of,
     needed,
     pins_on_circles,
 )
 from graphkin.structure.replacement import with_cams
-from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
@@ -246,8 +243,6 @@ def plan(
         return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
     if any(isinstance(e, Driven) and isinstance(e.driver, Rolled) for e in elements):
-        from graphkin.construction.rolling_on_paper import rolled_position
-
         values, branches = rolled_position(structure, elements, own, values)
         task = Task(structure, structure, asked, elements, values, branches, {}, {}, {}, (), {}, {}, ())
         return _planned(task, room)
@@ -270,37 +265,20 @@ def _by_trial(
 ) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
     """The assembly of each dyad, by what trial positions each larger group is placed, and how far what rolls on them
     has gone (rad, m)."""
-    from graphkin.construction.follow import Choices, best_reduced, standing
-    from graphkin.construction.group_position import GroupTrial
+    from graphkin.construction.follow import Choices
+    from graphkin.construction.group_position import nearest_assembly
     from graphkin.construction.touching import coordinate_on_paper
     from graphkin.construction.trial import found_by_trial
 
     choices = Choices(structure, elements)
     poses = found_by_trial(choices, elements, values, None if near is None else _known(near))
     scene = structure.scene
-    branches: dict[int, int] = {}
-    trials: dict[Cluster, GroupTrial] = {}
     at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
     there = choices.at_start if at_start else choices
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     placed = structure.followed(values) | starts
     frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
-    for i, element in enumerate(elements):
-        if isinstance(element, Dyad):
-            found = meet(frame, element).poses
-            branches[i] = min(range(len(found)), key=lambda k, found=found: apart(found[k], poses))  # type: ignore[misc]
-        elif isinstance(element, Cluster):
-            given = at_start and bool(element.rolling)
-            at_hand = standing(there, element, frame, poses) if given else best_reduced(choices, element, frame, poses)
-            if at_hand is None:
-                names = ", ".join(element.links)
-                raise Unsolvable(
-                    "dead point",
-                    Problem(Phrase("links", links=names), Phrase("every trial drawing is at a dead point")),
-                )
-            trials[element] = GroupTrial(at_hand.rolled_from(poses, frame.mm), poses, given)
-        for name in links_of(element):
-            frame.poses[name] = poses[name]
+    branches, trials = nearest_assembly(choices, elements, frame, poses, there if at_start else None)
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
     rolled = {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
     return branches, trials, starts | rolled

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.board import EXACT, Board, Instrument
-from graphkin.construction.dyads import Meeting, drive, meet
-from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.dyads import Choose, Meeting, assemble, assembled, drive, meet
+from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -25,21 +25,36 @@ from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.sheet import Pose
 from graphkin.construction.steps import Cause, Placing
 from graphkin.construction.strokes import Mark
+from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
+from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, Turn, links_of, named_with_contact, pick
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    Element,
+    Rolled,
+    Structure,
+    Turn,
+    links_of,
+    named_with_contact,
+    pick,
+)
 from graphkin.structure.assembly import follow, out_of_reach, ways
+from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
 
-__all__ = ["Branches", "branches_at", "choose", "draw_position", "place", "start_board"]
+__all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "rolled_position", "start_board"]
 
 TOUCH = 2e-14  # loci that miss each other by less, in their own size, touch
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 TURNS = 720  # positions looked at on the way round
 MOST = 12.0  # turns, or as much of another driver's way
+ROLL_STEP, SLIDE_STEP = math.radians(3.0), 0.02  # in which what rolls is followed (rad, and the mechanism's size)
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 Placed = dict[float, tuple[int, dict[str, Pose]]]
 
@@ -80,24 +95,19 @@ def place(
     frame = start_board(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
     causes: list[tuple[int, Cause]] = [(instrument.acts, Placing((structure.scene.frame.name,)))]
-    for i, element in enumerate(elements):
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-            frame.settle([element.link])
-            causes.append((instrument.acts, Placing((element.link,))))
-        elif isinstance(element, Dyad):
-            meeting = meet(frame, element)
-            _refuse(structure, element, meeting)
-            meetings[i] = meeting
-            poses = meeting.poses[branches.get(i, 0) % len(meeting.poses)]
-            frame.poses.update(poses)
-            frame.settle(list(poses))
-            causes.append((instrument.acts, Placing(element.links)))
-        else:
+
+    def chosen(i: int, element: Dyad | Cluster) -> Poses:
+        if isinstance(element, Cluster):
             from graphkin.construction.group_position import placed_by_trial
 
             placed_by_trial(frame, (trials or {})[element])
-            causes.append((instrument.acts, Placing(element.links)))
+            return {}
+        meeting = meetings[i] = meet(frame, element)
+        _refuse(structure, element, meeting)
+        return meeting.poses[branches.get(i, 0) % len(meeting.poses)]
+
+    for element in assemble(frame, elements, chosen):
+        causes.append((instrument.acts, Placing((element.link,) if isinstance(element, Driven) else element.links)))
     return Position(frame, meetings, causes)
 
 
@@ -154,10 +164,9 @@ def branches_at(
     if own is None:
         own = {d.key: d.values[0] for d in structure.scene.drivers}
     if chosen is None:
-        frame, found = start_board(structure, 1.0 / structure.scene.size, own), dict[int, int]()
-        for i, element in enumerate(elements):
-            choose(structure, frame, i, element, found)
-        chosen = found
+        chosen = dict[int, int]()
+        frame = start_board(structure, 1.0 / structure.scene.size, own)
+        assembled(frame, elements, as_meant(structure, frame, chosen))
     chosen = dict(chosen)
     if all(values[k] == v for k, v in own.items()):
         return chosen
@@ -171,17 +180,18 @@ def branches_at(
     raise Unsolvable("not assembled", out_of_reach(structure.scene, values, limits))
 
 
-def choose(structure: Structure, frame: PlacedLinks, i: int, element: Element, chosen: dict[int, int]) -> None:
-    """Place an element at the scene's own position; of a dyad in the assembly that the scene means, noted in
-    ``chosen``."""
-    if isinstance(element, Driven):
-        frame.poses[element.link], _ = drive(frame, element)
-    elif isinstance(element, Dyad):
+def as_meant(structure: Structure, frame: PlacedLinks, chosen: dict[int, int]) -> Choose:
+    """Each dyad in the assembly that the scene means at its own position, noted in ``chosen``."""
+
+    def choose(i: int, element: Dyad | Cluster) -> Poses:
+        assert isinstance(element, Dyad)
         meeting = meet(frame, element)
         _refuse(structure, element, meeting)
         candidates = [frame.fresh(poses) for poses in meeting.poses]
         chosen[i] = pick(structure.scene, element.links, candidates, 0).index
-        frame.poses.update(meeting.poses[chosen[i]])
+        return meeting.poses[chosen[i]]
+
+    return choose
 
 
 def _follow(
@@ -238,18 +248,19 @@ def _gap(
     first, poses = placed.get(t, (0, {}))
     frame.poses.update(poses)
     gap = -1.0
-    for i, element in enumerate(elements[first:], first):
+
+    def choose(place: int, element: Dyad | Cluster) -> Poses | None:
+        nonlocal gap
+        assert isinstance(element, Dyad)
+        i = first + place
         if i == len(elements) - 1:
             placed[t] = i, dict(frame.poses)
-        if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
-        elif isinstance(element, Dyad):
-            meeting = meet(frame, element)
-            gap = meeting.gap
-            if not meeting.poses:
-                return gap
-            flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
-            frame.poses.update(meeting.poses[(chosen[i] + flipped) % len(meeting.poses)])
+        meeting = meet(frame, element)
+        gap = meeting.gap
+        flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
+        return meeting.poses[(chosen[i] + flipped) % len(meeting.poses)] if meeting.poses else None
+
+    assembled(frame, elements[first:], choose)
     return gap
 
 
@@ -341,3 +352,75 @@ def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
         return getattr(pair, "point", "") or getattr(pair, "key", "")
 
     return name(dyad.outer_first), name(dyad.inner), name(dyad.outer_second)
+
+
+# -- what rolls --------------------------------------------------------------------------------------------------------
+
+
+def rolled_position(
+    structure: Structure, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float]
+) -> tuple[dict[str, float], dict[int, int]]:
+    """The driver values with those of everything that rolls (rad, m), and the assembly of each dyad there.
+
+    The way is gone from the scene's own position in small steps, and how far the links have turned or slid on which it
+    rolls is read off, whole turns included.
+
+    Raises
+    ------
+    Unsolvable : "not assembled" where the motion does not go on, "not drawn" for groups larger than a dyad
+    """
+    for element in elements:
+        if isinstance(element, Cluster):
+            names = ", ".join(element.links)
+            raise Unsolvable(
+                "not drawn", Problem(Phrase("links", links=names), Phrase("a larger group beside what rolls is not"))
+            )
+    mm = 1.0 / structure.scene.size
+    frame, chosen = start_board(structure, mm, own), dict[int, int]()
+    start: dict[Coordinate, float] = {}
+
+    def begun(driver: Rolled) -> float:
+        start.update((c, coordinate_on_paper(structure, frame, c)) for c, _ in driver.factors)
+        return driver.start
+
+    assembled(frame, elements, as_meant(structure, frame, chosen), begun)
+    near = dict(start)
+    drivers = structure.scene.drivers
+    long = max(abs(values[d.key] - own[d.key]) / (ROLL_STEP if isinstance(d, AngleDriver) else SLIDE_STEP / mm)
+               for d in drivers)  # fmt: skip
+    count = max(1, math.ceil(long))
+    for k in range(1, count + 1):
+        here = {key: own[key] + (values[key] - own[key]) * k / count for key in own} if k < count else dict(values)
+        frame = _rolled_on(structure, elements, start_board(structure, mm, here), frame.poses, start, near, chosen)
+    return {**values, **{key: v for key, v in frame.values.items() if key not in values}}, chosen
+
+
+def _rolled_on(
+    structure: Structure, elements: Sequence[Element], frame: PlacedLinks, before: Poses,
+    start: Mapping[Coordinate, float], near: dict[Coordinate, float], chosen: dict[int, int],
+) -> PlacedLinks:  # fmt: skip
+    """All links a step further; ``near`` and ``chosen`` go on with them."""
+
+    def choose(i: int, element: Dyad | Cluster) -> Poses:
+        assert isinstance(element, Dyad)
+        meeting = meet(frame, element)
+        branch = meeting.nearest(before)
+        if branch is None:
+            wanted = Phrase("choose a driver value that the motion reaches")
+            where = Phrase("links", links=", ".join(element.links))
+            raise Unsolvable("not assembled", Problem(where, Phrase("their loci do not meet on the way"), wanted))
+        chosen[i] = branch
+        return meeting.poses[branch]
+
+    def gone(driver: Rolled) -> float:
+        value = driver.start
+        for coordinate, factor in driver.factors:
+            read = coordinate_on_paper(structure, frame, coordinate)
+            if coordinate[0] == "angle":
+                read += math.tau * round((near[coordinate] - read) / math.tau)
+            near[coordinate] = read
+            value += factor * (read - start[coordinate])
+        return value
+
+    assembled(frame, elements, choose, gone)
+    return frame
