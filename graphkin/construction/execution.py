@@ -4,30 +4,37 @@ sheet; and again, with other errors."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Board, Hand, Instrument
 from graphkin.construction.elements import draw_element
-from graphkin.construction.inversion import TriangleDrawn
+from graphkin.construction.inversion import Inversion, TriangleDrawn
 from graphkin.construction.larger_groups import draw_group, drawn_group
-from graphkin.construction.net import node
+from graphkin.construction.net import TwoUnknowns, node
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.polygons import RATE, Polygons
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.seen_from import seen
-from graphkin.construction.sheet import DrawnGroup, Limits, Order, Scales, Sheet, Step, either_way
+from graphkin.construction.sheet import ORDERS, DrawnGroup, Limits, Order, Scales, Sheet, Step, either_way
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Vector
-from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
 from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.structure import Cluster, Element, needed
+from graphkin.structure import Cluster, Dyad, Element, Structure, links_of, needed
 from graphkin.words import Phrase
 
-__all__ = ["GoneOn", "OnBoard", "Redrawn", "carried_out", "finished", "positioned"]
+if TYPE_CHECKING:
+    from graphkin.construction.group_plan import GroupPlan
+    from graphkin.construction.group_position import GroupTrial
+
+__all__ = ["GoneOn", "OnBoard", "Redrawn", "Task", "carried_out", "finished", "positioned"]
+
+
 
 
 @dataclass(frozen=True)
@@ -356,3 +363,60 @@ def _pair(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
             Phrase("known are", names=known) if known else Phrase("this mechanism has none"),
         )
     )
+
+
+# -- what is to be drawn -----------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
+
+    ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
+    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
+    the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
+    With ``touching`` sliding contacts are drawn themselves, not what replaces them.
+    """
+
+    structure: Structure
+    opened: Structure
+    asked: tuple[Symbol, ...]
+    elements: tuple[Element, ...]
+    values: Mapping[str, float]
+    branches: Mapping[int, int]
+    trials: Mapping[Cluster, GroupTrial]
+    chains: Mapping[Dyad, TwoUnknowns]
+    plans: Mapping[Cluster, GroupPlan]
+    triangles: tuple[tuple[Inversion, int], ...]
+    limits: Mapping[str, Limits]
+    acting: Mapping[str, bool | None]
+    growing: tuple[Sheet, ...]
+    touching: bool = field(default=False, kw_only=True)
+
+    @cached_property
+    def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
+        """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
+        pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
+        wanted = needed(self.opened, pushes) if pushes else []
+        every = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
+        pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
+        return {"velocity": self.elements, "acceleration": pushed}
+
+    @cached_property
+    def left_out(self) -> tuple[Phrase, ...]:
+        """What nothing asked for needs."""
+        wanted = needed(self.opened, self.asked)
+        placed = {n for e in self.elements for n in links_of(e)}
+        pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
+        gone = {n for e in self.opened.elements if e not in wanted for n in links_of(e)}
+        names = [link.name for link in self.structure.scene.links]
+        without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
+        keys = "left out elements", "left out accelerations"
+        return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
+
+    @property
+    def in_order(self) -> Iterator[tuple[Order, Element]]:
+        """What is drawn in the polygons, element by element."""
+        for order in ORDERS:
+            for element in self.drawn[order]:
+                yield order, element

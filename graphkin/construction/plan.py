@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.execution import carried_out, finished
+from graphkin.construction.execution import Task, carried_out, finished
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.net import contacts_of
@@ -23,7 +23,6 @@ from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import DIAGRAMS, ORDERS, DiagramName, Extent, Order, Pose, Scales, Sheet, fitting_scale
 from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.construction.task import Task
 from graphkin.construction.touching import Touching
 from graphkin.errors import Unsolvable
 from graphkin.scene.loads import Loading

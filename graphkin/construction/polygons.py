@@ -23,7 +23,7 @@ from graphkin.construction.slip import NO_SLIP, Slip
 from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Aid, Bar, Image, Mark, Stroke, Vector
 from graphkin.construction.touching import Touching
-from graphkin.construction.wheels import Wheels
+from graphkin.construction.train_plan import Wheels
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.contacts import PlacedContact

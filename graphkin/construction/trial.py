@@ -1,7 +1,10 @@
 """Where the links of a mechanism with larger groups lie, by trial drawings (method of trial positions).
 
 The trial driver of a reduced mechanism is moved until what was left out fits; from one position of the real driver to
-the next the trial starts where the last one ended.
+the next the trial starts where the last one ended.  At the scene's own position the gaps of trial drawings are closed
+over the whole range of a trial driver, on a grid of several, or near the sketch of the problem: two sketched points of
+a link tell its direction.  Sliding pairs and driven angles tell it of others; where links are joined so but none of
+them has two such points, a guide and what slides on it tell it, once for either sense.
 """
 
 from __future__ import annotations
@@ -9,29 +12,37 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
+from itertools import islice, pairwise, product
 
-from graphkin.construction.dyads import drive, meet
+import numpy as np
+
+from graphkin.construction.dyads import assembled, drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
 from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Pose
-from graphkin.construction.sketched import as_sketched
-from graphkin.construction.trial_fits import all_fits, fits_between
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import added_up, dot
+from graphkin.plane import added_up, cross, dot
 from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, links_of, pick
 from graphkin.words import Phrase
 
-__all__ = ["Known", "found_by_trial"]
+__all__ = ["Known", "all_fits", "as_sketched", "fits_between", "found_by_trial"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 # to either side of a sketch, looked at one after the other
 WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
-
 Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
+GRID = 360  # trial values looked at over a turn
+COARSE = 12  # values of each of several trial drivers
+Branches = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
+MOST = 8  # positions that a sketch is taken to mean
+ALIKE = 0.05  # directions nearer to each other, and distances (of the size) that differ less, are the same in a sketch
+ACROSS = 0.1  # sine of the least angle at which two guides tell a place
+Axes = dict[str, complex]
 
 
 def found_by_trial(
@@ -70,37 +81,27 @@ def _own_position(choices: Choices, elements: Sequence[Element]) -> dict[str, Po
     elements = [element for element in structure.elements if wanted.intersection(links_of(element))]
     placed = structure.followed(own)
     frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
-    for element in elements:
-        if isinstance(element, Driven):
-            if isinstance(element.driver, Rolled):
-                frame.values = {**frame.values, element.driver.key: element.driver.start}
-            frame.poses[element.link], _ = drive(frame, element)
-        elif isinstance(element, Dyad):
-            _dyad_by_sketch(scene, structure, frame, element)
-        else:
+
+    def choose(_: int, element: Dyad | Cluster) -> Poses:
+        return _dyad_by_sketch(scene, frame, element) if isinstance(element, Dyad) else (
             _cluster_by_sketch(choices, frame, element)
+        )
+
+    assembled(frame, elements, choose, lambda driver: driver.start)
     return dict(frame.poses)
 
 
-def _dyad_by_sketch(scene: Mechanism, structure: Structure, frame: PlacedLinks, dyad: Dyad) -> None:
+def _dyad_by_sketch(scene: Mechanism, frame: PlacedLinks, dyad: Dyad) -> Poses:
     meeting = meet(frame, dyad)
     if not meeting.poses:
         raise Unsolvable(
             "not assembled",
             Problem(Phrase("links", links=", ".join(dyad.links)), Phrase("their loci do not meet here")),
         )
-    candidates = [_fresh(structure, frame, poses) for poses in meeting.poses]
-    frame.poses.update(meeting.poses[pick(scene, dyad.links, candidates, 0).index])
+    return meeting.poses[pick(scene, dyad.links, [frame.fresh(poses) for poses in meeting.poses], 0).index]
 
 
-def _fresh(structure: Structure, frame: PlacedLinks, poses: Poses) -> dict[str, complex]:
-    """Places (m) of the points that were not known before."""
-    known = {p for n in frame.poses for p in structure.links[n].points}
-    there = PlacedLinks(frame.links, frame.mm, frame.values, {**frame.poses, **poses})
-    return {p: there.point(n, p) / frame.mm for n in poses for p in structure.links[n].points if p not in known}
-
-
-def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -> None:
+def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -> Poses:
     found: list[dict[str, Pose]] = []
     # by several trial drivers: what one passes over at its dead point another sees
     by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
@@ -130,8 +131,8 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
             "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
         )
     found = _without_twins(structure, frame, cluster, found)
-    candidates = [_fresh(structure, frame, poses) for poses in found]
-    frame.poses.update(found[pick(structure.scene, cluster.links, candidates, None).index])
+    candidates = [frame.fresh(poses) for poses in found]
+    return found[pick(structure.scene, cluster.links, candidates, None).index]
 
 
 def _as_told(structure: Structure, frame: PlacedLinks, fits: Iterator[dict[str, Pose]]) -> list[dict[str, Pose]]:
@@ -148,7 +149,7 @@ def _as_told(structure: Structure, frame: PlacedLinks, fits: Iterator[dict[str, 
 def _is_told(structure: Structure, frame: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie about where they are sketched."""
     told = {**structure.scene.sketch, **structure.scene.drawn}
-    off = (abs(z - told[p]) for p, z in _fresh(structure, frame, poses).items() if p in told)
+    off = (abs(z - told[p]) for p, z in frame.fresh(poses).items() if p in told)
     return max(off, default=0.0) <= ROUGHLY * structure.scene.size
 
 
@@ -165,7 +166,7 @@ def _without_twins(
 
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
     for poses in sorted(found, key=positive, reverse=True):
-        places = _fresh(structure, frame, poses)
+        places = frame.fresh(poses)
         twins = (max((abs(z - other[p]) for p, z in places.items()), default=math.inf) for _, other in kept)
         if all(apart > TWINS * structure.scene.size for apart in twins):
             kept.append((poses, places))
@@ -221,7 +222,7 @@ def _sketched(
     fresh -= {p for n in known.poses for p in structure.links[n].points}
 
     def distance(poses: Poses) -> float:
-        there = _fresh(structure, known, {n: poses[n] for n in reduced.cluster.members if n in poses})
+        there = known.fresh({n: poses[n] for n in reduced.cluster.members if n in poses})
         return math.sqrt(added_up(abs(there[p] * known.mm - places[p]) ** 2 for p in fresh if p in there))
 
     return cmath.phase(axis / held.axis), abs(way), distance
@@ -229,3 +230,298 @@ def _sketched(
 
 def _near(one: Poses, other: Poses) -> bool:
     return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
+
+
+# -- where the gaps of trial drawings close ----------------------------------------------------------------------------
+
+
+def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
+    if len(reduced.trial) == 1:
+        yield from fits_between(reduced, known, *_span(reduced, 0))
+    else:
+        yield from _on_a_grid(reduced, known)
+
+
+def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
+    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
+    return (-math.pi, math.pi) if isinstance(reduced.trial[i], AngleDriver) else (-2.0, 2.0)
+
+
+def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Several trial drivers: each place of a grid improved."""
+    axes = []
+    for i in range(len(reduced.trial)):
+        start, end = _span(reduced, i)
+        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
+    trials = []
+    for values in product(*axes):
+        for branches, gaps in _gaps(reduced, known, values)[0].items():
+            trials.append((max(abs(g) for g in gaps), values, branches))
+    trials.sort(key=lambda one: one[0])
+    for _, values, branches in trials[:200]:
+        frame = _drawn(reduced, known, values, branches)
+        if frame is None:
+            continue
+        near = fitted(reduced, known, frame.poses, values)
+        if near is not None:
+            yield near
+
+
+def fits_between(
+    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
+) -> Iterator[dict[str, Pose]]:
+    low, high = _span(reduced, 0)
+    parts = max(1, round(GRID * (end - start) / (high - low)))
+    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
+    # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
+    drawn_at = cache(lambda value: _gaps(reduced, known, (value,)))
+    for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
+
+        def gap(value: float, branches: Branches = branches) -> float:
+            gaps, _ = drawn_at(value)
+            return gaps[branches][0] if branches in gaps else math.nan
+
+        def rooms(value: float, branches: Branches = branches) -> list[float]:
+            _, found = drawn_at(value)
+            return [found[before] for k in range(len(branches)) if (before := branches[:k]) in found]
+
+        for pair in pairwise((value, gap(value)) for value in grid):
+            (a, one), (b, two) = _inside(gap, rooms, *pair)
+            # nan compares false; a gap that leaps has passed half a turn, not zero
+            if not one * two <= 0.0 or abs(one - two) > 1.0:
+                continue
+            frame = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
+            if frame is not None and abs(reduced.gaps(frame)[0]) < 1e-9:
+                yield reduced.put_back(frame)
+
+
+def _gaps(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]
+) -> tuple[dict[Branches, list[float]], dict[Branches, float]]:
+    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; and how far
+    the loci of each dyad reach over each other (negative: they do not meet), by the assemblies of those before it.
+
+    A dyad is drawn once for all assemblies of those after it.
+    """
+    frame = reduced.opened(known, values)
+    found: dict[Branches, list[float]] = {}
+    rooms: dict[Branches, float] = {}
+
+    def draw(elements: Sequence[Driven | Dyad], branches: Branches) -> None:
+        if not elements:
+            found[branches] = reduced.gaps(frame)
+            return
+        element = elements[0]
+        if isinstance(element, Driven):
+            frame.poses[element.link], _ = drive(frame, element)
+            draw(elements[1:], branches)
+            return
+        meeting = meet(frame, element)
+        rooms[branches] = meeting.gap
+        for branch, poses in enumerate(meeting.poses):
+            frame.poses.update(poses)
+            draw(elements[1:], (*branches, branch))
+
+    draw(reduced.elements, ())
+    return found, rooms
+
+
+def _drawn(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branches
+) -> PlacedLinks | None:
+    """A trial drawing of the group; None where two loci do not meet."""
+    frame, wanted = reduced.opened(known, values), iter(branches)
+
+    def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
+        assert isinstance(dyad, Dyad)
+        meeting, branch = meet(frame, dyad), next(wanted)
+        return meeting.poses[branch] if branch < len(meeting.poses) else None
+
+    return frame if assembled(frame, reduced.elements, choose) else None
+
+
+def _inside(
+    gap: Callable[[float], float],
+    rooms: Callable[[float], Sequence[float]],
+    one: tuple[float, float],
+    two: tuple[float, float],
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Two trial values with their gaps; where only one can be drawn, the other is moved to the last that can: by
+    proportional division of how far the loci of the dyad reach over each other that cannot be drawn first, halving
+    where that is slow (as `_root`).
+
+    rooms : how far those of each dyad do at a value, as far as they can be drawn
+    """
+    if math.isnan(one[1]) == math.isnan(two[1]):
+        return one, two
+    good, bad = (one, two[0]) if math.isnan(two[1]) else (two, one[0])
+    last, near = good, abs(good[0] - bad) * 2.0**-45
+    share, side, stopped = 1.0, 0, -1
+    for count in range(180):
+        if abs(last[0] - bad) <= near:
+            break
+        apart = rooms(bad)
+        if len(apart) - 1 != stopped:
+            share, side, stopped = 1.0, 0, len(apart) - 1
+        room, short = rooms(last[0])[stopped], apart[stopped]
+        room, short = (room * share, short) if side < 0 else (room, short * share)
+        middle = (last[0] + bad) / 2
+        if room >= 0.0 > short and count % 4 < 3:
+            # a little off both ends, for one of them may be the last already
+            part = near / 2 / abs(bad - last[0])
+            middle = last[0] + (bad - last[0]) * min(max(room / (room - short), part), 1 - part)
+        there = gap(middle)
+        if math.isnan(there):
+            share, side, bad = share / 2 if side < 0 else 1.0, -1, middle
+        else:
+            share, side, last = share / 2 if side > 0 else 1.0, 1, (middle, there)
+    return good, last
+
+
+def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: float) -> float:
+    """Where a gap closes between two trial values: proportional division, halving where that is slow (regula falsi,
+    Illinois variant)."""
+    side = 0
+    for _ in range(100):
+        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
+        if not min(a, b) < c < max(a, b):
+            c = (a + b) / 2
+        fc = gap(c)
+        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
+            return c
+        if (fc > 0) == (fb > 0):
+            b, fb = c, fc
+            fa = fa / 2 if side == -1 else fa
+            side = -1
+        else:
+            a, fa = c, fc
+            fb = fb / 2 if side == 1 else fb
+            side = 1
+    return c
+
+
+# -- where links lie roughly, by the sketch ----------------------------------------------------------------------------
+
+
+def as_sketched(structure: Structure, cluster: Cluster, known: PlacedLinks) -> list[dict[str, Pose]]:
+    """All links known and those of a group roughly where they are sketched, in each position that the sketch can mean;
+    none where it does not tell of all of them."""
+    scene = structure.scene
+    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
+    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
+    sketch = _Sketch(structure, cluster, known, places)
+    return list(islice(sketch.positions(dict(known.poses), {n: pose.axis for n, pose in known.poses.items()}), MOST))
+
+
+class _Sketch:
+    def __init__(
+        self, structure: Structure, cluster: Cluster, known: PlacedLinks, places: Mapping[str, complex]
+    ) -> None:
+        self.members, self.places = cluster.members, places
+        self.slides = [p for p in cluster.pairs if isinstance(p, Slide)]
+        self.points = {n: {p: z * known.mm for p, z in link.points.items()} for n, link in structure.links.items()}
+        self.mm = known.mm
+        # links whose directions tell each other's: the second's is the first's times this
+        self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
+        self.joined += [
+            (d.relative_to, d.link, cmath.rect(1.0, known.values[d.key]))
+            for d in cluster.drivers if isinstance(d, AngleDriver)
+        ]  # fmt: skip
+
+    def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:
+        """Every position from the links and directions known already."""
+        self._spread(axes)
+        found = next(((n, axis) for n in self.members if n not in axes and (axis := self._by_points(n))), None)
+        if found is not None:
+            yield from self.positions(poses, {**axes, found[0]: found[1]})
+            return
+        self._place(poses, axes)
+        left = next((n for n in self.members if n not in axes), None)
+        if left is None:
+            if poses.keys() >= set(self.members):
+                yield poses
+            return
+        for name in self.members:
+            if name in axes:
+                continue
+            for axis in self._by_guides(name, poses):
+                yield from self.positions(dict(poses), {**axes, name: axis})
+            return
+
+    def _spread(self, axes: Axes) -> None:
+        grown = True
+        while grown:
+            grown = False
+            for base, name, turn in self.joined:
+                if base in axes and name not in axes:
+                    axes[name], grown = axes[base] * turn, True
+                elif name in axes and base not in axes:
+                    axes[base], grown = axes[name] * turn.conjugate(), True
+
+    def _by_points(self, name: str) -> complex | None:
+        own = {p: z for p, z in self.points[name].items() if p in self.places}
+        a, b = max(((a, b) for a in own for b in own), key=lambda ab: abs(own[ab[0]] - own[ab[1]]), default=("", ""))
+        if a == b or self.places[a] == self.places[b]:
+            return None
+        axis = (self.places[b] - self.places[a]) / (own[b] - own[a])
+        return axis / abs(axis)
+
+    def _by_guides(self, name: str, poses: Mapping[str, Pose]) -> list[complex]:
+        """Directions of a link at which what slides on guides, of it or of links joined to it, lies on them."""
+        turned: Axes = {name: 1 + 0j}
+        self._spread(turned)
+        rows = []
+        for s in self.slides:
+            block, rail = self._one_point(s.a, poses), self._one_point(s.b, poses)
+            if s.b not in turned or block is None or rail is None or block[0] == rail[0]:
+                continue
+            offset = (s.turn * block[1]).imag + cross(s.guide.direction, s.guide.through * self.mm - rail[1])
+            rows.append((turned[s.b] * s.guide.direction, block[0] - rail[0], offset))
+        senses = []
+        for along, way, offset in rows:
+            lean = math.asin(min(1.0, max(-1.0, offset / abs(way))))
+            # towards what slides first, as a rod lies on its cylinder
+            senses += [cmath.rect(1.0, cmath.phase(way) + turn) / along for turn in (-lean, lean - math.pi)]
+        told: list[tuple[float, complex]] = []
+        for axis in senses:
+            off = max(abs(cross(axis * along, way) - offset) for along, way, offset in rows)
+            if all(abs(axis - other) > ALIKE for _, other in told):
+                told.append((off, axis))
+        least = min((off for off, _ in told), default=0.0)
+        return [axis for off, axis in told if off <= least + ALIKE]
+
+    def _one_point(self, name: str, poses: Mapping[str, Pose]) -> tuple[complex, complex] | None:
+        """Where a point of a link lies, and its place on the link."""
+        if name in poses:
+            return poses[name].origin, 0j
+        return next(((self.places[p], z) for p, z in self.points[name].items() if p in self.places), None)
+
+    def _place(self, poses: dict[str, Pose], axes: Axes) -> None:
+        """The links of known direction: by a point of them, or where two of their guides tell the place."""
+        grown = True
+        while grown:
+            grown = False
+            for name in self.members:
+                if name in poses or name not in axes:
+                    continue
+                at = self._one_point(name, poses)
+                origin = at[0] - axes[name] * at[1] if at is not None else self._by_two_guides(name, poses, axes)
+                if origin is not None:
+                    poses[name], grown = Pose(origin, axes[name]), True
+
+    def _by_two_guides(self, name: str, poses: Mapping[str, Pose], axes: Axes) -> complex | None:
+        ways, offs = [], []
+        for s in self.slides:
+            other = s.b if s.a == name else s.a
+            if name not in (s.a, s.b) or other not in poses:
+                continue
+            along = axes[s.b] * s.guide.direction
+            through = axes[s.b] * s.guide.through * self.mm
+            start = poses[other].origin + (through if s.a == name else -through)
+            ways.append((-along.imag, along.real))
+            offs.append(cross(along, start))
+        if len(ways) < 2 or np.linalg.svd(np.array(ways), compute_uv=False)[-1] < ACROSS:
+            return None
+        x, y = np.linalg.lstsq(np.array(ways), np.array(offs), rcond=None)[0]
+        return complex(x, y)

@@ -12,11 +12,11 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import Plan, Slip, draft, execute, plan, removed_constraint
+from graphkin.construction import Plan, Slip, draft, execute, plan, reduced_mechanism
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.polygons import Polygons
-from graphkin.construction.removed_constraint import RemovedConstraint
+from graphkin.construction.reduced_mechanism import RemovedConstraint
 from graphkin.construction.strokes import Ray
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import PlacedLink
@@ -104,12 +104,12 @@ def test_check_fails_where_the_arc_that_trial_positions_meet_lies_a_tenth_of_a_d
     steps = draft(mechanism_of(name)).steps
     (arc,) = (step.act.table.missed[0] for step in steps if isinstance(step.act, TrialPositions) and step.act.table)
     assert "bar" == arc.kind
-    place = removed_constraint._place
+    place = reduced_mechanism._place
 
     def turned(links: Mapping[str, PlacedLink], poses: Poses, mm: float, point: str, link: str) -> complex:
         return place(links, poses, mm, point, link) * (TURNED if point == arc.names[0] else 1)
 
-    monkeypatch.setattr(removed_constraint, "_place", turned)
+    monkeypatch.setattr(reduced_mechanism, "_place", turned)
     assert not graphkin.check(name).ok
 
 
