@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import json
 import os
 import re
 import stat
@@ -14,7 +15,7 @@ from typing import IO, Any
 from graphkin.errors import CallError, Problem
 from graphkin.words import Phrase
 
-__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "opened", "path_of", "whole_file"]
+__all__ = ["Json", "OwnTables", "Tables", "folder_alone", "json_text", "opened", "path_of", "whole_file"]
 
 Json = str | float | bool | None | Sequence["Json"] | Mapping[str, "Json"]
 """What stands in a file of JSON or TOML."""
@@ -26,6 +27,19 @@ OwnTables = dict[str, Any]
 _LOCK = ".graphkin-writes-here"
 _HANDED_OVER = re.compile(r"/dev/stdin|/dev/fd/[0-9]+")
 """Names of what a shell has opened already for the program."""
+_WORD_OR_ZERO = re.compile(r'"(?:[^"\\]|\\.)*"|-0\.0(?![0-9e])')
+
+
+def json_text(data: object) -> str:
+    """Data as the text of JSON on one line: what would command a terminal is escaped, and 0 has no sign.
+
+    >>> json_text({"v": -0.0, "w": [-0.05, "-0.0"]})
+    '{"v": 0.0, "w": [-0.05, "-0.0"]}'
+    """
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, default=str)
+    if "-0.0" in text:
+        text = _WORD_OR_ZERO.sub(lambda found: "0.0" if found[0] == "-0.0" else found[0], text)
+    return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def path_of(place: str | os.PathLike[str]) -> Path:

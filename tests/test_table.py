@@ -153,3 +153,16 @@ def test_rows_as_they_are_found_become_columns() -> None:
     rows = [["v_B", 1, 2.5, True], ["v_C", 2, None, False]]
     table = Table.of(["symbol", "n", "value", "ok"], rows, ["", "", ".2f", ""])
     assert "symbol,n,value,ok\nv_B,1,2.50,yes\nv_C,2,,no\n" == table.csv()
+
+
+@pytest.mark.quick
+@pytest.mark.parametrize(
+    ("form", "cells"),
+    [("", ["0", "-0.004", "1.5"]), (".2f", ["0.00", "0.00", "1.50"]), (".3g", ["0", "-0.004", "1.5"])],
+)
+def test_zero_has_no_sign_in_csv_and_json(form, cells):
+    table = Table((Column("a", np.array([-0.0, -0.004, 1.5]), form=form),))
+    assert cells == table.csv().splitlines()[1:]
+    out = io.BytesIO()
+    table.write_json(out)
+    assert "-0.0," not in out.getvalue().decode()

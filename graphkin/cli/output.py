@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -13,6 +11,7 @@ from pathlib import Path
 import typer
 
 from graphkin.errors import Problem, Unsolvable, printable
+from graphkin.files import json_text
 from graphkin.words import Phrase, Wording, say
 
 __all__ = [
@@ -49,8 +48,7 @@ def complain(*found: Problem | Wording) -> None:
 
 
 def print_json(data: object) -> None:
-    text = json.dumps(data, ensure_ascii=False, allow_nan=False, default=str)
-    typer.echo(re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text))
+    typer.echo(json_text(data))
 
 
 def print_paths(paths: Iterable[Path]) -> None:

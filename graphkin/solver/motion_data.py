@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 
@@ -11,6 +9,7 @@ import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
+from graphkin.files import json_text as one_line
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
 from graphkin.solver.cam_profile import contact_of
@@ -59,17 +58,12 @@ def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Json]:
 def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]) -> Iterator[str]:
     """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
     piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
-    yield _text(first)[:-1] + ', "positions": ['
+    yield one_line(first)[:-1] + ', "positions": ['
     between, rest = "", iter(positions)
     while block := list(islice(rest, BLOCK)):
-        yield between + _text(block)[1:-1]
+        yield between + one_line(block)[1:-1]
         between = ", "
     yield "]}\n"
-
-
-def _text(data: object) -> str:
-    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
-    return re.sub("[\x7f-\x9f]", lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def head(motion: Motion) -> dict[str, Json]:

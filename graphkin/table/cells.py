@@ -47,7 +47,7 @@ def as_array(cells: Sequence[object]) -> Array:
 
 def plain(values: Array) -> list[Json]:
     """Cells for programs: ``None`` where there is no number."""
-    found: list[Json] = values.tolist()
+    found: list[Json] = (values + 0.0 if values.dtype.kind == "f" else values).tolist()
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         return [x if known else None for x, known in zip(found, np.isfinite(values).tolist(), strict=True)]
     return found
@@ -57,6 +57,7 @@ def formatted(values: Array, form: str) -> list[str]:
     """Numbers in a format, "" where there is none."""
     # "a: b" and "a: b" alike: one call for each cell, none of them in Python
     found = list(map(("{:" + form + "}").format, values.tolist()))
+    found = [text[1:] if text.startswith("-0") and not text.strip("-0.") else text for text in found]
     for k in np.flatnonzero(np.isnan(values)).tolist():
         found[k] = ""
     return found

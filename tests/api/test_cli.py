@@ -313,3 +313,10 @@ def test_a_larger_group_is_drawn_and_how_is_said():
     done = run("check", "double-butterfly", "--json")
     assert 0 == done.returncode
     assert "superposition" == json.loads(done.stdout)["construction"]
+
+
+@pytest.mark.parametrize(
+    "call", [("check", "sixbar-guide-40deg"), ("check", "cam-flat-face"), ("solve", "oldham-coupling", "--sweep", "12")]
+)
+def test_zero_has_no_sign_in_what_programs_read(call):
+    assert [] == re.findall(r"-0\.0(?![0-9e])", run(*call, "--json").stdout)
