@@ -11,6 +11,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.search import last_true
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.joints import Drive, driver_text
@@ -30,7 +31,7 @@ from graphkin.structure import (
     pick,
     started,
 )
-from graphkin.structure.assembly import TOUCH, last_true
+from graphkin.structure.assembly import TOUCH
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, Wording
 

@@ -8,18 +8,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.cams import FollowerLaw, LawCam, Lift, SmoothPart
+from graphkin.search import intervals, last_true
 from graphkin.solver.cam_profile import CamAt, cam_with
 from graphkin.solver.pose import Array
 
 __all__ = ["AtDegree", "CamStudy", "Jump", "least_base", "study_cam"]
 
 NODES = 97
-ROUNDS = 60
 SAME = 1e-9
 CORNER = 1e-9
 """A jump of a derivative smaller than this, of the greatest, is none."""
@@ -126,12 +127,9 @@ def least_base(cam: LawCam) -> float | None:
         low, high = high, 1.25 * high
         if high > LARGEST * cam.base:
             return None
-    for _ in range(ROUNDS):
-        middle = (low + high) / 2
-        if high - low < NEAREST * cam.base:
-            break
-        low, high = (low, middle) if good(middle) else (middle, high)
-    return high
+    if low == high:
+        return high
+    return last_true(lambda radii: np.array([good(float(r)) for r in radii]), high, low, 2, NEAREST * cam.base)
 
 
 def _value(at: AtDegree) -> float:
@@ -169,36 +167,21 @@ def _at(cam: LawCam, part: SmoothPart, degree: Array) -> tuple[CamAt, Lift]:
 
 def _extremes(cam: LawCam, part: SmoothPart, of: Of, rate: Of) -> Iterator[AtDegree]:
     """A quantity at the ends of a part and where its rate goes through zero."""
+    def rate_at(degree: Array) -> Array:
+        return np.asarray(np.nan_to_num(np.broadcast_to(rate(*_at(cam, part, degree)), degree.shape)))
+
+    def same_sign(rising: bool, degree: Array) -> Array:
+        return np.asarray(rate_at(degree) > 0.0 if rising else rate_at(degree) < 0.0)
+
     nodes = np.linspace(part.start, part.end, NODES)
-    rates = np.nan_to_num(np.broadcast_to(rate(*_at(cam, part, nodes)), nodes.shape))
+    rates = rate_at(nodes)
     spots = [part.start, part.end]
     for k in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
-        ends = (float(nodes[k]), float(rates[k])), (float(nodes[k + 1]), float(rates[k + 1]))
-        spots.append(_root(lambda x: float(np.ravel(rate(*_at(cam, part, np.array([x]))))[0]), *ends))
+        rising = bool(rates[k] > 0.0)
+        spots.append(last_true(partial(same_sign, rising), float(nodes[k]), float(nodes[k + 1])))
     spots += nodes[rates == 0.0].tolist()
     values = np.broadcast_to(of(*_at(cam, part, np.array(spots))), (len(spots),))
     yield from (AtDegree(float(v), d) for v, d in zip(values, spots, strict=True) if not math.isnan(v))
-
-
-def _root(of: Callable[[float], float], low: tuple[float, float], high: tuple[float, float]) -> float:
-    """Where a function goes through zero between two places with their values of opposite sign (Illinois rule: Dowell
-    and Jarratt, BIT 11, 1971)."""
-    (a, fa), (b, fb) = low, high
-    for _ in range(ROUNDS):
-        x = (a * fb - b * fa) / (fb - fa)
-        if not min(a, b) < x < max(a, b):
-            return min(max(x, min(a, b)), max(a, b))  # one of the ends, which is nearer than rounding
-        fx = of(x)
-        if fx == 0.0:
-            return x
-        if fx * fb < 0.0:
-            a, fa = b, fb
-        else:
-            fa /= 2.0
-        b, fb = x, fx
-        if abs(b - a) < 1e-15:
-            break
-    return b
 
 
 def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
@@ -206,11 +189,7 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
     stretches: list[list[float]] = []
     for part in cam.law.parts:
         nodes = np.linspace(part.start, part.end, 4 * NODES)
-        bad = _too_sharp(cam, *_at(cam, part, nodes))
-        edges = np.flatnonzero(bad[:-1] != bad[1:])
-        cuts = [_edge(cam, part, float(nodes[k]), float(nodes[k + 1]), bool(bad[k])) for k in edges]
-        bounds = ([part.start] if bad[0] else []) + cuts + ([part.end] if bad[-1] else [])
-        for start, end in zip(bounds[::2], bounds[1::2], strict=True):
+        for start, end in intervals(partial(_too_sharp, cam, part), nodes):
             if stretches and abs(stretches[-1][1] - start) < SAME:
                 stretches[-1][1] = end
             else:
@@ -218,20 +197,13 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
     yield from ((start, end) for start, end in stretches if end > start)
 
 
-def _too_sharp(cam: LawCam, at: CamAt, lift: Lift) -> Array:
+def _too_sharp(cam: LawCam, part: SmoothPart, degree: Array) -> Array:
     """Where the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
     convex pitch curve is round."""
+    at, _ = _at(cam, part, degree)
     if cam.flat:
         return np.asarray(at.radius < 0.0)
     return np.asarray((at.radius < 0.0) & (at.radius + cam.roller > 0.0))
-
-
-def _edge(cam: LawCam, part: SmoothPart, low: float, high: float, before: bool) -> float:
-    for _ in range(ROUNDS):
-        middle = (low + high) / 2
-        here = bool(np.ravel(_too_sharp(cam, *_at(cam, part, np.array([middle]))))[0])
-        low, high = (middle, high) if here == before else (low, middle)
-    return (low + high) / 2
 
 
 def _jumps(cam: LawCam) -> Iterator[Jump]:

@@ -13,6 +13,7 @@ from graphkin.plane import cross
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.search import least_value
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
@@ -92,8 +93,7 @@ def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, f
     return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
 
 
-SAMPLES, ROUNDS = 720, 60
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+SAMPLES = 720
 
 
 @dataclass(frozen=True)
@@ -228,8 +228,13 @@ def _greatest(reach: DriverRange, contact: PlacedContact, follower: str) -> tupl
     """The greatest pressure angle of a turn, and the driver's angle there."""
     grid = np.linspace(0.0, math.tau, SAMPLES, endpoint=False) + 1e-3
     values = np.nan_to_num(_pressures(reach, contact, follower, grid), nan=-1.0)
-    best = max(_refined(reach, contact, follower, float(grid[k])) for k in _tops(values))
-    return best[0], float(reach.value(np.array(best[1])))
+
+    def lack(angle: Array) -> Array:
+        return np.asarray(1.0 - np.nan_to_num(_pressures(reach, contact, follower, angle % math.tau), nan=-1.0))
+
+    step = math.tau / SAMPLES
+    at, most = min((least_value(lack, grid[k] - step, grid[k] + step) for k in _tops(values)), key=lambda low: low[1])
+    return 1.0 - most, float(reach.value(np.array(at % math.tau)))
 
 
 def _tops(values: Array) -> Iterator[int]:
@@ -237,29 +242,3 @@ def _tops(values: Array) -> Iterator[int]:
     most = float(values.max())
     around = np.maximum(np.roll(values, 1), np.roll(values, -1))
     yield from np.flatnonzero((values >= around) & (values > most - 0.01)).tolist()[:8]
-
-
-def _refined(reach: DriverRange, contact: PlacedContact, follower: str, at: float) -> tuple[float, float]:
-    """The greatest value about a place, by golden section."""
-    step = math.tau / SAMPLES
-    low, high = at - step, at + step
-
-    def value(x: float) -> float:
-        found = float(_pressures(reach, contact, follower, np.array([x % math.tau]))[0])
-        return -1.0 if math.isnan(found) else found
-
-    a, b = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-    fa, fb = value(a), value(b)
-    for _ in range(ROUNDS):
-        if fa > fb:
-            high, b, fb = b, a, fa
-            a = high - GOLDEN * (high - low)
-            fa = value(a)
-        else:
-            low, a, fa = a, b, fb
-            b = low + GOLDEN * (high - low)
-            fb = value(b)
-        if high - low < 1e-9:
-            break
-    middle = (low + high) / 2 % math.tau
-    return max(value(middle), fa, fb), middle

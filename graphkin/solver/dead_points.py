@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from itertools import product
@@ -12,6 +12,7 @@ import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.search import last_true, least_value
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.decimals import PI, meant_value, working
 from graphkin.solver.discriminant import Discriminant, newton, touch
@@ -20,7 +21,6 @@ from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, analyse, in_stages
-from graphkin.structure.assembly import last_true
 from graphkin.words import Phrase, clauses, listed
 
 __all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
@@ -124,7 +124,7 @@ def _of_group(structure: Structure, i: int, signs: Mapping[int, float], grid: Ar
     for k in range(1, len(grid) - 1):
         before, here, after = value[k - 1], value[k], value[k + 1]
         if np.isfinite(before + here + after) and abs(here) <= min(before, after) and here < max(before, after):
-            about, least = _least(gap, float(grid[k - 1]), float(grid[k + 1]))
+            about, least = least_value(gap, float(grid[k - 1]), float(grid[k + 1]))
             if abs(least) < TOUCH:
                 touched |= {k - 1, k}
                 yield from _touching(structure, i, signs, about)
@@ -166,15 +166,6 @@ _ONE = np.asarray(1.0)
 
 def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> Discriminant:
     return Discriminant(structure, i, {j: np.asarray(s) for j, s in signs.items()})
-
-
-def _least(function: Callable[[Array], Array], low: float, high: float) -> tuple[float, float]:
-    for _ in range(40):
-        at = np.linspace(low, high, 9)
-        value = function(at)
-        k = int(np.nanargmin(value))
-        low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, 8)])
-    return float(at[k]), float(value[k])
 
 
 def from_dead_point(structure: Structure) -> Structure:

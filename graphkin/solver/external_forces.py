@@ -12,11 +12,12 @@ import numpy as np
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.search import changes
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
 from graphkin.solver.reach import driver_range
-from graphkin.solver.whole_turn import extremes, where_true
+from graphkin.solver.whole_turn import extremes
 
 __all__ = ["EDGE", "Action", "actions", "load_edges", "spring_ends", "stroke_of", "without_line"]
 
@@ -258,12 +259,4 @@ def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
 def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:
     """Where something changes its sign over the range."""
     grid = np.linspace(*reach.ends, SAMPLES + 1)
-    signs = value(grid) >= 0.0
-    found = []
-    for k in np.flatnonzero(signs[1:] != signs[:-1]):
-
-        def there(offset: Array, after: bool = bool(signs[k + 1])) -> Array:
-            return np.asarray((value(offset) >= 0.0) == after)
-
-        found.append(where_true(there, float(grid[k]), float(grid[k + 1])))
-    return found
+    return changes(lambda offset: value(offset) >= 0.0, grid)

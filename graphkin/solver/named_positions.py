@@ -12,11 +12,12 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
+from graphkin.search import last_true
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
 from graphkin.solver.reach import driver_range
-from graphkin.solver.whole_turn import Extremes, extremes, where_true
+from graphkin.solver.whole_turn import Extremes, extremes
 from graphkin.words import Phrase
 
 __all__ = ["PlacesByName", "named_positions", "standing"]
@@ -67,11 +68,11 @@ class PlacesByName:
         start = found.low if place.sense > 0 else found.high
         goal = start + place.sense * place.at * found.stroke
 
-        def done(part: Array) -> Array:
+        def before(part: Array) -> Array:
             travel = self.reach.motion((begin + part) % math.tau).slide(place.pair).travel
-            return np.asarray(place.sense * (travel - goal) >= 0.0)
+            return np.asarray(place.sense * (travel - goal) < 0.0)
 
-        part = span * place.at if place.at in (0.0, 1.0) else where_true(done, 0.0, span)
+        part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)
         return float(self.reach.value(np.array((begin + part) % math.tau)))
 
     def _extremes(self, symbol: Symbol) -> Extremes:

@@ -12,18 +12,18 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
+from graphkin.search import last_true
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.followers import beginning
 from graphkin.solver.pose import Array
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
 
-__all__ = ["Extremes", "extremes", "where_true"]
+__all__ = ["Extremes", "extremes"]
 
 Course = Callable[[Array], tuple[Array, Array, Array]]
 
 SAMPLES = 720
-PARTS = 64
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
 STEPS = 6
 NEAR = 1e-14
@@ -125,35 +125,24 @@ def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
     return Extremes(low[0], high[0], low[1], high[1])
 
 
-def where_true(holds: Callable[[Array], Array], low: float, high: float) -> float:
-    """The first place of a range (to the last digit) from which on something holds, which holds at its end."""
-    while True:
-        places = np.linspace(low, high, PARTS + 1)
-        k = int(np.argmax(np.append(holds(places[:-1]), True)))
-        a, b = float(places[max(k - 1, 0)]), float(places[k])
-        if b - a <= 4e-16 * max(abs(a), abs(b), 1.0) or (a, b) == (low, high):
-            return (a + b) / 2
-        low, high = a, b
-
-
 def _turning_point(course: Course, sign: float, places: Array, rates: Array) -> float:
     """Where between two places, with the rates there, a rate of this sign changes it: by Newton's method, beside its
     answer to the last digit."""
     low, high = places.tolist()
 
-    def turned(offset: Array) -> Array:
-        return np.asarray(sign * course(offset)[1] < 0.0)
+    def before(offset: Array) -> Array:
+        return np.asarray(sign * course(offset)[1] >= 0.0)
 
     at = low + (high - low) * float(rates[0] / (rates[0] - rates[1]))
     for _ in range(STEPS):
         _, rate, slope = (float(found[0]) for found in course(np.array([at])))
         if not slope or not low <= (last := at) - rate / slope <= high:
-            return where_true(turned, low, high)
+            return last_true(before, low, high)
         at = last - rate / slope
         if abs(at - last) < 1e-7:
             break
-    found = where_true(turned, at - NEAR, at + NEAR)
-    return found if abs(found - at) < 0.9 * NEAR else where_true(turned, low, high)
+    found = last_true(before, at - NEAR, at + NEAR)
+    return found if abs(found - at) < 0.9 * NEAR else last_true(before, low, high)
 
 
 def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:

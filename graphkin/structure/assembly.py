@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 from graphkin.errors import Problem, SceneError
 from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.search import last_true, least_value
 from graphkin.words import Phrase
 
-__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "last_true", "out_of_reach", "pick",
-           "ways"]
+__all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "out_of_reach", "pick", "ways"]
 
 
 @dataclass(frozen=True)
@@ -218,7 +218,7 @@ def follow(
         change = max(abs(value[before] - value[i]), abs(value[after] - value[i]))
         if value[before] < value[i] or value[after] < value[i] or value[i] > change:
             continue
-        where, least = _least(discriminant, grid[before], grid[after])
+        where, least = least_value(discriminant, grid[before], grid[after], -TOUCH)
         exact = least_closes(where) if least_closes and flips and abs(least) <= touch else None
         where, sign = exact or (where, None)
         if least > touch or where <= grid[0] + START or where >= grid[-1] or sign == 1:
@@ -233,25 +233,3 @@ def follow(
 
 def _end(discriminant: Callable[[Reals], Reals], floor: float, low: float, high: float) -> float:
     return last_true(lambda t: discriminant(t) >= floor, low, high)
-
-
-def _least(function: Callable[[Reals], Reals], low: float, high: float) -> tuple[float, float]:
-    """Place and value of the least value between two parameters, by repeated sections."""
-    while True:
-        at = np.linspace(low, high, 17)
-        value = function(at)
-        i = int(np.argmin(value))
-        if value[i] < -TOUCH or high - low < 1e-11:
-            return float(at[i]), float(value[i])
-        low, high = float(at[max(i - 1, 0)]), float(at[min(i + 1, 16)])
-
-
-def last_true(holds: Callable[[Reals], NDArray[np.bool_]], low: float, high: float) -> float:
-    """The parameter up to which a condition holds that is true at ``low`` and false at ``high``, in either order."""
-    while True:
-        at = np.linspace(low, high, 33)
-        bad = np.flatnonzero(~holds(at[1:]))
-        i = int(bad[0]) if len(bad) else 31
-        if abs(high - low) <= 4e-16 * max(1.0, abs(high)) or (at[i], at[i + 1]) == (low, high):
-            return float(low)
-        low, high = float(at[i]), float(at[i + 1])

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.continuity import FAR
 from graphkin.solver.engine import positions
@@ -22,7 +23,6 @@ from graphkin.solver.flywheel import FlywheelStudy, flywheel_of
 from graphkin.solver.joints import Drive
 from graphkin.solver.whole_turn import Extremes, extremes
 from graphkin.structure import Cluster, Dyad
-from graphkin.structure.assembly import last_true
 from graphkin.study.extremes import Extreme, Least, Traced, trace
 from graphkin.study.grashof import BasicLoop, loops
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
@@ -278,24 +278,14 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list
     else:
         wide = max(FAR * reach.scene.size, 2 * abs(own.low), 2 * abs(own.high))
         grid = np.linspace(-wide, wide, GRID + 1)
-    holds = closes(grid)
     found: list[AssemblyRange] = []
-    k = 0
-    while k <= GRID:
-        if not holds[k]:
-            k += 1
-            continue
-        end = k
-        while end < GRID and holds[end + 1]:
-            end += 1
-        low = float(grid[k]) if k == 0 else last_true(closes, float(grid[k]), float(grid[k - 1]))
-        high = float(grid[end]) if end == GRID else last_true(closes, float(grid[end]), float(grid[end + 1]))
+    for low, high in intervals(closes, grid):
+        open_low, open_high = low == grid[0], high == grid[-1]
         apart = not (low < own.high and high > own.low + 2e-9)
-        if apart and turning and k > 0 and end < GRID:
+        if apart and turning and not open_low and not open_high:
             found.append(_within(low, high))
         elif apart and not turning:
-            found.append(AssemblyRange(low, high, False, open_low=k == 0, open_high=end == GRID))
-        k = end + 1
+            found.append(AssemblyRange(low, high, False, open_low=open_low, open_high=open_high))
     return found
 
 

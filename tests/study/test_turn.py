@@ -14,8 +14,7 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
-from graphkin.study.curves import CurveParameter
-from graphkin.study.extremes import _Seams
+from graphkin.study.extremes import CurveParameter, _Seams
 from graphkin.study.turn import Output, TurnStudy, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes

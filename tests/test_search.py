@@ -1,4 +1,4 @@
-"""Zeros and extremes of curves whose values are known."""
+"""Zeros, extremes and intervals of functions whose values are known."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.study.curves import resolve
+from graphkin.search import changes, intervals, last_true, least_value, resolve
 
 pytestmark = pytest.mark.quick
 
@@ -81,3 +81,36 @@ def test_what_may_be_rounding_is_not_looked_into() -> None:
 def test_where_a_curve_has_no_values_it_has_no_zeros() -> None:
     pieces = resolve(lambda t: column(np.where(np.abs(t - 0.3) < 1e-3, np.nan, t - 0.6)), 0.0, 1.0)
     assert [0.6] == pytest.approx(pieces.zeros(0).tolist(), abs=1e-12)
+
+
+def test_a_condition_holds_up_to_the_last_digit_either_way() -> None:
+    assert (2.0**0.5, -(2.0**0.5)) == pytest.approx(
+        (last_true(lambda x: x * x < 2.0, 0.0, 2.0), last_true(lambda x: x * x < 2.0, 0.0, -2.0)), rel=1e-15
+    )
+
+
+def test_a_dear_condition_is_asked_place_by_place() -> None:
+    asked: list[int] = []
+
+    def holds(x: Array) -> NDArray[np.bool_]:
+        asked.append(len(x))
+        return x < 0.3
+
+    assert (pytest.approx(0.3, abs=1e-3), {1}) == (last_true(holds, 0.0, 1.0, 2, 1e-3), set(asked))
+
+
+def test_intervals_go_from_the_first_place_to_the_last_at_most() -> None:
+    grid = np.linspace(0.0, 2 * np.pi, 50)
+    assert [0.0, np.pi / 2, 3 * np.pi / 2, 2 * np.pi] == pytest.approx(
+        [x for ends in intervals(lambda x: np.cos(x) >= 0.0, grid) for x in ends], abs=1e-15
+    )
+
+
+def test_a_condition_that_holds_at_the_first_place_alone_changes_there() -> None:
+    assert [0.0] == changes(lambda x: x <= 0.0, np.linspace(0.0, 1.0, 5))
+
+
+def test_a_valley_is_found_beside_places_without_a_value() -> None:
+    with np.errstate(invalid="ignore"):
+        place, value = least_value(lambda x: (x - 0.3) ** 2 + 1.0 + 0.0 * np.sqrt(0.9 - x), 0.0, 1.0)
+    assert (pytest.approx(0.3, abs=1e-7), 1.0) == (place, value)
