@@ -19,13 +19,16 @@ from graphkin.account.forces import (
 )
 from graphkin.account.given_loads import spring_lines
 from graphkin.account.notation import Letters, force_letters, pole
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector
-from graphkin.construction.sheet import Sheet
-from graphkin.drawing.figures.lever import lever_on_page
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, LeverRow
+from graphkin.construction.sheet import Extent, Sheet, fitting_scale
+from graphkin.drawing.box import Box
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say
 
-__all__ = ["ForceStage", "ForceStep", "force_stages"]
+__all__ = ["SHORT", "ForceStage", "ForceStep", "force_stages", "lever_extent", "lever_on_page"]
+
+WIDEST, HIGHEST = 134.0, 130.0  # mm of a lever
+SHORT = 0.3  # mm: a nearer end point is at the pole
 
 Words = tuple[tuple[str, str], ...]
 """(language, words with symbols) for each language."""
@@ -193,3 +196,31 @@ def _levers(writer: _StageWriter) -> Iterator[ForceStage]:
             total, balance = lever_sum(writer.sheet, state, shown, writer.letters)
             steps.append(writer.step(balance, [total], [lever.balance]))
             yield ForceStage("lever", writer.said(Phrase("lever")), tuple(steps), state, again=bool(k))
+
+
+def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
+    """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
+    box = lever_extent(lever)
+    if not lever.virtual and box.width <= WIDEST and box.height <= HIGHEST:
+        return lever, lever.per_mm
+    metres = sheet.scene.units.rates.metres
+    extent = Extent(box.width * lever.per_mm, box.height * lever.per_mm)
+    per_mm = fitting_scale(extent, (WIDEST, HIGHEST), 1.0 / metres) * metres
+    times = lever.per_mm / per_mm
+
+    def larger(row: LeverRow) -> LeverRow:
+        pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
+        return replace(row, at=row.at * times, arm=row.arm * times, moment=row.moment * times, pair=pair)
+
+    made = replace(
+        lever, per_mm=per_mm, ends={name: z * times for name, z in lever.ends.items()},
+        rows=tuple(map(larger, lever.rows)), unknown=larger(lever.unknown),
+    )  # fmt: skip
+    return made, made.per_mm
+
+
+def lever_extent(lever: Lever) -> Box:
+    """The box (mm, y down, about the pole) around the end points and forces of a lever."""
+    spots = [0j, *(row.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
+    spots += [z for z in lever.ends.values() if abs(z) > SHORT]
+    return Box.around([z.conjugate() for z in spots])

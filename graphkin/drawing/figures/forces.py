@@ -18,9 +18,8 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.force_polygon import drawn_polygon, extent_of, polygons_of
 from graphkin.drawing.force_stages import ForceStage, force_stages
-from graphkin.drawing.free_body import free_body, sketch_height
+from graphkin.drawing.free_body import drawn_polygon, extent_of, free_body, polygons_of, sketch_height
 from graphkin.drawing.ink.primitives import Group
 from graphkin.drawing.place.piece import Piece, layer_groups
 from graphkin.drawing.stepwise import tied

@@ -11,10 +11,11 @@ from graphkin.account.headings import drivers, written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
-from graphkin.construction.sheet import Extent, Sheet, fitting_scale
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import INSIDE, Block, FigurePage, column, table
+from graphkin.drawing.boxes import Block, FigurePage, column, table
 from graphkin.drawing.figures import Figure
+from graphkin.drawing.force_stages import SHORT, lever_extent, lever_on_page
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
@@ -28,12 +29,10 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, languages, word
 from graphkin.words.written import amount, on_paper, product
 
-__all__ = ["FIGURES", "lever_figure", "lever_on_page"]
+__all__ = ["FIGURES", "lever_figure"]
 
-HIGHEST = 130.0  # mm of a lever
 ARROW, ROOM = 14.0, 20.0  # mm of an arrow that only shows a direction, and around the lever
 COLUMNS = 42.0, 34.0, 34.0, 64.0  # mm: force, its size, arm, moment
-SHORT = 0.3  # mm: a nearer end point is at the pole
 DIGITS = 5
 
 
@@ -73,7 +72,7 @@ def lever_figure(
 def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
     """A lever, its scale, the moment of each force, their sum, and what balances beside the value of the polygons."""
     scaled, per_mm = lever_on_page(page.sheet, lever)
-    box, units = _extent(scaled), page.sheet.scene.units
+    box, units = lever_extent(scaled), page.sheet.scene.units
     yield page.panel(
         box.height + 2 * ROOM,
         lambda room: _drawn(page.sheet, scaled, page.letters, room, room.centre - box.centre, tag),
@@ -86,34 +85,6 @@ def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Itera
     yield table(heads, [_row(row, units.newtons, page.letters) for row in scaled.rows if row.force], COLUMNS)
     total, balance = lever_sum(page.sheet, state, scaled, page.letters)
     yield column(page.prose((total,)), page.prose((balance,), bold=True))
-
-
-def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
-    """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
-    box = _extent(lever)
-    wide, high = INSIDE - 2 * ROOM, HIGHEST
-    if not lever.virtual and box.width <= wide and box.height <= high:
-        return lever, lever.per_mm
-    metres = sheet.scene.units.rates.metres
-    extent = Extent(box.width * lever.per_mm, box.height * lever.per_mm)
-    per_mm = fitting_scale(extent, (wide, high), 1.0 / metres) * metres
-    times = lever.per_mm / per_mm
-
-    def larger(row: LeverRow) -> LeverRow:
-        pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
-        return replace(row, at=row.at * times, arm=row.arm * times, moment=row.moment * times, pair=pair)
-
-    made = replace(
-        lever, per_mm=per_mm, ends={name: z * times for name, z in lever.ends.items()},
-        rows=tuple(map(larger, lever.rows)), unknown=larger(lever.unknown),
-    )  # fmt: skip
-    return made, made.per_mm
-
-
-def _extent(lever: Lever) -> Box:
-    spots = [0j, *(row.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
-    spots += [z for z in lever.ends.values() if abs(z) > SHORT]
-    return Box.around([z.conjugate() for z in spots])
 
 
 def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: complex, tag: str) -> Piece:

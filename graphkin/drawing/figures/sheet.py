@@ -1,10 +1,12 @@
 """The sheet: mechanism, both polygons, equations, given data, readings and title block on one page, true to scale; and
-under them the photograph or scan, with the lines that were read off it."""
+under them the photograph or scan, with the lines that were read off it.  What of its equations, data, insets and
+readings finds no room in its own place stands where others have left some, or on further pages.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice, product
 
@@ -12,37 +14,38 @@ from graphkin.account.headings import (
     FIGURE_WORDS,
     describe,
     dimensions_in,
+    drivers,
     facts,
     figure_title,
     punctuation,
     term,
+    titles,
 )
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.account.written_lines import written_lines
-from graphkin.checking.report import Report
+from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN
-from graphkin.drawing.equations import LineToSet, equations_in_room, line_to_set
+from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page, line_to_set
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.figures.loops import loops_figure
 from graphkin.drawing.figures.train import train_figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Polygon, Primitive, Run, Text, moved, walk
-from graphkin.drawing.overleaf import Remainder, below, captioned, continued, heading, overleaf
+from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
 from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
 from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets
 from graphkin.drawing.parts.mechanism import mechanism_piece
 from graphkin.drawing.parts.polygon_on_page import extent
 from graphkin.drawing.parts.scans import background_piece
+from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
-from graphkin.drawing.sheet_plan import GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
-from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, table_rows
-from graphkin.drawing.text import fitted, plain
-from graphkin.drawing.title_block import title_block
+from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
+from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, set_lines, table_rows
+from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import languages, word
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["FIGURES", "sheet_page"]
 
@@ -284,6 +287,226 @@ def _equations(
         row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
         parts.append(coriolis_row(sheet, shown, letters, row))
     return joined(parts), lines[count:], senses[len(shown) :]
+
+
+GAP, LEAST_GAP = 6.0, 2.0  # mm between two parts, and where room is short
+CAPTION = 5.5
+HEAD = 15.0  # mm for the heading
+NARROWEST = 209.0  # mm: the narrower side of A4, about
+LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
+TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
+TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """What is left to be shown, in the order of its parts.
+
+    readings_begin : whether the readings are the first of all, the others stand further on
+    """
+
+    equations: Sequence[LineToSet] = ()
+    senses: Sequence[CoriolisTerm] = ()
+    given: Sequence[tuple[Run, ...]] = ()
+    readings: Sequence[TableRow] = ()
+    readings_begin: bool = False
+
+    def __bool__(self) -> bool:
+        return bool(self.equations or self.senses or self.given or self.readings)
+
+    @property
+    def count(self) -> int:
+        return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
+
+
+def continued(
+    sheet: Sheet, rest: Remainder, rooms: Sequence[Box], letters: Letters, language: str
+) -> Piece | None:
+    """The rest in rooms that other writing has left on the first page; None where they do not hold all of it."""
+    pieces: list[Piece] = []
+    for room in rooms:
+        for part in (_equations_left, _senses, _given, _readings):
+            piece, rest, room = part(sheet, rest, letters, language, room, True)
+            pieces.append(piece)
+    return None if rest else joined(pieces)
+
+
+def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
+    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``, halved down to
+    A4 or Letter: what is left are words."""
+    short, long = sorted((page.left + page.right, page.top + page.bottom))
+    if long / 2 >= NARROWEST:
+        while long / 2 >= NARROWEST:
+            short, long = long / 2, short
+        page = Box(page.left, page.top, short - page.left, long - page.top)
+    made: list[Drawing] = []
+    while rest:
+        number = len(made) + 2
+        pieces = [heading(sheet, letters, language, page), _number(sheet, language, number, page)]
+        room = Box(page.left, page.top + HEAD, page.right, page.bottom)
+        before = rest.count
+        for part in (_equations_left, _senses, _given, _readings):
+            piece, rest, room = part(sheet, rest, letters, language, room)
+            pieces.append(piece)
+        made.append(
+            Drawing(
+                page.left + page.right,
+                page.top + page.bottom,
+                layer_groups(joined(pieces)),
+                f"{figure_title(sheet, 'sheet', language)} ({number})",
+                "",
+                languages(language)[0],
+                facts(sheet, "sheet"),
+            )
+        )
+        if rest.count == before:  # nothing is so large that a page does not hold it
+            raise AssertionError("a page holds nothing of what is left")
+    return tuple(made)
+
+
+def heading(sheet: Sheet, letters: Letters, language: str, page: Box) -> Piece:
+    """Title and driver values at the head of a page."""
+    names = titles(sheet, language)
+    runs = fitted("   ".join(names), 4.6, page.width, bold=True, least=2.6)
+    lines = [(4.0, runs)]
+    if len(names) > 1 and runs[0].size < TWO_LINES:
+        lines = [(2.6 + 3.7 * i, fitted(name, TWO_LINES, page.width, bold=True)) for i, name in enumerate(names)]
+    lines.append((9.2 + 0.6 * (len(lines) - 1), fitted(drivers(sheet, letters), 3.2, page.width)))
+    return Piece({"labels": tuple(Text(complex(page.left, page.top + y), said) for y, said in lines)})
+
+
+def _number(sheet: Sheet, language: str, number: int, page: Box) -> Piece:
+    words = plain(say(Phrase("sheet number", (number,)), languages(language)[0]), 2.6)
+    return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
+
+
+def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
+    """Things in a box under its caption."""
+    words = Text(complex(box.left, box.top - 1.6), fitted(caption, 3.2, box.width, bold=True))
+    return joined((Piece({"labels": (words,)}), Piece({layer: children})))
+
+
+_Part = tuple[Piece, Remainder, Box]
+
+
+def below(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+    """What is left of a room below what is drawn in it."""
+    ink = ink_box(drawn)
+    return Box(room.left, (ink.bottom if ink else room.top) + LEAST_GAP, room.right, room.bottom)
+
+
+def _after(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+    rest = below(room, drawn)
+    return Box(rest.left, rest.top + GAP - LEAST_GAP, rest.right, rest.bottom)
+
+
+def _equations_left(
+    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
+) -> _Part:
+    if not rest.equations:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    if begun:
+        blocks, count = equations_in_room(rest.equations, box.width, box.height, LEAST_LETTERS)
+    else:
+        blocks, count = equations_on_page(rest.equations, box.width, box.height)
+    if not count:
+        return Piece(), rest, room
+    written = moved(blocks, complex(box.left, box.top))
+    caption = term("equations continued" if begun else "equations", language)
+    piece = captioned(box, caption, "labels", (Group(written, id="equations-continued" if begun else "equations"),))
+    left = replace(rest, equations=rest.equations[count:])
+    return piece, left, _after(box, written)
+
+
+def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
+    pieces: list[Piece] = []
+    senses = rest.senses
+    while senses and room.height >= INSET[1]:
+        count = per_row(room.width)
+        row = Box(room.left, room.top, room.right, room.top + INSET[1])
+        pieces.append(coriolis_row(sheet, senses[:count], letters, row))
+        senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
+    return joined(pieces), replace(rest, senses=senses), room
+
+
+def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
+    size = max((run.size for line in rest.given for run in line), default=1.0)
+    most = max(0, int((room.height - CAPTION) / (1.55 * size)))
+    if begun or not rest.given or not most:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    lines = set_lines(rest.given[:most], complex(box.left, box.top))
+    left = replace(rest, given=rest.given[most:])
+    return captioned(box, term("given", language), "labels", lines), left, _after(box, lines)
+
+
+def _readings(
+    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
+) -> _Part:
+    least = 0.0 if begun else LEAST_TABLE
+    if not rest.readings or room.height < CAPTION + least or room.width < TABLE_WIDTH:
+        return Piece(), rest, room
+    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    table, count = readings_table(sheet, rest.readings, letters, language, box)
+    if not count:
+        return Piece(), rest, room
+    left = replace(rest, readings=rest.readings[count:], readings_begin=False)
+    caption = term("readings continued" if begun and not rest.readings_begin else "readings", language)
+    return captioned(box, caption, "answers", table), left, _after(box, table)
+
+
+LEGIBLE_TITLE = 2.4  # mm
+BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in it, for the check bar and for the scales
+
+
+def title_block(sheet: Sheet, shown: Sequence[Compared], letters: Letters, language: str, box: Box) -> Piece:
+    """The block of a sheet: title, instrument, scales, and whether the ``shown`` readings agree."""
+    lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
+    two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
+    names = titles(sheet, language)
+    left = box.left + 2.0
+    for share in (0.36, 0.48):  # more for a long title
+        one = min(box.left + share * box.width, two - SCALES_ROOM)
+        title = _title_lines(names, one - left - 1.5)
+        if title[0][0].size >= LEGIBLE_TITLE:
+            break
+    lines += [Line(complex(x, box.top), complex(x, box.bottom), strokes.DIMENSION) for x in (one, two)]
+    words: list[Primitive] = []
+    y = box.top + 1.4
+    for runs in title:
+        y += 1.25 * runs[0].size
+        words.append(Text(complex(left, y), runs))
+    comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))
+    tools = term("instrument", language) + colon + term(f"instrument {sheet.instrument}", language)
+    second = sheet.scene.name + comma + tools
+    words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
+    for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
+        text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
+        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
+    answers: tuple[Primitive, ...] = ()
+    if shown:
+        wrong = sum(row.ok is False for row in shown)
+        whole = sum(row.ok is not None for row in shown)
+        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
+        answers = tuple(
+            Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
+            for i, each in enumerate(languages(language))
+        )
+    return Piece(
+        {"construction": (Group(tuple(lines), classes=("title-block",)),), "labels": tuple(words), "answers": answers}
+    )
+
+
+def _title_lines(names: tuple[str, ...], width: float) -> list[tuple[Run, ...]]:
+    """Titles in lines, as large as they fit the block."""
+    lines: list[tuple[Run, ...]] = []
+    for size in (3.2, 2.8, 2.4, 2.0):
+        lines = [line for name in names for line in wrapped(name, size, width, bold=True)]
+        if 1.25 * size * len(lines) <= BLOCK - 7.0:
+            break
+    return lines[:3]
 
 
 FIGURES = (Figure("sheet", sheet_page, "small sheet", lambda scene: True, place=4),)
