@@ -223,7 +223,7 @@ class Centred(OfScene, Result):
     def _velocity(self, v: Velocity) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
         values = (
-            None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real)
+            None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real) + 0.0
             for x in (v.by_centres, v.exact)
         )
         row: dict[str, Json] = dict(zip(("by_centres", "exact"), values, strict=True))

@@ -200,7 +200,7 @@ class Checked(OfScene, Result):
         value = by_centres(self.centres, self._turning, row.symbol) if known else None
         if value is None:
             return {}
-        plain = abs(value) if row.symbol.is_vector else float(value.real)
+        plain = abs(value) if row.symbol.is_vector else float(value.real) + 0.0
         return {"by_centres": self._plain(row.symbol, plain)}
 
 

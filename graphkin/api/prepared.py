@@ -19,6 +19,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
+from graphkin.study.quantities import settled
 from graphkin.table import Column, Table, Values
 from graphkin.words import Phrase
 
@@ -310,10 +311,14 @@ class Samples(Tabled):
         names = self.prepared.names
         units = self.prepared.units
         if name in names:
-            return Values.of(self.values[names.index(name)], units[name.removesuffix(".x").removesuffix(".y")])
+            return Values.of(self._settled(names.index(name)), units[name.removesuffix(".x").removesuffix(".y")])
         self.prepared.place(name)
         first = names.index(f"{name}.x")
-        return Values.of(self.values[first] + 1j * self.values[first + 1], units[name])
+        return Values.of(self._settled(first) + 1j * self._settled(first + 1), units[name])
+
+    def _settled(self, column: int) -> Reals:
+        """A column, 0 where it is nothing but what rounding leaves."""
+        return settled(self.values[column], self.prepared.ready.residues[column])
 
     def bound(self, name: str) -> Reals:
         """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
@@ -341,9 +346,9 @@ class Samples(Tabled):
         driver = f"driver_{self.prepared.mechanism.drivers[0].key}"
         shown = np.ravel(np.broadcast_to(np.round(self.driver, 11), shape))
         columns.append(Column(driver, shown, self.prepared.own_unit.text))
-        for name, values in zip(self.prepared.names, self.values, strict=True):
+        for k, name in enumerate(self.prepared.names):
             symbol = name.removesuffix(".x").removesuffix(".y")
-            columns.append(Column(name, np.ravel(values), units[symbol], symbol))
+            columns.append(Column(name, np.ravel(self._settled(k)), units[symbol], symbol))
         return Table((*columns, Column("ok", np.ravel(self.ok))), index)
 
     def __eq__(self, other: object) -> bool:

@@ -233,7 +233,7 @@ def compare(
         error = abs(reading.value - value)
         turned = 0.0
         if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
-            turned = cmath.phase(complex(reading.value) / complex(value))
+            turned = cmath.phase(complex(reading.value) / complex(value)) + 0.0  # no minus before nought
         expected = (predicted or {}).get(reading.symbol)
         by = 1.0 if reading.symbol.is_vector else sheet.scene.size
         rounded = 0.0 if rounding is None else _of(lost, reading.diagram) / by
@@ -327,7 +327,7 @@ class _Forces:
         error = abs(reading.value - exact)
         turned = 0.0
         if symbol.is_vector and min(abs(reading.value), abs(exact)) > 1e-7 * whole:
-            turned = cmath.phase(complex(reading.value) / complex(exact))
+            turned = cmath.phase(complex(reading.value) / complex(exact)) + 0.0
         expected = (self.predicted or {}).get(symbol)
         tolerance = max(_allowed(sheet, self.predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
         if not math.isfinite(abs(exact)):

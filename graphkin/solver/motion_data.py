@@ -201,9 +201,9 @@ def _flywheel(motion: Motion) -> dict[str, Json]:
 
 
 def _plain(values: Array) -> list[Json]:
-    """Numbers, or pairs of numbers for complex ones."""
+    """Numbers, or pairs of numbers for complex ones; no minus before nought."""
     parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
-    found: list[Json] = parts.tolist()
+    found: list[Json] = (parts + 0.0).tolist()
     return found
 
 

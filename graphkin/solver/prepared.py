@@ -11,6 +11,7 @@ import numpy as np
 
 from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
 from graphkin.solver.diagnosis import singular
@@ -34,6 +35,7 @@ CHUNK = 16384  # positions in a piece, so that all columns of one stay in the ca
 PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
 _PER: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
+RESIDUE = 16 * UNIT  # of what moves: a few roundings
 CLEAR = 0.2
 """Where no sine at the nodes of a path is less than this, none between them is near zero."""
 
@@ -64,6 +66,33 @@ class PreparedMechanism:
     def rows(self) -> int:
         """Of the array of columns: bounds stand last."""
         return len(self.names) + (len(self.wanted) + len(self.loads)) * self.bounded
+
+    @cached_property
+    def residues(self) -> Array:
+        """What a few roundings leave of nothing in each column, beside the size of the mechanism and the motion of its
+        drivers, shape (columns,); 0 for forces, whose size they do not tell."""
+        scene, (metre, radian, metre_of_rates) = self.structure.scene, self.units
+        rate = second = 0.0
+        for driver in scene.drivers:
+            by = 1.0 if isinstance(driver, AngleDriver) else 1.0 / scene.size
+            rate, second = rate + by * abs(driver.values[1]), second + by * abs(driver.values[2])
+        second += rate**2
+        whole = {"length": scene.size * metre, "velocity": scene.size * rate * metre_of_rates, "angle": radian,
+                 "acceleration": scene.size * second * metre_of_rates, "angular velocity": rate,
+                 "angular acceleration": second}  # fmt: skip
+
+        def left(name: str) -> float:
+            if name in self.loads:
+                return 0.0
+            if name not in self.wanted or "_" not in name:  # the place of a point
+                name = name.removesuffix(".x").removesuffix(".y")
+            try:
+                symbol = Symbol.parse(name)
+            except ValueError:
+                return RESIDUE * whole["length"]
+            return RESIDUE * whole.get(symbol.measure, 0.0)
+
+        return np.array([left(name) for name in self.names])
 
     @cached_property
     def by_newton(self) -> bool:

@@ -95,6 +95,10 @@ class SweepQuantity:
             return self.what.symbol.kind in ("v", "a")
         return self.what.kind in ("omega", "alpha", "s")
 
+    def residues(self, engine: PreparedMechanism) -> Array:
+        """What rounding leaves of nothing in what an engine gives of it, in the table's unit."""
+        return np.asarray(engine.residues[engine.names.index(self.name + ".x" * self.is_vector)])
+
     def parts(self, reach: DriverRange | None, motion: Motion) -> tuple[Array, ...]:
         """Its values in a motion (alone, or of a range), in the table's units: one array, or a vector's components."""
         if isinstance(self.what, PointRef):
@@ -207,13 +211,21 @@ class Arrays:
     """What a prepared mechanism gives at all positions of a sweep.
 
     parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
+    residues : what rounding leaves of nothing in each
     ok : bool, shape (positions,)
     good : how many are ok
     """
 
     parts: Parts
+    residues: tuple[Array, ...]
     ok: Array
     good: int
+
+    @property
+    def settled(self) -> Parts:
+        """The values as people read them: 0 where they are nothing but what rounding leaves."""
+        both = zip(self.parts, self.residues, strict=True)
+        return tuple(tuple(settled(part, residue) for part in own) for own, residue in both)
 
 
 @dataclass(frozen=True)
@@ -278,7 +290,8 @@ class FollowedDesign:
             columns[:, ~ok] = np.nan
         by_name = dict(zip(engine.names, columns, strict=True))
         ends = {True: (".x", ".y"), False: ("",)}
-        return Arrays(tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched), ok, good)
+        parts = tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
+        return Arrays(parts, tuple(w.residues(engine) for w in self.watched), ok, good)
 
     def table(self, n: int, first: int, last: int) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
@@ -299,10 +312,9 @@ class FollowedDesign:
         rows = last - first
         values = np.repeat(self.reach.start[None], rows, axis=0)
         values[:, 0] = self.reach.grid(n, first, last).values
-        status, why, parts = np.full(rows, "ok", object), np.full(rows, "", object), arrays.parts
+        status, why = np.full(rows, "ok", object), np.full(rows, "", object)
+        parts = arrays.settled
         bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
-        if len(bad):
-            parts = tuple(tuple(part.copy() for part in own) for own in parts)
         for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
             motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])

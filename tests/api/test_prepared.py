@@ -162,3 +162,23 @@ def test_without_numba_many_positions_are_computed_in_numpy(without_numba):
 def test_compiling_without_numba_says_what_to_install(without_numba):
     with pytest.raises(graphkin.CallError, match=r"graphkin\[fast\]"):
         shaper(fast=True).sweep(10)
+
+
+@pytest.mark.parametrize(("name", "along"), [("slider-crank-offset", "v_C"), ("engine-gas-force", "a_B")])
+def test_a_component_that_is_nothing_but_rounding_is_0_wherever_it_is_read(name, along):
+    turn = graphkin.prepare(name, [along]).sweep(100)
+    swept = graphkin.sweep(name, positions=100, find=[along]).table
+    assert turn.values[1].any()  # what the engine gives has the residues
+    assert [0.0] * 100 == turn[f"{along}.y"].tolist() == turn[along].imag.tolist()
+    assert [0.0] * 100 == [*turn.table[f"{along}.y"]] == [*swept[f"{along}.y"]]
+
+
+def test_a_small_value_that_is_no_rounding_is_read_as_it_is():
+    tiny = {
+        "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {"1": {"points": ["A", "B"], "length": 100, "at": {"E": {"from": "A", "r": 1e-9, "angle": 20}}},
+                  "2": {"points": ["B", "C"], "length": 350}, "3": {"points": ["D", "C"], "length": 290}},
+        "driver": {"link": "1", "angle": 30, "omega": 10},
+        "sketch": {"C": [300, 280]},
+    }  # fmt: skip
+    assert [1e-8] * 9 == pytest.approx(np.abs(graphkin.prepare(tiny, ["v_E"]).sweep(9)["v_E"]).tolist(), rel=1e-9)

@@ -233,3 +233,13 @@ def test_what_is_not_determined_is_no_0():
     lost = replace(beside, bound=replace(beside.bound, alpha=np.full(1, 1e6)))
     assert [0.0] == lost.floors["angular acceleration"].tolist()
     assert 0.0 < beside.floors["angular acceleration"][0] < 1e-9
+
+
+def minus_before_nought(data: object) -> list[str]:
+    return re.findall(r"(?<![\w.])-0(?:\.0+)?(?![\d.eE])", json.dumps(data, default=str))
+
+
+@pytest.mark.parametrize("name", ["elliptic-trammel", "cam-swinging-roller", "shaper-forces", "geneva-step"])
+def test_no_minus_stands_before_nought_in_what_programs_read(name):
+    made = [graphkin.check(name), graphkin.solve(name, sweep=5), graphkin.centres(name)]
+    assert [] == [sign for result in made for sign in minus_before_nought(result.data)]

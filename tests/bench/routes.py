@@ -111,7 +111,9 @@ def prepared(tables: Mapping[str, Any], names: list[str], key: str = "", value: 
 
 def apart(one: Values, another: Values) -> str:
     """In what two routes differ; "" where they give the same."""
-    if one[0] != another[0] and (one[1] or another[1]):
+    if not any("ok" in status.split(",") for status, _ in (one, another)):
+        return ""
+    if one[0] != another[0]:
         return f"{one[0]} or {another[0]}"
     for name, values in one[1].items():
         mine, theirs = np.array(values), np.array(another[1].get(name, values))
@@ -135,7 +137,8 @@ def differences(
     name: str, alone: ProcessPoolExecutor, some: Callable[[list[str]], list[str]] = lambda keys: keys
 ) -> Iterator[str]:
     """What is wrong with a scene: a sentence for each key and route that does not give what is true."""
-    tables = written(name)[0]
+    # named positions say where a sweep begins, and where a prepared mechanism's does not
+    tables = {key: table for key, table in written(name)[0].items() if key != "positions"}
     numbers, names = dict(keys_of(tables)), asked(tables)
     for key in some(list(numbers)):
         value = other(key, numbers[key])
