@@ -12,7 +12,7 @@ from typing import Literal
 
 from graphkin.account.headings import number, written
 from graphkin.account.measured_lengths import arm_written, is_given, scale_of, unit_of
-from graphkin.construction.board import EXACT
+from graphkin.construction.instruments import EXACT
 from graphkin.construction.polygon_acts import (
     ByRate,
     MeasuredRate,

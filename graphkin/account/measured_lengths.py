@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from graphkin.account.headings import number, slide_index, written
 from graphkin.account.notation import Letters
-from graphkin.construction.board import EXACT
+from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.polygon_acts import Carried, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.sheet import DiagramName, Sheet

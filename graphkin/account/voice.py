@@ -15,9 +15,8 @@ from typing import Generic, TypeVar
 from graphkin.account.end_letters import EndLetters, Markup, names_in_letters
 from graphkin.account.measured_lengths import times_scale
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Sheet, Step
+from graphkin.construction.sheet import Act, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
-from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, parts, word

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet, either_way
 from graphkin.construction.strokes import Vector
 from graphkin.errors import Problem, Unsolvable

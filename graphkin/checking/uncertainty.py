@@ -26,9 +26,9 @@ from numpy.typing import NDArray
 
 from graphkin.checking.readings import Reading, read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
-from graphkin.construction.board import Hand
-from graphkin.construction.sheet import Order
-from graphkin.construction.steps import Cause, ReadOff, phrase_of
+from graphkin.construction.instruments import ErringInstrument
+from graphkin.construction.sheet import Cause, ReadOff, phrase_of
+from graphkin.construction.sizes import Order
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Tools
@@ -135,7 +135,7 @@ class _Drawing:
     newtons_per_mm: float
 
     @classmethod
-    def of(cls, what: Plan, still: Hand) -> _Drawing:
+    def of(cls, what: Plan, still: ErringInstrument) -> _Drawing:
         redrawn = Redrawn(what, what.scales, still)
         if not redrawn.sheet.has_forces:
             return cls(redrawn, 0.0)
@@ -143,7 +143,7 @@ class _Drawing:
 
         return cls(redrawn, force_scale(redrawn.sheet))
 
-    def read(self, sheet: Sheet, hand: Hand) -> Sequence[Reading]:
+    def read(self, sheet: Sheet, hand: ErringInstrument) -> Sequence[Reading]:
         """What is read off a sheet.  Raises as `execute`."""
         if not self.newtons_per_mm:
             return read_off(sheet, (), hand)
@@ -151,7 +151,7 @@ class _Drawing:
 
         return read_off(sheet, (), hand, forces_on(sheet, hand, self.newtons_per_mm))
 
-    def values(self, hand: Hand, first: int = 0) -> Values | None:
+    def values(self, hand: ErringInstrument, first: int = 0) -> Values | None:
         """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
         try:
             return {r.symbol: r.value for r in self.read(self.redrawn.by(hand, first), hand)}

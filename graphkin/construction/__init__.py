@@ -4,9 +4,9 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.construction.board import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
-from graphkin.construction.execution import GoneOn, Redrawn
-from graphkin.construction.plan import Plan, Room, draft, drawn_sizes, execute, plan
+from graphkin.construction.instruments import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
+from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
+from graphkin.construction.room import Room, drawn_sizes
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.slip import NO_SLIP, Slip
 

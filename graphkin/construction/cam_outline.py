@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
-from graphkin.construction.sheet import Pose
+from graphkin.construction.links_on_paper import Pose
 from graphkin.plane import dot, unit
 from graphkin.scene.cams import TURN, LawCam, Lift, SlidingFollower
 from graphkin.scene.model import Mechanism

@@ -10,7 +10,17 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.construction.links_on_paper import PlacedLinks, Poses, RigidBody, across, apart, hinge, inner_hinge, rail
+from graphkin.construction.links_on_paper import (
+    PlacedLinks,
+    Pose,
+    Poses,
+    RigidBody,
+    across,
+    apart,
+    hinge,
+    inner_hinge,
+    rail,
+)
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -18,12 +28,11 @@ from graphkin.construction.mechanism_acts import (
     GuideTouching,
     LaidOffAngle,
     LaidOffTravel,
+    OnMechanism,
     PathDrawn,
     PathsCross,
     SlidToMeet,
 )
-from graphkin.construction.sheet import Pose
-from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import AngleDriver
@@ -31,7 +40,7 @@ from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled,
 
 __all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meet"]
 
-Story = tuple[tuple[Act, tuple[Stroke, ...]], ...]
+Story = tuple[tuple[OnMechanism, tuple[Stroke, ...]], ...]
 
 
 @dataclass(frozen=True)
@@ -231,7 +240,7 @@ def _two_lines(
     one: tuple[complex, complex],
     two: tuple[complex, complex],
     placed: Callable[[complex], Mapping[str, Pose]],
-    act: Act,
+    act: OnMechanism,
 ) -> Meeting:
     sine = cross(one[1], two[1])
     q = cross_lines(*one, *two)

@@ -12,8 +12,8 @@ from graphkin.construction.equations import (
 )
 from graphkin.construction.net import ClosingVector, Edge, Joined, TwoUnknowns, equation_of, node
 from graphkin.construction.polygons import Polygons
-from graphkin.construction.sheet import Order, Rate
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sheet import Rate
+from graphkin.construction.sizes import Direction, Order
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollower

@@ -33,8 +33,8 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.remarks import AtContact, ZeroVector
-from graphkin.construction.sheet import Equation, Order, Rate, Term
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
+from graphkin.construction.sheet import Equation, Rate, Term
+from graphkin.construction.sizes import Direction, Given, OffCurves, Order, RateTimes, RollingCurves, SquareOverRadius
 from graphkin.construction.slip import Component
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching

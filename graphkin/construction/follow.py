@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.dyads import assembled, meet
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, clusters, reduced_mechanisms
-from graphkin.construction.sheet import Pose
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import AngleDriver, AnyDriver

@@ -20,22 +20,21 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.construction.board import EXACT
 from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import Choices, best_first, best_reduced, drawn_near, fitted, standing
-from graphkin.construction.links_on_paper import PlacedLinks, Poses, apart
+from graphkin.construction.instruments import EXACT
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.mechanism_acts import (
     LaidOffAngle,
     Missed,
     Moved,
+    OnMechanism,
     RollingStarts,
     TrialPositions,
     TrialRow,
     TrialTable,
 )
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
-from graphkin.construction.sheet import Pose
-from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
@@ -43,7 +42,7 @@ from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, links_of
 from graphkin.words import Phrase
 
-__all__ = ["GroupTrial", "nearest_assembly", "placed_by_trial", "table_of_one", "table_of_several", "trial_story"]
+__all__ = ["GroupTrial", "nearest_assembly", "table_of_one", "table_of_several"]
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -72,6 +71,73 @@ class GroupTrial:
         """Where the links lie, at the scale of a sheet."""
         mm = frame.mm * self.reduced.structure.scene.size
         return {name: pose.scaled(mm) for name, pose in self.poses.items()}
+
+    def place(self, frame: PlacedLinks) -> None:
+        """Place a group among the links known already.
+
+        Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else is
+        left out.
+
+        Raises
+        ------
+        Unsolvable : "not assembled": what was left out fits nowhere near
+        """
+        if frame.instrument.faultless:
+            exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
+            frame.poses.update(_fit(exact, self.reduced, self.on(frame)))
+            return
+        stops: list[Unsolvable] = []
+        for reduced in _to_hand(frame, self):
+            for _ in range(AGAIN):
+                try:
+                    _placed_by_hand(frame, reduced, self.on(frame))
+                except Unsolvable as stop:
+                    stops.append(stop)
+                else:
+                    return
+        raise stops[0]
+
+    def steps(self, frame: PlacedLinks, so_far: PlacedLinks) -> Story:
+        """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
+        reduced = self.reduced
+        poses = {**so_far.poses, **{n: frame.poses[n] for n in reduced.cluster.members}}
+        values = np.array(reduced.values(poses, frame.mm))
+        story: list[tuple[OnMechanism, tuple[Stroke, ...]]] = []
+        if self.given:
+            story += [(_started(frame, driver), ()) for driver in reduced.cluster.starts]
+        if reduced.trial:
+            driven = tuple(d.key for d in reduced.trial)
+            strokes: tuple[Stroke, ...] = ()
+            point, table = "", None
+            if len(values) == 1:
+                tried = _trial_drawings(replace(so_far, instrument=EXACT), reduced, poses, values)
+                point, strokes = _curve(so_far, reduced, poses, tried)
+                table = table_of_one(so_far, reduced, tried[::BETWEEN], BEFORE) if tried else None
+            else:
+                table = table_of_several(so_far, reduced, poses, values)
+            rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
+            left_out = tuple(name for name in reduced.left_out if name not in rolling)
+            links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
+            told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
+            story.append((told, strokes))
+        board = reduced.opened(so_far, [float(v) for v in values])
+        board = replace(board, instrument=EXACT)
+        for element in reduced.elements:
+            if isinstance(element, Driven):
+                pose, told_here = drive(board, element)
+                axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
+                told_here = tuple(
+                    (replace(act, angle=axis, to="") if isinstance(act, LaidOffAngle) else act, strokes)
+                    for act, strokes in told_here
+                )
+            else:
+                meeting = meet(board, element)
+                best = meeting.nearest(poses)
+                told_here = meeting.tell(best) if best is not None else ()
+            story += told_here
+            for name in links_of(element):
+                board.poses[name] = poses[name]
+        return tuple(story)
 
 
 def nearest_assembly(
@@ -102,31 +168,6 @@ def nearest_assembly(
         for name in links_of(element):
             frame.poses[name] = poses[name]
     return branches, trials
-
-
-def placed_by_trial(frame: PlacedLinks, trial: GroupTrial) -> None:
-    """Place a group among the links known already.
-
-    Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else left out.
-
-    Raises
-    ------
-    Unsolvable : "not assembled": what was left out fits nowhere near
-    """
-    if frame.instrument.faultless:
-        exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
-        frame.poses.update(_fit(exact, trial.reduced, trial.on(frame)))
-        return
-    stops: list[Unsolvable] = []
-    for reduced in _to_hand(frame, trial):
-        for _ in range(AGAIN):
-            try:
-                _placed_by_hand(frame, reduced, trial.on(frame))
-            except Unsolvable as stop:
-                stops.append(stop)
-            else:
-                return
-    raise stops[0]
 
 
 def _to_hand(frame: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:
@@ -211,48 +252,6 @@ def _by_hand(
             raise Unsolvable("dead point", Problem("trial", Phrase("the trial drawing is at a dead point")))
         rows.append((np.array(reduced.gaps(sides[1])) - np.array(reduced.gaps(sides[0]))) / (2 * step))
     return gaps, np.array(rows).T
-
-
-def trial_story(frame: PlacedLinks, so_far: PlacedLinks, trial: GroupTrial) -> Story:
-    """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
-    reduced = trial.reduced
-    poses = {**so_far.poses, **{n: frame.poses[n] for n in reduced.cluster.members}}
-    values = np.array(reduced.values(poses, frame.mm))
-    story: list[tuple[Act, tuple[Stroke, ...]]] = []
-    if trial.given:
-        story += [(_started(frame, driver), ()) for driver in reduced.cluster.starts]
-    if reduced.trial:
-        driven = tuple(d.key for d in reduced.trial)
-        strokes: tuple[Stroke, ...] = ()
-        point, table = "", None
-        if len(values) == 1:
-            tried = _trial_drawings(replace(so_far, instrument=EXACT), reduced, poses, values)
-            point, strokes = _curve(so_far, reduced, poses, tried)
-            table = table_of_one(so_far, reduced, tried[::BETWEEN], BEFORE) if tried else None
-        else:
-            table = table_of_several(so_far, reduced, poses, values)
-        rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
-        left_out = tuple(name for name in reduced.left_out if name not in rolling)
-        links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
-        told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
-        story.append((told, strokes))
-    board = reduced.opened(so_far, [float(v) for v in values])
-    board = replace(board, instrument=EXACT)
-    for element in reduced.elements:
-        if isinstance(element, Driven):
-            pose, told_here = drive(board, element)
-            axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
-            told_here = tuple(
-                (replace(act, angle=axis, to="") if isinstance(act, LaidOffAngle) else act, s) for act, s in told_here
-            )
-        else:
-            meeting = meet(board, element)
-            best = min(range(len(meeting.poses)), key=lambda k: apart(meeting.poses[k], poses), default=None)
-            told_here = meeting.tell(best) if best is not None else ()
-        story += told_here
-        for name in links_of(element):
-            board.poses[name] = poses[name]
-    return tuple(story)
 
 
 def _started(frame: PlacedLinks, driver: AnyDriver) -> RollingStarts:

@@ -12,23 +12,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from graphkin.construction.board import EXACT, Board, Instrument
 from graphkin.construction.dyads import assembled, drive, meet
-from graphkin.construction.elements import draw_element
-from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.mechanism_acts import HeldStill
-from graphkin.construction.polygons import Polygons
-from graphkin.construction.position import Branches, as_meant, branches_at, draw_position, place, start_board
-from graphkin.construction.sheet import ORDERS, DiagramName, Pose, Scales, Step
-from graphkin.construction.steps import Cause
+from graphkin.construction.instruments import EXACT
+from graphkin.construction.links_on_paper import PlacedLinks, Pose
+from graphkin.construction.position import Branches, as_meant, branches_at, place, start_board
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
-from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
 from graphkin.words import Phrase
 
-__all__ = ["Inversion", "TriangleDrawn", "inversions_of", "opened_at_triangles", "own_assembly"]
+__all__ = ["Inversion", "inversions_of", "opened_at_triangles", "own_assembly"]
 
 FITS = 1e-6  # of the size: so well the slide must have its travel in an assembly
 
@@ -54,14 +48,15 @@ class Inversion:
     def value(self, values: Mapping[str, float], branch: int) -> float:
         """The stand-in's value (rad, m) as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
         mm = 1.0 / self.structure.scene.size
-        return self._read(place(self.structure, self.structure.elements, mm, values, {0: branch}).frame)
+        return self.read(place(self.structure, self.structure.elements, mm, values, {0: branch}).frame)
 
     def near(self, before: float, value: float) -> float:
         """A value of the stand-in nearest to another: angles but for whole turns."""
         turns = isinstance(self.triangle.equivalent, AngleDriver)
         return before + math.remainder(value - before, math.tau) if turns else value
 
-    def _read(self, frame: PlacedLinks) -> float:
+    def read(self, frame: PlacedLinks) -> float:
+        """The stand-in's value (rad, m) off the links as they lie."""
         pair, equivalent = self.triangle.pair, self.triangle.equivalent
         if isinstance(equivalent, AngleDriver):
             return cmath.phase(frame.poses[equivalent.link].axis / frame.poses[equivalent.relative_to].axis)
@@ -69,54 +64,6 @@ class Inversion:
         rail = frame.poses[pair.b]
         start = rail.origin + rail.axis * pair.guide.through * frame.mm
         return dot(rail.axis * pair.guide.direction, frame.poses[pair.a].origin - start) / frame.mm
-
-    def drawn(self, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int) -> TriangleDrawn:
-        """The triangle on a board of its own, with its two polygons."""
-        board = Board(instrument)
-        elements = [e for e in self.structure.elements if isinstance(e, Dyad)]
-        position = place(self.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
-        draw_position(board, self.structure, elements, position, {0: branch})
-        board.causes[:] = position.causes
-        polygons = Polygons(board, self.structure, position.frame, scales)
-        for order in ORDERS:
-            draw_element(polygons, order, elements[0])
-        value, rates = self._read(position.frame), self._rates(polygons)
-        return TriangleDrawn(self.triangle, value, *rates, tuple(board.causes), board.steps)
-
-    def _rates(self, polygons: Polygons) -> tuple[float, float]:
-        pair, other = self.triangle.pair, self.triangle.links[0]
-        if not isinstance(pair, Slide):
-            return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
-        # the other link cannot turn on the held one: all its points move alike
-        along = polygons.frame.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
-        points = [PointRef(p) for p in self.structure.links[other].points]
-        end = next(ref for ref in points if ref in polygons.ends["velocity"])
-        speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
-        return speed, push
-
-
-@dataclass(frozen=True)
-class TriangleDrawn:
-    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
-
-    triangle: DrivenTriangle
-    value: float
-    rate: float
-    second: float
-    causes: tuple[tuple[int, Cause], ...]
-    steps: Sequence[Step]
-
-    def carried_over(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
-        """What is carried over to each diagram."""
-        t = self.triangle
-        names = (t.held, t.links[0], t.driver.key)
-        value, rate, second = self.value, self.rate, self.second
-        turns = not isinstance(t.pair, Slide)
-        return (
-            ("mechanism", HeldStill(*names, "angle" if turns else "travel", value)),
-            ("velocity", HeldStill(*names, "omega" if turns else "velocity", rate)),
-            ("acceleration", HeldStill(*names, "alpha" if turns else "acceleration", second)),
-        )
 
 
 def opened_at_triangles(structure: Structure) -> Structure:

@@ -46,8 +46,8 @@ from graphkin.construction.polygon_acts import FarPoint, SeenFrom, Superposed, T
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.remarks import Magnified
 from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
-from graphkin.construction.sheet import DrawnGroup, Order, Rate
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sheet import DrawnGroup, Rate
+from graphkin.construction.sizes import Direction, Order
 from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from graphkin.construction.board import Instrument
 from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.group_position import nearest_assembly
+from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses
 from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits, Scales

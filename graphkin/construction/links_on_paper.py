@@ -6,16 +6,31 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from graphkin.construction.board import EXACT, Instrument
-from graphkin.construction.sheet import Pose
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.plane import added_up, direction, unit
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
 __all__ = [
-    "LinkMotion", "PlacedLinks", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
+    "LinkMotion", "PlacedLinks", "Pose", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
     "pushed_by_driver", "rail",
 ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Pose:
+    """Where a link lies on paper: its origin (mm) and the unit direction of its own x axis."""
+
+    origin: complex
+    axis: complex
+
+    def place(self, own: complex) -> complex:
+        """A place on paper (mm), given in the link's own axes (mm)."""
+        return self.origin + self.axis * own
+
+    def scaled(self, times: float) -> Pose:
+        """The same place on a larger figure."""
+        return Pose(self.origin * times, self.axis)
 
 
 Poses = Mapping[str, Pose]

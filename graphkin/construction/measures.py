@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from graphkin.construction.board import Instrument
+from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.zero_vectors import MOST_LOST

@@ -1,149 +1,403 @@
 """From a scene to everything drawn: position, velocity polygon, acceleration polygon, and the scales that show them.
 
 A scene is analysed once, and once carried out by exact hands, at scales of its own; every figure is that construction
-at the scales that suit it: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.
+at the scales that suit it: the scene's own, or those of the 1-2-2.5-5 series that fill the paper.  It may be drawn
+again with other errors, or gone on with from values of somebody's own.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.construction.board import EXACT, Instrument
+from graphkin.construction.asked_vectors import show
+from graphkin.construction.board import Board
 from graphkin.construction.cam_outline import outlines_on_paper
-from graphkin.construction.execution import Task, carried_out, finished
+from graphkin.construction.elements import draw_element
+from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
-from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.net import contacts_of
-from graphkin.construction.polygon_acts import Asked
-from graphkin.construction.position import branches_at, rolled_position
-from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import DIAGRAMS, ORDERS, DiagramName, Extent, Order, Pose, Scales, Sheet, fitting_scale
+from graphkin.construction.larger_groups import draw_group, drawn_group
+from graphkin.construction.links_on_paper import PlacedLinks, Pose
+from graphkin.construction.mechanism_acts import HeldStill
+from graphkin.construction.net import TwoUnknowns, contacts_of
+from graphkin.construction.polygons import RATE, Polygons
+from graphkin.construction.position import branches_at, draw_position, place, rolled_position
+from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
+from graphkin.construction.scales import Extent
+from graphkin.construction.seen_from import seen
+from graphkin.construction.sheet import Cause, DiagramName, DrawnGroup, Limits, Scales, Sheet, Step, either_way
+from graphkin.construction.sizes import ORDERS, Order
 from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.touching import Touching
+from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import Unsolvable
+from graphkin.plane import dot
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
     Cluster,
     Driven,
+    DrivenTriangle,
     Dyad,
     Element,
     Rolled,
+    Slide,
     Structure,
     analyse,
+    links_of,
     needed,
     pins_on_circles,
 )
 from graphkin.structure.replacement import with_cams
+from graphkin.words import Phrase
 
 if TYPE_CHECKING:
+    from graphkin.construction.group_plan import GroupPlan
     from graphkin.construction.group_position import GroupTrial
     from graphkin.construction.trial import Known
 
-__all__ = ["Plan", "Room", "draft", "drawn_sizes", "execute", "plan", "scales_for"]
+__all__ = [
+    "GoneOn", "OnBoard", "Plan", "Redrawn", "Task", "carried_out", "draft", "draw", "execute", "finished", "plan",
+    "positioned",
+]  # fmt: skip
+
+
+# -- what is to be drawn -----------------------------------------------------------------------------------------------
+
 
 @dataclass(frozen=True)
-class Room:
-    """Width and height (mm) that the mechanism and each polygon may fill.
+class Task:
+    """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
 
-    ``others`` are rooms that may be taken instead, where their scales are so much finer (in powers of ten, of all three
-    figures together) as they ``cost`` more; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
-    that holds them.
+    ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
+    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
+    the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
+    With ``touching`` sliding contacts are drawn themselves, not what replaces them.
     """
 
-    mechanism: tuple[float, float] = (150.0, 150.0)
-    polygon: tuple[float, float] = (140.0, 140.0)
-    others: tuple[Room, ...] = ()
-    cost: float = 0.0
-    keeps_wishes: bool = False
+    structure: Structure
+    opened: Structure
+    asked: tuple[Symbol, ...]
+    elements: tuple[Element, ...]
+    values: Mapping[str, float]
+    branches: Mapping[int, int]
+    trials: Mapping[Cluster, GroupTrial]
+    chains: Mapping[Dyad, TwoUnknowns]
+    plans: Mapping[Cluster, GroupPlan]
+    triangles: tuple[tuple[Inversion, int], ...]
+    limits: Mapping[str, Limits]
+    acting: Mapping[str, bool | None]
+    growing: tuple[Sheet, ...]
+    touching: bool = field(default=False, kw_only=True)
+
+    @cached_property
+    def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
+        """What each polygon needs for what is asked: accelerations only of what leads to accelerations."""
+        pushes = [s for s in self.asked if s.measure in ("acceleration", "angular acceleration")]
+        wanted = needed(self.opened, pushes) if pushes else []
+        every = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
+        pushed = self.elements if every else tuple(e for e in self.elements if e in wanted)
+        return {"velocity": self.elements, "acceleration": pushed}
+
+    @cached_property
+    def left_out(self) -> tuple[Phrase, ...]:
+        """What nothing asked for needs."""
+        wanted = needed(self.opened, self.asked)
+        placed = {n for e in self.elements for n in links_of(e)}
+        pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
+        gone = {n for e in self.opened.elements if e not in wanted for n in links_of(e)}
+        names = [link.name for link in self.structure.scene.links]
+        without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
+        keys = "left out elements", "left out accelerations"
+        return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
+
+    @property
+    def in_order(self) -> Iterator[tuple[Order, Element]]:
+        """What is drawn in the polygons, element by element."""
+        for order in ORDERS:
+            for element in self.drawn[order]:
+                yield order, element
 
 
-UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
-INTO_MARGIN = 1.1  # times as large as its room may trial polygons be: panels have a margin for names, and figures grow
+# -- carried out on a board --------------------------------------------------------------------------------------------
 
 
-def _chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
-    """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
-    fast = scene.units.rates.metres
-    wanted = scene.sheet.length_scale, scene.sheet.velocity_scale, scene.sheet.acceleration_scale
-    wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, fast, fast), strict=True)]
-    space = room or Room()
-    best: tuple[float, list[float]] | None = None
-    for one in (space, *space.others):
-        cost, scales = one.cost, []
-        for name, wish in zip(DIAGRAMS, wishes, strict=True):
-            most = one.mechanism if name == "mechanism" else one.polygon
-            unit = scene.units.metres if name == "mechanism" else fast
-            fitting = fitting_scale(extents[name], most, 1.0 / unit) * unit
-            if wish is not None and (room is None or space.keeps_wishes):
-                if room is None or wish * (1 + 1e-9) >= _least(extents[name], one, name):
-                    scales.append(wish)
-                    continue
-                cost += UNMET
-            scales.append(fitting)
-            cost += math.log10(fitting)
-        if best is None or cost < best[0] - 1e-9:
-            best = cost, scales
-    assert best is not None
-    return Scales(*best[1])
+@dataclass(frozen=True)
+class OnBoard:
+    """What stands on a board.
+
+    assembly : the words for each assembly
+    held : what was drawn with a link held still
+    """
+
+    polygons: Polygons
+    assembly: Mapping[str, Phrase]
+    held: tuple[Step, ...]
 
 
-def _least(extent: Extent, room: Room, name: DiagramName) -> float:
-    """The scale (m, m/s, m/s2 for one mm) at which something just fits a room."""
-    width, height = room.mechanism if name == "mechanism" else room.polygon
-    return max(extent.width / width, extent.height / height)
+def positioned(
+    task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP, with_steps: bool = True
+) -> OnBoard:
+    """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where it is
+    are wanted."""
+    board = Board(instrument)
+    found: list[TriangleDrawn] = []
+    values, rates = dict(task.values), dict[str, tuple[float, float]]()
+    for inversion, branch in task.triangles:
+        carried = _drawn_apart(inversion, instrument, scales, task.values, branch)
+        values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
+        rates[inversion.key] = carried.rate, carried.second
+        found.append(carried)
+    board.causes += [cause for carried in found for cause in carried.causes]
+    before = list(board.causes)
+    told = [part for carried in found for part in carried.carried_over()]
+    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
+    assembly: Mapping[str, Phrase] = {}
+    if with_steps:
+        assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
+    board.causes[:] = [*before, *position.causes]
+    polygons = Polygons(board, task.opened, position.frame, scales, slip)
+    polygons.given.update(rates)
+    polygons.at_contacts = task.touching
+    polygons.chains.update(task.chains)
+    polygons.plans.update(task.plans)
+    for name, act in told:
+        board.do(name, act)
+    return OnBoard(polygons, assembly, tuple(step for carried in found for step in carried.steps))
 
 
-def _extents(
-    places: Iterable[complex], vectors: Callable[[Order], Iterable[Vector | Aid]], scales: Scales
-) -> dict[DiagramName, Extent]:
-    """Extents of the mechanism and of both polygons, pole included."""
-    extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, scales.length)}
-    for order in ORDERS:
-        drawn = [*vectors(order)]
-        true, every = (
-            Extent.around([0j, *(z for v in some for z in (v.tail, v.tip))], scales.of(order))
-            for some in ([v for v in drawn if not (isinstance(v, Aid) and v.trial)], drawn)
-        )
-        width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
-        extents[order] = Extent(width, height)
-    return extents
+def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> OnBoard:
+    """Position and both polygons on a board."""
+    made = positioned(task, scales, instrument, slip)
+    for order, element in task.in_order:
+        draw(made.polygons, order, element)
+    return made
 
 
-def scales_for(sheet: Sheet, room: Room) -> Scales:
-    """The finest scales of the series at which a sheet fits a room; vectors that only a question asks for left out."""
-    return _chosen_scales(sheet.scene, _extents_of(sheet), room)
+def draw(polygons: Polygons, order: Order, element: Element) -> None:
+    """Draw what an element adds to a polygon."""
+    if isinstance(element, Cluster):
+        draw_group(polygons, order, element)
+    else:
+        draw_element(polygons, order, element)
 
 
-def drawn_sizes(sheet: Sheet) -> tuple[tuple[float, float], ...]:
-    """Width and height (mm) of the mechanism and of both polygons as they are drawn, as scales are chosen by them."""
-    extents = _extents_of(sheet)
-    return tuple(
-        (extents[name].width / sheet.scales.of(name), extents[name].height / sheet.scales.of(name)) for name in DIAGRAMS
+def finished(task: Task, made: OnBoard) -> Sheet:
+    """What stands on the board as a sheet, with the vectors that only a question asks for."""
+    polygons = made.polygons
+    show(polygons, task.asked)
+    board = polygons.board
+    sheet = Sheet(
+        scene=task.structure.scene,
+        structure=task.structure,
+        instrument=board.instrument.name,
+        drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
+        scales=polygons.scales,
+        poses=dict(polygons.frame.poses),
+        points={PointRef(p): z for p, z in polygons.places.items()},
+        ends={order: dict(ends) for order, ends in polygons.ends.items()},
+        omega=dict(polygons.rates["velocity"]),
+        alpha=dict(polygons.rates["acceleration"]),
+        steps=tuple(board.steps),
+        held_still=made.held,
+        equations=tuple(board.equations),
+        assembly=made.assembly,
+        noticed=tuple(board.noticed),
+        left_out=task.left_out,
+        groups=tuple(_drawn_groups(task, polygons)),
+        causes=tuple(board.causes) if board.instrument.acts else (),
+        asked=task.asked,
+        acting=task.acting,
+        growing=task.growing,
+        trains=tuple(polygons.wheels.drawn.values()),
+        limits=_limits(task, polygons.scales, board.instrument),
+        readings=_readings(polygons),
     )
+    return without_residues(sheet) if board.instrument.faultless else sheet
 
 
-def _leading_on(sheet: Sheet, order: Order) -> list[Aid]:
-    """What must find room although it only leads on: vectors seen from held links, and trial polygons."""
-    return [*vectors_seen(sheet, order), *sheet.trials(order)]
+def _readings(polygons: Polygons) -> Mapping[Symbol | frozenset[str], float]:
+    read: tuple[Mapping[frozenset[str], float] | Mapping[Symbol, float], ...]
+    read = polygons.board.arms, polygons.board.lengths
+    found: dict[Symbol | frozenset[str], float] = {thing: mm for kept in read for thing, mm in kept.items()}
+    for held, apart in polygons.seen.items():
+        found |= {either_way(seen(symbol, held)): mm for symbol, mm in apart.board.lengths.items()}
+    return found
 
 
-def _extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
-    def vectors(order: Order) -> Iterator[Vector | Aid]:
-        for step in sheet.steps:
-            if step.diagram == order and not isinstance(step.act, Asked):
-                yield from (s for s in step.strokes if isinstance(s, Vector))
-        yield from _leading_on(sheet, order)
+def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits]:
+    if not task.limits:
+        return {}
+    from graphkin.construction.limits import limits_on_paper
 
-    outlines = outlines_on_paper(sheet.scene, sheet.poses, 1.0 / sheet.scales.length)
-    places = [*sheet.points.values(), *(z for o in outlines.values() for z in o)]
-    places += Touching(sheet.scene, 1.0 / sheet.scales.length, sheet.poses).outermost()
-    return _extents(places, vectors, sheet.scales)
+    hand = EXACT if task.triangles else hand
+    return limits_on_paper(task.limits, task.structure, task.elements, task.values, scales, hand)
+
+
+def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
+    for group in needed(task.structure, task.asked):
+        if group in task.trials and isinstance(group, Cluster):
+            yield drawn_group(polygons, group, task.trials[group].reduced.left_out)
+        elif isinstance(group, Cluster):
+            # with one link held still its motion relative to that link is found, and laid over that link's motion
+            yield DrawnGroup(group, "superposition", (), (), (), ())
+
+
+class Redrawn:
+    """A plan that is drawn again and again by hands that err in some of their acts.
+
+    What stands before the first of these is taken from a drawing without errors.
+    """
+
+    def __init__(self, what: Task, scales: Scales, still: ErringInstrument) -> None:
+        self.what, self.scales = what, scales
+        made = positioned(what, scales, still)
+        self.kept: list[tuple[int, Polygons]] = []
+        """What stood there after so many acts."""
+        for order, element in what.in_order:
+            self.kept.append((still.acts, made.polygons.again(still)))
+            draw(made.polygons, order, element)
+        self.kept.append((still.acts, made.polygons.again(still)))
+        self.sheet = finished(what, made)
+
+    def by(self, hand: ErringInstrument, first: int = 0) -> Sheet:
+        """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
+        position may be missing.  Raises as `execute`."""
+        before = [(acts, polygons) for acts, polygons in self.kept if acts < first]
+        if not before:
+            made = positioned(self.what, self.scales, hand, with_steps=False)
+            left = [*self.what.in_order]
+        else:
+            hand.acts, polygons = before[-1]
+            made = OnBoard(polygons.again(hand), {}, ())
+            left = [*self.what.in_order][len(before) - 1 :]
+        for order, element in left:
+            draw(made.polygons, order, element)
+        return finished(self.what, made)
+
+
+Own = Mapping[Symbol, Value]
+
+
+class GoneOn:
+    """A plan gone on with from values of somebody's own, in place of drawn ones: one person's after the other's.
+
+    ``slip`` says what own values change.  What stands before the first of them is taken from the drawing without any,
+    and what some of them gave is kept while they are the same.
+    """
+
+    KEPT = 256
+
+    def __init__(self, what: Task, scales: Scales, slip: Callable[[Own], Slip]) -> None:
+        self.what, self.slip = what, slip
+        self.in_order = tuple(what.in_order)
+        polygons = positioned(what, scales, with_steps=False).polygons
+        self.kept = [polygons]
+        """What stands there after so many elements."""
+        self.found_by: dict[Symbol, int] = {}
+        """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
+        for number, (order, element) in enumerate(self.in_order, 1):
+            polygons = polygons.again(EXACT)
+            draw(polygons, order, element)
+            self._note(polygons, number)
+            self.kept.append(polygons)
+        polygons = polygons.again(EXACT)
+        show(polygons, what.asked)
+        self._note(polygons, len(self.kept))
+        self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], Polygons] = {}
+
+    def _note(self, polygons: Polygons, number: int) -> None:
+        rates = [Symbol(RATE[order], link=link) for order, found in polygons.rates.items() for link in found]
+        for symbol in (*(s for drawn in polygons.drawn.values() for s in drawn), *rates):
+            self.found_by.setdefault(symbol, number)
+
+    def to(self, symbol: Symbol, own: Own) -> Polygons | None:
+        """The polygons as far as a vector or rate stands in them; None where nothing leads to it.  Raises as
+        `execute`."""
+        number = self.found_by.get(symbol)
+        if number is None:
+            return None
+        if number < len(self.kept):
+            return self._after(number, own)
+        polygons = self._after(number - 1, own).again(EXACT)
+        show(polygons, self.what.asked)
+        return polygons
+
+    def _after(self, number: int, own: Own) -> Polygons:
+        """What stands there after so many elements."""
+        own = {s: value for s, value in own.items() if self.found_by.get(s, number + 1) <= number}
+        if not own:
+            return self.kept[number]
+        key = number, frozenset(own.items())
+        if key not in self.others:
+            polygons = self._after(number - 1, own).again(EXACT)
+            polygons.slip = self.slip(own)
+            draw(polygons, *self.in_order[number - 1])
+            while len(self.others) >= self.KEPT:
+                del self.others[next(iter(self.others))]
+            self.others[key] = polygons
+        return self.others[key]
+
+
+# -- driven triangles, drawn apart -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class TriangleDrawn:
+    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
+
+    triangle: DrivenTriangle
+    value: float
+    rate: float
+    second: float
+    causes: tuple[tuple[int, Cause], ...]
+    steps: Sequence[Step]
+
+    def carried_over(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
+        """What is carried over to each diagram."""
+        t = self.triangle
+        names = (t.held, t.links[0], t.driver.key)
+        value, rate, second = self.value, self.rate, self.second
+        turns = not isinstance(t.pair, Slide)
+        return (
+            ("mechanism", HeldStill(*names, "angle" if turns else "travel", value)),
+            ("velocity", HeldStill(*names, "omega" if turns else "velocity", rate)),
+            ("acceleration", HeldStill(*names, "alpha" if turns else "acceleration", second)),
+        )
+
+
+def _drawn_apart(
+    inversion: Inversion, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int
+) -> TriangleDrawn:
+    """The triangle on a board of its own, with its two polygons."""
+    board = Board(instrument)
+    elements = [e for e in inversion.structure.elements if isinstance(e, Dyad)]
+    position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
+    draw_position(board, inversion.structure, elements, position, {0: branch})
+    board.causes[:] = position.causes
+    polygons = Polygons(board, inversion.structure, position.frame, scales)
+    for order in ORDERS:
+        draw_element(polygons, order, elements[0])
+    value, rates = inversion.read(position.frame), _rates_apart(inversion, polygons)
+    return TriangleDrawn(inversion.triangle, value, *rates, tuple(board.causes), board.steps)
+
+
+def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float]:
+    pair, other = inversion.triangle.pair, inversion.triangle.links[0]
+    if not isinstance(pair, Slide):
+        return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
+    # the other link cannot turn on the held one: all its points move alike
+    along = polygons.frame.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+    points = [PointRef(p) for p in inversion.structure.links[other].points]
+    end = next(ref for ref in points if ref in polygons.ends["velocity"])
+    speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
+    return speed, push
+
+
+# -- planned -----------------------------------------------------------------------------------------------------------
 
 
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
@@ -163,7 +417,7 @@ class Plan(Task):
 
     def scales_for(self, room: Room | None) -> Scales:
         """The scales that fill a room; without one the scene's own where it gives them."""
-        return _chosen_scales(self.structure.scene, self.extents, room)
+        return chosen_scales(self.structure.scene, self.extents, room)
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
@@ -200,9 +454,9 @@ class Plan(Task):
         except Unsolvable:  # a contact at a pivot, which turns nothing there
             return None
         exact = finished(other, made)
-        extents = _extents_of(exact)
+        extents = extents_of(exact)
         return replace(
-            other, exact=exact, extents=extents, scales=_chosen_scales(self.structure.scene, extents, None),
+            other, exact=exact, extents=extents, scales=chosen_scales(self.structure.scene, extents, None),
             chains=made.polygons.chains, plans=made.polygons.plans,
         )  # fmt: skip
 
@@ -315,9 +569,9 @@ def _planned(task: Task, room: Room | None) -> Plan:
     for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
         places += profile
     places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.frame.poses).outermost()
-    extents = _extents(places, lambda order: (*polygons.shown_of(order), *_leading_on(exact, order)), NATURAL)
+    extents = extents_around(places, lambda order: (*polygons.shown_of(order), *leading_on(exact, order)), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
-    scales = _chosen_scales(task.structure.scene, extents, room)
+    scales = chosen_scales(task.structure.scene, extents, room)
     return Plan(**own, scales=scales, exact=exact, extents=extents)
 
 

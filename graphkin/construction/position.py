@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.board import EXACT, Board, Instrument
-from graphkin.construction.dyads import Choose, Meeting, assemble, assembled, drive, meet
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
+from graphkin.construction.board import Board
+from graphkin.construction.dyads import Choose, Meeting, Story, assemble, assembled, drive, meet
+from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -22,8 +23,7 @@ from graphkin.construction.mechanism_acts import (
     PathsCross,
 )
 from graphkin.construction.remarks import SharpCrossing, ShortArm
-from graphkin.construction.sheet import Pose
-from graphkin.construction.steps import Cause, Placing
+from graphkin.construction.sheet import Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
@@ -45,9 +45,6 @@ from graphkin.structure.assembly import follow, out_of_reach, ways
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
-if TYPE_CHECKING:
-    from graphkin.construction.group_position import GroupTrial
-
 __all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "rolled_position", "start_board"]
 
 TOUCH = 2e-14  # loci that miss each other by less, in their own size, touch
@@ -57,6 +54,18 @@ MOST = 12.0  # turns, or as much of another driver's way
 ROLL_STEP, SLIDE_STEP = math.radians(3.0), 0.02  # in which what rolls is followed (rad, and the mechanism's size)
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 Placed = dict[float, tuple[int, dict[str, Pose]]]
+
+
+class TrialPlacing(Protocol):
+    """By which trial positions a larger group is placed."""
+
+    def place(self, frame: PlacedLinks) -> None:
+        """Place the group among the links known already."""
+        ...
+
+    def steps(self, frame: PlacedLinks, so_far: PlacedLinks) -> Story:
+        """What is drawn to place it."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -75,7 +84,7 @@ def place(
     values: Mapping[str, float],
     branches: Branches,
     instrument: Instrument = EXACT,
-    trials: Mapping[Cluster, GroupTrial] | None = None,
+    trials: Mapping[Cluster, TrialPlacing] | None = None,
 ) -> Position:
     """Place the links of the elements at some driver values.
 
@@ -98,9 +107,7 @@ def place(
 
     def chosen(i: int, element: Dyad | Cluster) -> Poses:
         if isinstance(element, Cluster):
-            from graphkin.construction.group_position import placed_by_trial
-
-            placed_by_trial(frame, (trials or {})[element])
+            (trials or {})[element].place(frame)
             return {}
         meeting = meetings[i] = meet(frame, element)
         _refuse(structure, element, meeting)
@@ -270,7 +277,7 @@ def draw_position(
     elements: Sequence[Element],
     position: Position,
     branches: Mapping[int, int],
-    trials: Mapping[Cluster, GroupTrial] | None = None,
+    trials: Mapping[Cluster, TrialPlacing] | None = None,
 ) -> dict[str, Phrase]:
     """Record how each link was placed; returns the words for each assembly, by the group's links."""
     frame = position.frame
@@ -284,9 +291,7 @@ def draw_position(
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
         elif isinstance(element, Cluster):
-            from graphkin.construction.group_position import trial_story
-
-            story = trial_story(frame, so_far, (trials or {})[element])
+            story = (trials or {})[element].steps(frame, so_far)
         else:
             meeting = position.meetings[i]
             board.notice("mechanism", SharpCrossing(_inner_name(element), meeting.sharpness))

@@ -14,8 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
-from graphkin.construction.sheet import Pose
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver

@@ -33,10 +33,9 @@ from graphkin.construction.polygon_acts import (
     Translated,
 )
 from graphkin.construction.polygons import Polygons, letter
-from graphkin.construction.sheet import DiagramName, Equation, Order, Sheet, Step, Term
-from graphkin.construction.sizes import OffCurves, RateTimes, Size, SquareOverRadius
+from graphkin.construction.sheet import Act, DiagramName, Equation, Sheet, Step, Term
+from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, SquareOverRadius
 from graphkin.construction.slip import Slip
-from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster

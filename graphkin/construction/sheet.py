@@ -6,15 +6,40 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
+from graphkin.construction.instruments import EXACT_NAME
+from graphkin.construction.links_on_paper import Pose
+from graphkin.construction.mechanism_acts import (
+    ArcOnPath,
+    CompassArcs,
+    FixedPoints,
+    GuideThrough,
+    GuideTouching,
+    LaidOffAngle,
+    LaidOffTravel,
+    LinkPoints,
+    OnMechanism,
+    PathDrawn,
+    PathsCross,
+    SlidToMeet,
+    TrialPositions,
+    mechanism_phrase,
+)
+from graphkin.construction.polygon_acts import (
+    FoundVector,
+    InPolygon,
+    LaidOff,
+    MeasuredRate,
+    RateSeen,
+    Superposed,
+    polygon_phrase,
+)
 from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
-from graphkin.construction.steps import Act, Cause, phrase_of, scaled
 from graphkin.construction.strokes import Aid, Stroke, Vector
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -25,15 +50,80 @@ if TYPE_CHECKING:
     from graphkin.construction.centre_lines import TrainPlan
 
 __all__ = [
-    "DIAGRAMS", "ORDERS", "SERIES", "DiagramName", "DrawnGroup", "Equation", "Extent", "LimitPosition", "Limits",
-    "Order", "Pose", "Rate", "Scales", "Sheet", "Step", "Term", "either_way", "fitting_scale", "next_of_series",
+    "DIAGRAMS", "Act", "Cause", "DiagramName", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Placing", "Rate",
+    "ReadOff", "Scales", "Sheet", "Step", "Term", "either_way", "links_drawn", "phrase_of", "scaled",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
-Order = Literal["velocity", "acceleration"]
-ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
-EXACT_NAME = "exact"  # of the instrument that errs nowhere
+
+
+Act = OnMechanism | InPolygon
+"""What is done and to what; ``mm`` are lengths on paper, the only thing of an act that a scale changes (`scaled`)."""
+
+
+@dataclass(frozen=True)
+class Placing:
+    """The pricking and placing of links."""
+
+    links: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ReadOff:
+    """The reading itself."""
+
+    symbol: Symbol
+
+
+Cause = Act | Placing | ReadOff
+
+
+_WITH_LENGTH = (LaidOffTravel, ArcOnPath, GuideTouching, LaidOff, FoundVector, MeasuredRate, RateSeen)
+_Scalable = TypeVar("_Scalable", bound=Act)
+
+
+def scaled(thing: _Scalable, times: float) -> _Scalable:
+    """The same act with its lengths so many times as large."""
+    if isinstance(thing, CompassArcs):
+        return replace(thing, radii=(thing.radii[0] * times, thing.radii[1] * times))
+    if isinstance(thing, TrialPositions):
+        return replace(thing, table=thing.table.scaled(times) if thing.table is not None else None)
+    if isinstance(thing, Superposed):
+        apart = tuple(tuple(mm * times for mm in row) for row in thing.apart)
+        less = tuple(tuple(replace(one, mm=one.mm * times) for one in row) for row in thing.less)
+        return replace(thing, apart=apart, less=less)
+    return replace(thing, mm=thing.mm * times) if isinstance(thing, _WITH_LENGTH) else thing
+
+
+def links_drawn(act: Act) -> tuple[str, ...]:
+    """The links that an act places or draws."""
+    match act:
+        case FixedPoints():
+            return (act.frame,)
+        case LaidOffAngle() | LinkPoints():
+            return (act.link,)
+        case LaidOffTravel() | PathDrawn() | GuideThrough() | GuideTouching():
+            pairs: tuple[str, ...] = (act.pair,)
+        case PathsCross():
+            pairs = act.pairs
+        case SlidToMeet():
+            pairs = act.along, act.until
+        case TrialPositions():
+            return act.links
+        case _:
+            pairs = ()
+    return tuple(name for pair in pairs for name in pair.split("/"))
+
+
+def phrase_of(thing: Cause) -> Phrase:
+    """An act, or another cause of uncertainty, as a sentence to be."""
+    match thing:
+        case Placing(links):
+            return Phrase("placing", (", ".join(links),))
+        case ReadOff(symbol):
+            return Phrase("reading", (symbol,))
+    return mechanism_phrase(thing) if isinstance(thing, OnMechanism) else polygon_phrase(thing)
 
 
 @dataclass(frozen=True)
@@ -133,22 +223,6 @@ class Rate:
         if self.off_plan:
             return self
         return replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
-
-
-@dataclass(frozen=True)
-class Pose:
-    """Where a link lies on paper: its origin (mm) and the unit direction of its own x axis."""
-
-    origin: complex
-    axis: complex
-
-    def place(self, own: complex) -> complex:
-        """A place on paper (mm), given in the link's own axes (mm)."""
-        return self.origin + self.axis * own
-
-    def scaled(self, times: float) -> Pose:
-        """The same place on a larger figure."""
-        return Pose(self.origin * times, self.axis)
 
 
 @dataclass(frozen=True)
@@ -318,42 +392,3 @@ def either_way(symbol: Symbol) -> Symbol:
         return symbol
     of, to = sorted((symbol.of, symbol.to), key=str)
     return replace(symbol, of=of, to=to)
-
-
-SERIES = (1.0, 2.0, 2.5, 5.0)
-
-
-def next_of_series(least: float) -> float:
-    """The next number of the series 1, 2, 2.5, 5 times a power of ten, in which scales and divisions are chosen.
-
-    >>> next_of_series(0.21), next_of_series(60.0), next_of_series(2.0)
-    (0.25, 100.0, 2.0)
-    """
-    decade = 10.0 ** math.floor(math.log10(least))
-    fit = (step * decade for step in (*SERIES, 10.0) if step * decade >= least * (1 - 1e-9))
-    return float(f"{next(fit, 10.0 * decade):.12g}")
-
-
-@dataclass(frozen=True)
-class Extent:
-    """Width and height of what a figure shows (m, m/s, m/s2)."""
-
-    width: float
-    height: float
-
-    @staticmethod
-    def around(points: Iterable[complex], per_mm: float) -> Extent:
-        """Of points on paper (mm) at a scale; nothing where there are none."""
-        spots = list(points)
-        if not spots:
-            return Extent(0.0, 0.0)
-        x, y = [z.real for z in spots], [z.imag for z in spots]
-        return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
-
-
-def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
-    """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
-    least = max(extent.width / room[0], extent.height / room[1]) * units
-    if not math.isfinite(least) or least <= 0.0:
-        return 1.0
-    return next_of_series(least)

@@ -10,7 +10,13 @@ from typing import Literal
 from graphkin.scene.symbol import Symbol
 from graphkin.words import word
 
-__all__ = ["Direction", "Given", "OffCurves", "RateTimes", "RollingCurves", "Size", "SquareOverRadius", "plain_in"]
+__all__ = [
+    "ORDERS", "Direction", "Given", "OffCurves", "Order", "RateTimes", "RollingCurves", "Size", "SquareOverRadius",
+    "plain_in",
+]  # fmt: skip
+
+Order = Literal["velocity", "acceleration"]
+ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
 @dataclass(frozen=True)

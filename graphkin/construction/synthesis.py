@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from functools import singledispatch
 
-from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.design_sheet import (
     DesignAngle,
     DesignCircle,
@@ -20,6 +19,7 @@ from graphkin.construction.design_sheet import (
     DesignSheet,
     DesignStroke,
 )
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, direction, dot, unit
 from graphkin.scene.synthesis import (

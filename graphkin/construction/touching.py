@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.construction.cam_outline import station
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
-from graphkin.construction.sheet import Pose
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.plane import dot
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism

@@ -15,11 +15,11 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centre_lines import CentreLine, PlanLine, PlanScales, PlanTrial, Spot, TrainPlan
-from graphkin.construction.polygon_acts import PlanDrawn, PlanTravel, PlanTried
-from graphkin.construction.sheet import Extent, Order, fitting_scale
-from graphkin.construction.steps import Act
+from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.polygon_acts import OnPlan, PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.scales import Extent, fitting_scale
+from graphkin.construction.sizes import Order
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import unit
 from graphkin.structure import Mesh, Structure, meshes_of
@@ -356,7 +356,7 @@ class Wheels:
             alike, grown = alike | more, bool(more)
         return alike
 
-    def acts(self, before: Wheels, order: Order) -> Iterator[Act]:
+    def acts(self, before: Wheels, order: Order) -> Iterator[OnPlan]:
         """What was drawn since, as acts."""
         for key, plan in self.drawn.items():
             if key[0] != order or before.drawn.get(key) is plan:

@@ -19,9 +19,8 @@ import numpy as np
 
 from graphkin.construction.dyads import assembled, drive, meet
 from graphkin.construction.follow import Choices, fitted, moved_to
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism
-from graphkin.construction.sheet import Pose
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.model import AngleDriver, Mechanism

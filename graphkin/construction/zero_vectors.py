@@ -12,8 +12,7 @@ from dataclasses import replace
 from graphkin.construction.polygon_acts import AddedRate, FoundVector, LaidOff, MeasuredRate, RateSeen
 from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import DiagramName, Rate, Sheet, Step
-from graphkin.construction.steps import Act
+from graphkin.construction.sheet import Act, DiagramName, Rate, Sheet, Step
 from graphkin.construction.strokes import Aid, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import greatest_before

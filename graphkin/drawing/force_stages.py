@@ -20,7 +20,8 @@ from graphkin.account.forces import (
 from graphkin.account.given_loads import spring_lines
 from graphkin.account.notation import Letters, force_letters, pole
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, LeverRow
-from graphkin.construction.sheet import Extent, Sheet, fitting_scale
+from graphkin.construction.scales import Extent, fitting_scale
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say

@@ -15,7 +15,8 @@ from graphkin.account.voice import capital
 from graphkin.construction import Plan, execute
 from graphkin.construction.centres import Centres
 from graphkin.construction.polygon_acts import OnPlan
-from graphkin.construction.sheet import DiagramName, Scales, Sheet, next_of_series
+from graphkin.construction.scales import next_of_series
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
 from graphkin.drawing.figures.centres import background

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from graphkin.construction.sheet import next_of_series
+from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes

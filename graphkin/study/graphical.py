@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
-from graphkin.construction.sheet import next_of_series
+from graphkin.construction.scales import next_of_series
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol

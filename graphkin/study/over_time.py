@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.sheet import next_of_series
+from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words
 from graphkin.files import Json

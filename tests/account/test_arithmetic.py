@@ -29,7 +29,8 @@ from graphkin.account.written_lines import written_lines
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
-from graphkin.construction.board import EXACT, Board
+from graphkin.construction.board import Board
+from graphkin.construction.instruments import EXACT
 from graphkin.construction.polygon_acts import (
     ByRate,
     FoundVector,

@@ -12,7 +12,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import Lost, compare
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import draft
-from graphkin.construction.steps import ReadOff
+from graphkin.construction.sheet import ReadOff
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 

@@ -13,8 +13,8 @@ import graphkin
 from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, larger_groups, plan
-from graphkin.construction.board import EXACT, nudged
-from graphkin.construction.execution import Redrawn, draw, positioned
+from graphkin.construction.instruments import EXACT, nudged
+from graphkin.construction.plan import Redrawn, draw, positioned
 from graphkin.construction.polygon_acts import (
     Carried,
     DirectionLine,

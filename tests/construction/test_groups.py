@@ -13,7 +13,7 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Room, Slip, draft, execute, plan
-from graphkin.construction.board import pencil
+from graphkin.construction.instruments import pencil
 from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import Superposed, TrialDrawn
 from graphkin.construction.remarks import ParallelLegs

@@ -31,8 +31,7 @@ from graphkin.construction.mechanism_acts import (
     TrialTable,
 )
 from graphkin.construction.polygon_acts import SeenFrom, Superposed, TrialDrawn
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import phrase_of
+from graphkin.construction.sheet import Sheet, phrase_of
 from graphkin.construction.strokes import Aid
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide

@@ -33,9 +33,8 @@ from graphkin.construction.polygon_acts import (
     SeenFrom,
     end_of,
 )
-from graphkin.construction.sheet import Rate, Term
+from graphkin.construction.sheet import Act, Rate, Term
 from graphkin.construction.sizes import Direction, Given, RateTimes, Size
-from graphkin.construction.steps import Act
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol

@@ -22,7 +22,7 @@ from graphkin.construction.mechanism_acts import (
     PathDrawn,
     PathsCross,
 )
-from graphkin.construction.steps import Act, phrase_of
+from graphkin.construction.sheet import Act, phrase_of
 from graphkin.construction.strokes import Bar, CompassArc, Mark
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef

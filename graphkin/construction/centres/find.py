@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.centres.kennedy import CentreRelation, CrossedCentre, Known, Search, closure
 from graphkin.construction.centres.pairs import (
     LinkPair,
@@ -21,8 +20,10 @@ from graphkin.construction.centres.pairs import (
     normals,
     permanent,
 )
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import LinkMotion
-from graphkin.construction.plan import Room, draft, scales_for
+from graphkin.construction.plan import draft
+from graphkin.construction.room import Room, scales_for
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
-from graphkin.construction.sheet import Pose
+from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.touching import Touching
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism

@@ -9,7 +9,6 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from graphkin.construction.board import Instrument
 from graphkin.construction.forces.force_sheet import (
     Acting,
     Arm,
@@ -21,6 +20,7 @@ from graphkin.construction.forces.force_sheet import (
 )
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.joints import JointNames, opposite
+from graphkin.construction.instruments import Instrument
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol

@@ -18,7 +18,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.forces.at_drivers import at_driver
 from graphkin.construction.forces.cut_free import CutFree
 from graphkin.construction.forces.force_sheet import (
@@ -36,7 +35,10 @@ from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.joints import BalanceForm, JointNames, balance_of, driver_of, force_groups
 from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.forces.system import of_larger_group
-from graphkin.construction.sheet import Extent, Pose, Sheet, fitting_scale
+from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.links_on_paper import Pose
+from graphkin.construction.scales import Extent, fitting_scale
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.touching import Touch, Touching
 from graphkin.plane import added_up, cross, unit
 from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink

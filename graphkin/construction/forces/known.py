@@ -12,9 +12,9 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from graphkin.construction.board import Instrument
 from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
 from graphkin.construction.forces.images import Images
+from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable

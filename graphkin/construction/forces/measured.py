@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from graphkin.construction.board import EXACT, Instrument
 from graphkin.construction.forces.draw import forces_on
 from graphkin.construction.forces.force_sheet import ForceSheet
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.scene.symbol import Symbol
 

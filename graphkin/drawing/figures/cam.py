@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from graphkin.account.headings import number, once, term
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
-from graphkin.construction.sheet import Extent, fitting_scale
+from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
     BARE,

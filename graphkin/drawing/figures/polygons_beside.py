@@ -16,7 +16,7 @@ from graphkin.account.headings import (
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
-from graphkin.construction.plan import scales_for
+from graphkin.construction.room import scales_for
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, framed, line, panel, prose, row

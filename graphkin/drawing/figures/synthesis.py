@@ -21,7 +21,7 @@ from graphkin.construction.design_sheet import (
     DesignStroke,
     LineKind,
 )
-from graphkin.construction.sheet import Extent, fitting_scale
+from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
     BARE,

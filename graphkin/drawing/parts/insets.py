@@ -9,7 +9,8 @@ from dataclasses import replace
 
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import EXACT_NAME, DiagramName, Scales, Sheet
+from graphkin.construction.instruments import EXACT_NAME
+from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes

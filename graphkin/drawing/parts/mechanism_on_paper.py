@@ -14,8 +14,7 @@ from functools import cached_property
 
 from graphkin.account.notation import Letters
 from graphkin.construction.cam_outline import outlines_on_paper, station
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import links_drawn
+from graphkin.construction.sheet import Sheet, links_drawn
 from graphkin.construction.strokes import Mark
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment

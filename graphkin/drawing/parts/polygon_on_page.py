@@ -14,8 +14,9 @@ from functools import cached_property
 from graphkin.account.end_letters import SAME, Foot, Place, PolygonPoints
 from graphkin.account.headings import spoken_ref
 from graphkin.account.notation import Letters, pole
+from graphkin.construction.scales import SERIES
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import SERIES, DiagramName, Sheet, Step
+from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width

@@ -18,8 +18,8 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import EXACT, Plan, Scales, execute, pencil, plan
-from graphkin.construction.board import Instrument
 from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.construction.instruments import Instrument
 from graphkin.plane import added_up, cross_arcs
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Mechanism
