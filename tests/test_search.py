@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.search import changes, intervals, last_true, least_value, resolve
+from graphkin.search import changes, intervals, last_true, least_value
+from graphkin.search.curves import resolve
 
 pytestmark = pytest.mark.quick
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver
-from graphkin.search import Pieces, resolve
+from graphkin.search.curves import Pieces, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.followers import cam_angle
 from graphkin.solver.pose import Array
