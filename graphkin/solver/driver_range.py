@@ -7,10 +7,10 @@ study of a turn, the positions of a handout.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -52,6 +52,11 @@ class DriverRange:
     behind: Path
     wide: float
     turns: int
+
+    @cached_property
+    def kept(self) -> dict[Hashable, Any]:
+        """What was found of the whole range and is asked for again: strokes, the flywheel."""
+        return {}
 
     @property
     def scene(self) -> Mechanism:

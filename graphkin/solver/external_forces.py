@@ -189,20 +189,14 @@ class _Loads:
         return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)
 
 
-_LATEST: list[tuple[DriverRange, dict[str, tuple[float, float]]]] = []
-"""The strokes of the range that was asked last: they are the same at all of its positions."""
-
-
 def stroke_of(reach: DriverRange, pair: str) -> tuple[float, float]:
     """Least and greatest travel of a sliding pair (m)."""
-    known = next((strokes for latest, strokes in _LATEST if latest is reach), None)
-    if known is None:
-        known = {}
-        _LATEST[:] = [(reach, known)]  # another thread may put its own here
-    if pair not in known:
+    key = "stroke", pair
+    if key not in reach.kept:
         turn = extremes(reach, Symbol.parse(f"stroke_{pair}"))
-        known[pair] = turn.low, turn.high
-    return known[pair]
+        reach.kept[key] = turn.low, turn.high
+    stroke: tuple[float, float] = reach.kept[key]
+    return stroke
 
 
 SAMPLES = 720

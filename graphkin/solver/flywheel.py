@@ -86,16 +86,10 @@ def flywheel_of(reach: DriverRange) -> FlywheelStudy:
     ------
     Unsolvable : the driver makes no whole turn, the link does not turn on and on, or nothing moves
     """
-    for known, made in _LATEST:
-        if known is reach:
-            return made
-    made = _found(reach)
-    _LATEST[:] = [(reach, made)]
-    return made
-
-
-_LATEST: list[tuple[DriverRange, FlywheelStudy]] = []
-"""What was found last: it is the same in every position."""
+    if "flywheel" not in reach.kept:
+        reach.kept["flywheel"] = _found(reach)
+    study: FlywheelStudy = reach.kept["flywheel"]
+    return study
 
 
 def _found(reach: DriverRange) -> FlywheelStudy:

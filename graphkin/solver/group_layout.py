@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
-from weakref import finalize
 
 import numpy as np
 
@@ -142,15 +141,11 @@ class Layout:
         return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
 
 
-_LAYOUTS: dict[tuple[Hashable, ...], Layout] = {}
-
-
 def layout_of(structure: Structure, group: Cluster) -> Layout:
     """The layout of a group, made once; it goes with its structure."""
     drivers = tuple(structure.drivers.index(driver) for driver in group.drivers)
-    key = (id(structure), group.members, group.pairs, drivers, group.rolling)
-    layout = _LAYOUTS.get(key)
-    if layout is None:
-        layout = _LAYOUTS[key] = Layout(structure, group)
-        finalize(structure, _LAYOUTS.pop, key, None)
+    key = "layout", group.members, group.pairs, drivers, group.rolling
+    if key not in structure.kept:
+        structure.kept[key] = Layout(structure, group)
+    layout: Layout = structure.kept[key]
     return layout

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cached_property
-from typing import TypeVar, cast
+from typing import cast
 
 from graphkin.errors import CallError, Problem
 from graphkin.scene.cams import LawCam, SlidingFollower
@@ -414,7 +414,7 @@ def bounds(
 
 
 _PROGRAMS: dict[Hashable, Program] = {}
-_DIMENSIONED: dict[tuple[int, tuple[bool, ...], frozenset[Name]], DimensionedProgram] = {}
+"""The latest programs by their form: mechanisms that differ in dimensions share one."""
 MOST = 200
 
 
@@ -428,24 +428,15 @@ def program_of(
     moving : for each driver whether it has a second rate
     open_ : numbers by name that stay open even where they are 0, 1 or -1
     """
-    key = (id(structure), moving, open_)
-    if (known := _DIMENSIONED.get(key)) is not None:
+    key = "program", moving, open_
+    if key in structure.kept:
+        known: DimensionedProgram = structure.kept[key]
         return known
     form = _form(structure, open_), moving
     program = _PROGRAMS.pop(form, None) or Program(structure, moving, open_)
     _PROGRAMS[form] = program
-    _keep_latest(_PROGRAMS)
-    dimensioned = _DIMENSIONED[key] = DimensionedProgram(program, structure)
-    _keep_latest(_DIMENSIONED)  # each keeps its structure, so that its id is that of no other
+    while len(_PROGRAMS) > MOST:
+        with suppress(RuntimeError, StopIteration):  # another thread may be at the same
+            _PROGRAMS.pop(next(iter(_PROGRAMS)), None)
+    dimensioned = structure.kept[key] = DimensionedProgram(program, structure)
     return dimensioned
-
-
-Key = TypeVar("Key")
-Kept = TypeVar("Kept")
-
-
-def _keep_latest(kept: dict[Key, Kept]) -> None:
-    """The oldest go; another thread may be at the same."""
-    while len(kept) > MOST:
-        with suppress(RuntimeError, StopIteration):
-            kept.pop(next(iter(kept)), None)

@@ -59,11 +59,11 @@ def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = 
 def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
     """The range about driver values, shape (drivers,), at which the groups have these forms; of the first driver, or of
     another."""
-    for known in _LATEST:
-        if known.structure is structure and known.is_from(forms, start, which):
-            return known.range
+    latest: _Known | None = structure.kept.get("range")  # strokes, loads and tables of one motion ask for the same
+    if latest is not None and latest.is_from(forms, start, which):
+        return latest.range
     found = _followed(structure, forms, start, which)
-    _LATEST[:] = [_Known(structure, {i: form.copy() for i, form in forms.items()}, start.copy(), which, found)]
+    structure.kept["range"] = _Known({i: form.copy() for i, form in forms.items()}, start.copy(), which, found)
     return found
 
 
@@ -71,7 +71,6 @@ def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, w
 class _Known:
     """A range that was followed, and from where."""
 
-    structure: Structure
     forms: Mapping[int, Array]
     start: Array
     which: int
@@ -81,13 +80,6 @@ class _Known:
         same = which == self.which and self.forms.keys() == forms.keys() and np.array_equal(start, self.start)
         return same and all(np.array_equal(form, forms[i]) for i, form in self.forms.items())
 
-_LATEST: list[_Known] = []
-"""The range that was followed last: strokes, loads and tables of one motion ask for the same."""
-
-_ENDED: list[tuple[Mapping[int, Array], Path]] = []
-"""The ways that ended before they came to where they should, the last ones, from their start and with its forms: the
-range in which the motion runs asks for the same."""
-
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
     from graphkin.solver.continuity import FAR, follow_path
@@ -96,13 +88,15 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
     turning = isinstance(driver, AngleDriver)
     wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, driver.values[1]))
 
+    # the ways from here that ended before they came to where they should
+    ended: list[tuple[Mapping[int, Array], Path]] = structure.kept.get("ended", [])
+
     def followed(turns: int) -> Path:
         end = start.copy()
         end[which] += turns * wide
-        for known, path in _ENDED:
+        for known, path in ended:
             moved = path.end - start
-            same = known is forms and path.structure is structure and np.array_equal(path.start, start)
-            if same and np.array_equal(np.flatnonzero(moved), [which]):
+            if known is forms and np.array_equal(path.start, start) and np.array_equal(np.flatnonzero(moved), [which]):
                 by = float((end - start)[which] / moved[which])
                 if path.reach <= by:
                     return path.rescaled(by)
@@ -158,5 +152,5 @@ def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Pat
         if path.limit is None:
             return path
         ended.append((forms, path))
-    _ENDED[:] = ended
+    structure.kept["ended"] = ended
     return ended[0][1]

@@ -6,11 +6,11 @@ one, 高副低代); such a block is a link named ``B/3`` like its pair, and is n
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam
@@ -326,6 +326,15 @@ class Structure:
     def groups(self) -> tuple[Dyad | Cluster, ...]:
         """The Assur groups, in the order of solution."""
         return tuple(e for e in self.elements if not isinstance(e, Driven))
+
+    @cached_property
+    def kept(self) -> dict[Hashable, Any]:
+        """What is made of the structure once and serves again, by what it is: layouts of groups, programs, the range of
+        its driver that was followed last.  It is neither compared nor pickled."""
+        return {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "kept"}
 
     @cached_property
     def place_of(self) -> Mapping[str, int]:

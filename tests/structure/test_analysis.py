@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
+from graphkin.solver import solve
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from tests import scenes
 from tests.rolling_linkages import cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
@@ -210,3 +212,11 @@ def test_a_rod_and_the_wheel_that_it_moves_are_a_dyad_about_where_it_rolls(
 ) -> None:
     (group,) = (e for e in analyse(mechanism_of(scene())).elements if isinstance(e, Cluster))
     assert order == group.order
+
+
+def test_a_structure_is_pickled_without_what_was_made_of_it() -> None:
+    made = structure(FOUR_BAR)
+    solve(made, sweep=4)
+    assert made.kept
+    again = pickle.loads(pickle.dumps(made))
+    assert ({}, made.elements) == (again.kept, again.elements)
