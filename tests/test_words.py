@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.words import LANGUAGES
+from graphkin.words import LANGUAGES, Phrase
+from graphkin.words.rich_text import Markup, as_markup, as_plain, rich_text
 from tests.command import start
 
 MARK = "¤"
@@ -95,3 +96,21 @@ def test_a_scene_may_ask_for_a_further_language(with_another_language):
     asking = f"from graphkin.scene import mechanism_of; print(mechanism_of({scene}).sheet.language)"
     done = subprocess.run([sys.executable, "-c", asking], cwd=with_another_language, capture_output=True, text=True)
     assert "xx" == done.stdout.strip(), done.stderr
+
+
+def test_a_rate_of_the_table_takes_its_index_into_its_symbol():
+    said = rich_text(Phrase("omega zero", ("3", Markup("v_{B}"), Markup("AB"))), "en")
+    assert ("ω_{3}", " = ", "v_{B}", " / ", "AB", " = 0") == said
+    assert [True, False] * 3 == [isinstance(part, Markup) for part in said]
+
+
+def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices():
+    said = Phrase("tangent", (Markup("A"), Markup("B"), "12", "3"))
+    assert "over $AB$ as diameter" in as_markup(rich_text(said, "en"))
+    assert "turn B2 back" in as_plain(rich_text(Phrase("design trial", ("2",)), "en"))
+
+
+def test_dollar_signs_and_braces_of_a_name_are_no_marks_of_symbols():
+    said = rich_text(Phrase("design measured", ("a$$b {c}",)), "en")
+    assert "measured on paper: a$b {c}" == as_plain(said)
+    assert ("measured on paper: a$$b {c}",) == said

@@ -15,9 +15,10 @@ from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.sheet import DiagramName, Sheet, Step
 from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words.rich_text import Markup
 
 __all__ = [
-    "SAME", "ZERO", "EndLetters", "Foot", "Markup", "NamedPoint", "Place", "PolygonPoints", "link_of_vector",
+    "SAME", "ZERO", "EndLetters", "Foot", "NamedPoint", "Place", "PolygonPoints", "link_of_vector",
     "names_in_letters",
 ]  # fmt: skip
 
@@ -26,10 +27,6 @@ ZERO = 0.02  # mm: a shorter vector is drawn as a dot
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
 _POINT = r"[A-Z][a-z]*\d*"
 _POINT_NAMES = re.compile(f"(?:{_POINT})+")
-
-
-class Markup(str):
-    """A symbol in the notation of `graphkin.drawing.text`."""
 
 
 def names_in_letters(letters: Letters, text: str) -> list[str] | None:

@@ -6,25 +6,23 @@ language.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeVar
 
-from graphkin.account.end_letters import EndLetters, Markup, names_in_letters
+from graphkin.account.end_letters import EndLetters, names_in_letters
 from graphkin.account.measured_lengths import times_scale
 from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Act, Sheet, Step
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
 from graphkin.construction.strokes import Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, parts, word
+from graphkin.words import Neutral, Phrase, word
+from graphkin.words.rich_text import Markup, as_markup, rich_text
 from graphkin.words.written import in_markup
 
 __all__ = ["Told", "Voice", "capital", "whole_sentence"]
-
-_RATE = re.compile(r"([ωα]_\{[^{}]*(?:\}|$))")  # in the words of a table; open where its index is a gap
 
 
 @dataclass(frozen=True)
@@ -40,28 +38,7 @@ class Voice:
 
     def say(self, phrase: Phrase, language: str) -> str:
         """A phrase with its symbols between dollar signs; symbols side by side are one."""
-        pieces: list[tuple[bool, str]] = []  # whether it is a symbol, and what it is
-
-        def add(is_symbol: bool, text: str) -> None:
-            if pieces and pieces[-1][0] == is_symbol:
-                text = pieces.pop()[1] + text
-            pieces.append((is_symbol, text))
-
-        index_open = False  # a rate of the table waits for its index
-        for part in parts(phrase, language, lambda thing: self._show(thing, language)):
-            if isinstance(part, Markup):
-                add(True, part)
-                continue
-            if index_open:
-                index, closed, part = part.partition("}")
-                add(True, index + closed)
-                index_open = not closed
-            for i, text in enumerate(part.replace("$$", "\0").split("$")):
-                for k, piece in enumerate(_RATE.split(text) if not i % 2 else [text]):
-                    if piece:
-                        add(bool(i % 2 or k % 2), piece.replace("\0", "$$"))
-                        index_open = index_open or (k % 2 == 1 and not piece.endswith("}"))
-        return "".join(f"${text}$" if is_symbol else text for is_symbol, text in pieces)
+        return as_markup(rich_text(phrase, language, lambda thing: self._show(thing, language)))
 
     def _show(self, thing: object, language: str) -> str:
         if isinstance(thing, Neutral | Markup):

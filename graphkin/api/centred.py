@@ -41,6 +41,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Structure
 from graphkin.words import Phrase, languages, say, word
+from graphkin.words.rich_text import as_plain, rich_text
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
@@ -86,7 +87,7 @@ def centres_text(centred: Centred) -> CentresText:
     sentences += [""] if sentences else []
     sentences.append(word("velocities by centres", language))
     for phrase in velocity_sentences(centred.centres, centred.turning):
-        sentences.append(say(phrase, language, name).replace("_{", "").replace("}", ""))
+        sentences.append(as_plain(rich_text(phrase, language, name)))
     off = [name(p) for p, found in centred.compared.items() if found is not None and found[0] > found[1]]
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
     sentences += [

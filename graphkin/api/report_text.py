@@ -18,6 +18,7 @@ from graphkin.construction.sizes import plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, say, word
+from graphkin.words.rich_text import as_plain, rich_text
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ __all__ = ["contact_lines", "lever_lines", "plain_said", "reading_words", "repor
 
 def plain_said(phrase: Phrase, language: str) -> str:
     """A sentence in plain text, symbols without marks of markup: ω_32 = v_B/A / AB."""
-    return say(phrase, language, plain_in(language)).replace("{", "").replace("}", "")
+    return as_plain(rich_text(phrase, language, plain_in(language)), "_")
 
 
 def report_text(checked: Checked, language: str) -> str:

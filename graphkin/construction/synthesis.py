@@ -32,6 +32,7 @@ from graphkin.scene.synthesis import (
     SliderCrankTask,
 )
 from graphkin.words import Phrase
+from graphkin.words.rich_text import Markup
 
 __all__ = ["construct"]
 
@@ -66,7 +67,7 @@ def _(task: SliderCrankTask, paper: DesignPaper) -> None:
     theta = _theta(task.K)
     near = paper.hand.point(0j)
     far = paper.lay_off(near, 1 + 0j, paper.mm(task.stroke))
-    paper.do("design stroke", ("C_{2}C_{1}", paper.shown(paper.mm(task.stroke))),
+    paper.do("design stroke", (Markup("C_{2}C_{1}"), paper.shown(paper.mm(task.stroke))),
             DesignLine(near, far, "given"), DesignPoint("C1", far), DesignPoint("C2", near))  # fmt: skip
     middle, radius = _locus(paper, far, near, 1, theta, task.K)
     # A lies beyond the near end of the stroke, the offset above its line
@@ -116,7 +117,7 @@ def _pivot_on_circle(paper: DesignPaper, D: complex, circle: tuple[complex, floa
         )
     sides = [D + unit(line) * complex(up, s * math.sqrt(across)) for s in (1.0, -1.0)]
     A = paper.hand.point(min(sides, key=lambda z: z.real))
-    paper.do("design arc", ("D", paper.shown(paper.mm(task.frame)), "A"),
+    paper.do("design arc", (Markup("D"), paper.shown(paper.mm(task.frame)), Markup("A")),
             DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
     return A
 
@@ -128,8 +129,9 @@ def _pivot_on_line(
     reach = paper.hand.compass(paper.mm(task.frame))
     A = paper.cut("A", second, unit(first - second), D, reach)[0]
     paper.do("design theta", (f"{task.K:.6g}", "0"))
-    paper.do("design line", ("D", paper.shown(paper.mm(task.frame)), "A"), DesignLine(second, A, "construction"),
-            DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
+    paper.do("design line", (Markup("D"), paper.shown(paper.mm(task.frame)), Markup("A")),
+            DesignLine(second, A, "construction"), DesignCircle(D, reach, (A,)),
+            DesignPoint("A", A, pivot=True))  # fmt: skip
     return A
 
 
@@ -163,7 +165,7 @@ def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: compl
     ends = (near, far) if cross(near - A, far - A) > 0 else (far, near)
     theta = math.degrees(math.atan2(abs(cross(near - A, far - A)), dot(near - A, far - A)))
     shown = [DesignAngle(A, ends[0] - A, ends[1] - A, theta, "θ")] if theta > SEEN else []
-    paper.do("design halve", ("A" + names[0], "A" + names[1]), *shown, DesignLine(A, far, "limit"),
+    paper.do("design halve", (Markup("A" + names[0]), Markup("A" + names[1])), *shown, DesignLine(A, far, "limit"),
             DesignLine(A, near, "limit"), DesignCircle(A, reach, (on_far,)))  # fmt: skip
     out, back = paper.hand.point(A + crank * unit(far - A)), paper.hand.point(A - crank * unit(near - A))
     labels = ("B2", "B1") if swapped else ("B1", "B2")
@@ -175,7 +177,8 @@ def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: compl
 
 
 def _length_line(name: str, mm: float) -> str:
-    return f"{name} = {mm:.2f} mm"
+    shown = name if name == "ram" else f"${name}$"
+    return f"{shown} = {mm:.2f} mm"
 
 
 @draw.register
@@ -254,7 +257,7 @@ def _(task: BarPositionsTask, paper: DesignPaper) -> None:
         found = []
         for name, at, new in (("A", A, "M"), ("D", D, "N")):
             turned = [at, *(_carried(paper, at, bar, bars[0]) for bar in bars[1:])]
-            paper.do("design inverted", (name,), *(
+            paper.do("design inverted", (Markup(name),), *(
                 stroke for i, z in enumerate(turned[1:], 2)
                 for stroke in (DesignPoint(f"{name}{i}", z), DesignLine(bars[0][0], z, "construction"),
                                DesignLine(bars[0][1], z, "construction"))))  # fmt: skip
@@ -284,7 +287,7 @@ def _circle_centre(
     def written(n: int) -> str:
         return of if len(numbered) == 2 and n == 0 else f"{of}_{{{n + 1}}}"
 
-    paper.do("design bisectors", (name, f"{written(i)}{written(j)}", f"{written(k)}{written(m)}"),
+    paper.do("design bisectors", (Markup(name), Markup(written(i) + written(j)), Markup(written(k) + written(m))),
             DesignLine(points[i], points[j], "construction"), DesignLine(points[k], points[m], "construction"),
             DesignLine(p, at, "direction"), DesignLine(q, at, "direction"),
             DesignCircle(at, abs(points[0] - at), tuple(points)), DesignPoint(name, at, pivot))  # fmt: skip

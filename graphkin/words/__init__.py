@@ -125,7 +125,14 @@ def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> 
 @cache
 def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
     """The words of a key, each with the name of the gap behind it."""
-    return tuple((words, gap) for words, gap, _, _ in Formatter().parse(_table(language)[key]))
+    found: list[tuple[str, str | None]] = []
+    before = ""
+    for words, gap, _, _ in Formatter().parse(_table(language)[key]):
+        before += words
+        if gap is not None:  # a brace that stands for itself parts the words too
+            found.append((before, gap))
+            before = ""
+    return (*found, (before, None))
 
 
 def in_all(said: Wording, language: str) -> tuple[str, ...]:

@@ -11,7 +11,6 @@ from functools import reduce
 from typing import Any
 
 from graphkin.account.arithmetic import bound, divisions, trials_of
-from graphkin.account.end_letters import Markup
 from graphkin.account.headings import number, written
 from graphkin.account.voice import Told
 from graphkin.construction.mechanism_acts import (
@@ -36,6 +35,7 @@ from graphkin.construction.strokes import Aid
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Slide
 from graphkin.words import Neutral, Phrase, languages, listed
+from graphkin.words.rich_text import Markup
 from graphkin.words.written import in_markup, on_paper, true_minus
 
 __all__ = ["TOLD", "numeral"]

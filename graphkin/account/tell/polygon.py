@@ -8,7 +8,7 @@ from functools import reduce
 from typing import Any, TypeAlias, TypeVar
 
 from graphkin.account.arithmetic import bound, laid_sum, parts_by_rates, plan_sum, rate_sum, rule_sum
-from graphkin.account.end_letters import SAME, Markup
+from graphkin.account.end_letters import SAME
 from graphkin.account.headings import number, term, written
 from graphkin.account.measured_lengths import scale_of, unit_of
 from graphkin.account.voice import Told
@@ -39,6 +39,7 @@ from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, languages
+from graphkin.words.rich_text import Markup
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient
 
 __all__ = ["TOLD", "alike", "rate_name"]

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import cmath
 import math
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -53,7 +52,8 @@ from graphkin.drawing.text import plain
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, languages, word
+from graphkin.words.rich_text import Markup, RichText, as_markup, as_plain, rich_text
 
 __all__ = ["FIGURES", "background", "centres_figure", "circle_diagram", "stroke_of"]
 
@@ -280,18 +280,21 @@ def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
     return tuple(dict.fromkeys((said, *(_say(phrase, each, letters) for each in others))))
 
 
-def _say(phrase: Phrase, language: str, letters: Letters) -> str:
-    """A sentence with its symbols between dollar signs."""
+def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
+    """A sentence with its symbols as a convention writes them."""
 
     def show(argument: object) -> str:
         if isinstance(argument, Symbol):
-            return f"${letters.vector(argument)}$"
+            return Markup(letters.vector(argument))
         if isinstance(argument, PointRef):
-            return f"${letters.point(argument.point)}$"
-        return f"${letters.centre(argument)}$" if isinstance(argument, tuple) else str(argument)
+            return Markup(letters.point(argument.point))
+        return Markup(letters.centre(argument)) if isinstance(argument, tuple) else str(argument)
 
-    said = re.sub(r"ω_{[^}]*}", r"$\g<0>$", say(phrase, language, show))
-    return said.replace("$$", "")  # two symbols side by side are one
+    return rich_text(phrase, language, show)
+
+
+def _say(phrase: Phrase, language: str, letters: Letters) -> str:
+    return as_markup(_rich(phrase, language, letters))
 
 
 def _description(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str) -> str:
@@ -311,7 +314,7 @@ def _description(centres: Centres, turning: Mapping[str, Turning], letters: Lett
             how = how_found(centre, letters, each, centres) if centre.number else centre.joint
             said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
         said += [
-            _say(phrase, each, letters).replace("$", "").replace("_{", "").replace("}", "")
+            as_plain(_rich(phrase, each, letters))
             for phrase in velocity_sentences(centres, turning)
         ]
     return "\n".join(said)

@@ -48,6 +48,7 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, in_all, languages, say, word
+from graphkin.words.rich_text import as_markup, as_plain, rich_text
 from graphkin.words.written import amount, in_markup, on_paper, product
 
 if TYPE_CHECKING:
@@ -71,7 +72,6 @@ _KINDS: dict[LineKind, Stroke] = {
     "mechanism": Stroke(0.7),
 }
 _NAME = re.compile(r"([A-Z])(\d*)")
-_SYMBOLS = re.compile(r"(?:(?<![A-Za-z])(?:[A-Z](?:_\{\d\})?)+(?![a-z]))|[θψ]")  # letters of points, angles
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def design_figure(
         _construction(sheet, WIDTH), *steps, _tables(design, sheet.scale, rows, confirmed, language),
         prose(told, WIDTH, LETTER, classes=TOLD), gap=3.0,
     )  # fmt: skip
-    spoken = " ".join(_spoken(say(s.phrase, first)) + "." for s in sheet.steps)
+    spoken = " ".join(as_plain(rich_text(s.phrase, first)) + "." for s in sheet.steps)
     found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
     facts = {"figure": "design", "design": design.name, "kind": design.task.kind,
              "units": {"length": unit, "paper": "mm"},
@@ -174,7 +174,7 @@ def _construction(sheet: DesignSheet, width: float, upto: int | None = None) -> 
 
 def step_words(phrase: Phrase, language: str) -> str:
     """A step in words, its symbols between dollar signs."""
-    return _SYMBOLS.sub(r"$\g<0>$", say(phrase, language))
+    return as_markup(rich_text(phrase, language))
 
 
 def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
@@ -213,10 +213,6 @@ def asked_words(design: Design, language: str) -> str:
 
 def _at(z: complex) -> str:
     return f"({number(z.real)}, {number(z.imag)})"
-
-
-def _spoken(text: str) -> str:
-    return text.replace("_{", "").replace("}", "")
 
 
 def _page(z: complex) -> complex:
