@@ -315,6 +315,14 @@ class Sheet:
         wanted = not self.asked or any(s.scope in ("force", "cycle") for s in self.asked)
         return bool(self.scene.loading) and wanted
 
+    def larger(self, times: float) -> Sheet:
+        """The mechanism alone so many times as large, drawn by any hands."""
+        return replace(
+            self, scales=replace(self.scales, length=self.scales.length / times), steps=(),
+            poses={name: pose.scaled(times) for name, pose in self.poses.items()},
+            points={ref: z * times for ref, z in self.points.items()},
+        )  # fmt: skip
+
     def at(self, scales: Scales) -> Sheet:
         """The same construction at other scales: every length on paper so many times as large.
 

@@ -72,12 +72,7 @@ def _sketch(
 ) -> Piece:
     """The sketch at so many times the size of the mechanism as it is drawn, about the mechanism's own origin."""
     links = set(links_cut_free(group))
-    small = replace(
-        sheet, scales=replace(sheet.scales, length=sheet.scales.length / times), steps=(),
-        poses={name: pose.scaled(times) for name, pose in sheet.poses.items()},
-        points={ref: z * times for ref, z in sheet.points.items()},
-    )  # fmt: skip
-    here = MechanismOnPaper(small, letters)
+    here = MechanismOnPaper(sheet.larger(times), letters)
     parts, labels = _links(here, links)
     marks = marks_cut_free(here, frozenset(links), tag)
     more = [*marks.layers["construction"], *_arms(stage, group, times)]

@@ -68,7 +68,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
     """The numbered diagram, as large as it fits, with a badge at each compound hinge and each high pair."""
     box = Box.around(sheet.points.values())
     room = min((panel.width - 26.0) / max(box.width, 1.0), (panel.height - 26.0) / max(box.height, 1.0))
-    small = _scaled(sheet, room)
+    small = sheet.larger(room)
     piece = bare_mechanism(small, letters)
     for _ in range(FITS):  # discs and cams reach beyond the points, symbols keep their size
         drawn = ink_box(piece.drawn)
@@ -76,7 +76,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
         if over <= 1.0:
             break
         room /= over
-        small = _scaled(sheet, room)
+        small = sheet.larger(room)
         piece = bare_mechanism(small, letters)
     here = MechanismOnPaper(small, letters)
     labels = []
@@ -103,17 +103,6 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
     whole = joined((piece, dashed) if here.cams else (dashed, piece))  # a profile covers what lies under it
     ink = ink_box(whole.drawn) or panel
     return with_labels(moved_piece(whole, panel.centre - ink.centre), panel)
-
-
-def _scaled(sheet: Sheet, times: float) -> Sheet:
-    """The same places so many times as large, of any hands."""
-    return replace(
-        sheet,
-        scales=replace(sheet.scales, length=sheet.scales.length / times),
-        poses={name: pose.scaled(times) for name, pose in sheet.poses.items()},
-        points={ref: z * times for ref, z in sheet.points.items()},
-        steps=(),
-    )
 
 
 def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
@@ -242,7 +231,7 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str
         if over <= 1.0:
             break
         times /= over
-        parts, labels = _drawn_apart(MechanismOnPaper(_scaled(sheet, times), letters), elements)
+        parts, labels = _drawn_apart(MechanismOnPaper(sheet.larger(times), letters), elements)
     piece = Piece({"mechanism": (Group(tuple(parts), id=f"group-{tag}"),)}, tuple(labels))
     ink = ink_box(piece.drawn) or panel
     return with_labels(moved_piece(piece, panel.centre - ink.centre), panel.grown(-0.6))
