@@ -11,7 +11,7 @@ import pytest
 from graphkin.api.drawn import SUPPLIES
 from graphkin.drawing import figures
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import Block, column, foot, framed, heading, page, panel, prose, row, rows, table
+from graphkin.drawing.boxes import Block, column, foot, framed, heading, page, pages, panel, prose, row, rows, table
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.diagrams import DIAGRAMS
 from graphkin.drawing.font_widths import text_box
@@ -55,7 +55,15 @@ def test_blocks_beside_each_other_begin_level_and_are_as_high_as_the_highest() -
 
 
 def test_a_row_holds_as_many_blocks_as_its_width() -> None:
-    assert [22.0, 10.0] == [one.width for one in rows([square(10.0)] * 3, 22.0, gap=2.0)]
+    assert [22.0, 10.0] == [one.width for one in rows([square(10.0)] * 3, 33.0, gap=2.0)]
+
+
+def test_a_page_holds_as_many_blocks_as_its_height() -> None:
+    assert [22.0, 22.0, 10.0] == [one.height for one in pages([square(10.0)] * 5, 33.0, gap=2.0)]
+
+
+def test_a_block_higher_than_its_page_stands_alone() -> None:
+    assert [5.0, 40.0, 5.0] == [one.height for one in pages([square(5.0), square(40.0), square(5.0)], 30.0, gap=2.0)]
 
 
 def test_prose_lies_within_its_width_and_height() -> None:
@@ -68,6 +76,11 @@ def test_no_cell_of_a_table_reaches_into_the_next(width: float) -> None:
     made = table([["force", "N"], ["力", "N"]], [["$F_{I4}$", "−737440.25"], ["P", "3"]], [width, width])
     boxes = [text_box(text) for text in texts(made)]
     assert [] == [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
+
+
+def test_a_cell_wider_than_its_column_is_set_smaller() -> None:
+    made = table([["force", "N"]], [["P", "−737440.25"]], [12.0, 12.0])
+    assert 12.0 <= text_box(texts(made)[-1]).left
 
 
 def test_a_head_that_both_languages_share_stands_once() -> None:
@@ -88,6 +101,7 @@ def test_a_page_holds_heading_body_and_foot_clear_of_each_other() -> None:
     parts = heading(("Shaper", "牛头刨床"), "forces", 100.0), square(40.0), foot("1 mm = 2 N", 100.0, "both", "a note")
     made = page(*parts, title="", said="", language="both", metadata={})
     boxes = [text_box(thing) for thing in walk(made.children) if isinstance(thing, Text)]
+    boxes += [Box.around(thing.points) for thing in walk(made.children) if isinstance(thing, Polygon)]
     assert Box(0.0, 0.0, made.width, made.height).grown(-1.0).holds(ink_box(made.children))
     assert [] == [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
 
