@@ -82,6 +82,63 @@ def place(
     return Placement(labels, panel, obstacles, marks).placed
 
 
+class _Choices:
+    """What labels, and keys in their place, may choose from: a text, its box, and places as far as they have been
+    looked at.  A request is the number of a label, or one behind them for the key of one."""
+
+    def __init__(self, labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
+        self.labels = labels
+        self.texts = [label.text for label in labels]
+        self.boxes = [box_about(text.runs) for text in self.texts]
+        self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
+        self.found: dict[int, LabelPositions] = {}
+        self.seen = [0] * len(labels)  # rings looked at
+        self.keys: dict[int, int] = {}  # the request for the key of a label
+
+    def __getitem__(self, request: int) -> LabelPositions:
+        """The places of a request; those of a key, which may never be in question, are looked for here."""
+        if request not in self.found:
+            (self.found[request],) = self.panel.free([request], 0, len(RINGS))
+        return self.found[request]
+
+    def look(self, who: Sequence[int], last: int) -> None:
+        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
+        for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
+            some = [i for i in who if self.seen[i] == first]
+            known = [self.found[i] for i in some] if first else ()
+            self.found |= zip(some, self.panel.free(some, first, last, known), strict=True)
+            for i in some:
+                self.seen[i] = last
+
+    def look_further(self, who: Sequence[int], rings: tuple[float, ...]) -> None:
+        """Look for places of some labels with leaders in further rings (mm)."""
+        self.found |= zip(who, self.panel.further(who, rings, [self.found[i] for i in who]), strict=True)
+
+    def look_everywhere(self, who: Sequence[int]) -> None:
+        """Look for places of some requests in all rings, and for further ones."""
+        if who:
+            self.found |= zip(who, self.panel.everywhere_free(who), strict=True)
+
+    def ask_for_keys(self, some: Sequence[int]) -> range:
+        """Let keys of some labels want places too; returns their requests."""
+        requests = []
+        for i in some:
+            label = self.labels[i]
+            assert label.key is not None
+            classes = ("label", *label.key.classes)
+            self.texts.append(replace(label.key, id=label.text.id, classes=classes, since=label.text.since))
+            self.boxes.append(box_about(label.key.runs))
+            requests.append(label.request(self.boxes[-1]))
+        first = self.panel.ask(requests)
+        asked = range(first, first + len(some))
+        self.keys |= zip(some, asked, strict=True)
+        return asked
+
+    def forms(self, i: int) -> list[tuple[int, float]]:
+        """The requests by which a label may stand, and what they cost beside their places."""
+        return [(i, 0.0), *((key, _KEY_COST) for key in (self.keys.get(i),) if key is not None)]
+
+
 class Placement:
     """Which label stands where; parameters as for `place`."""
 
@@ -89,22 +146,21 @@ class Placement:
         self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
     ) -> None:
         self.labels, self.ranks = labels, [label.rank for label in labels]
-        self.texts = [label.text for label in labels]  # by request: those of the labels, then their keys
-        self.boxes = [box_about(text.runs) for text in self.texts]
-        self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
-        self.found: dict[int, LabelPositions] = {}  # by request: those of the labels, then those of their keys
-        self.seen = [0] * len(labels)  # rings looked at
+        self.choices = _Choices(labels, panel, obstacles, marks)
         self.held = HeldPositions(len(labels), _SPACE)
-        self.clear = [True] * len(labels)
-        self.keys: dict[int, int] = {}  # the request for the key of a label
-        self.keyed: set[int] = set()  # labels for which their keys stand
+        self.forms = list(range(len(labels)))  # the request by which each label stands, or ``_TOLD``
+        self.faulty: set[int] = set()  # labels that stand where they do least harm
         self.telling = False  # whether a list may tell labels by their ends
-        self.told: set[int] = set()  # labels that it tells so
         self.moves = 0  # how often room has been made
         # Labels for which none could be made: after how many moves, with how many keys, and who was in the way.
         self.stuck: dict[int, tuple[int, int, set[int]]] = {}
         if labels:
             self._settle()
+
+    @property
+    def told(self) -> list[int]:
+        """The labels that a list tells by their ends."""
+        return [i for i, form in enumerate(self.forms) if form == _TOLD]
 
     @property
     def placed(self) -> tuple[Placed, ...]:
@@ -115,28 +171,28 @@ class Placement:
         )  # fmt: skip
 
     def _placed(self, i: int, position: LabelPosition) -> Placed:
-        request = self.keys[i] if i in self.keyed else i
-        text, box = self.texts[request], self.boxes[request]
+        request = self.forms[i]
+        text, box = self.choices.texts[request], self.choices.boxes[request]
         leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
         at = complex(position.left - box.left, position.top - box.top)
         text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
-        return Placed(text, position.box, leader, self.clear[i], i in self.keyed)
+        return Placed(text, position.box, leader, i not in self.faulty, request != i)
 
     @property
     def crowded(self) -> list[int]:
         """The labels that stand badly, or nowhere though they have keys."""
         return [
             i for i, label in enumerate(self.labels)
-            if (not self.clear[i] or self._badly(i) if i in self.held.standing
-                else i not in self.told and label.key is not None and label.rank < _DISPENSABLE)
+            if (i in self.faulty or self._badly(i) if i in self.held.standing
+                else self.forms[i] != _TOLD and label.key is not None and label.rank < _DISPENSABLE)
         ]  # fmt: skip
 
     def _settle(self) -> None:
         """Give every label a place, or give it up."""
         left = list(range(len(self.ranks)))
         for last in _STAGES[1:]:
-            self._look(left, last)
-            left.sort(key=lambda i: (self.ranks[i] > 3, len(self.found[i]), i))
+            self.choices.look(left, last)
+            left.sort(key=lambda i: (self.ranks[i] > 3, len(self.choices[i]), i))
             left = [i for i in left if not self._stand(i)]
             if not left:
                 break
@@ -148,18 +204,9 @@ class Placement:
                 self._insist(i)
         self._untangle()
 
-    def _look(self, who: Sequence[int], last: int) -> None:
-        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
-        for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
-            some = [i for i in who if self.seen[i] == first]
-            known = [self.found[i] for i in some] if first else ()
-            self.found |= zip(some, self.panel.free(some, first, last, known), strict=True)
-            for i in some:
-                self.seen[i] = last
-
     def _stand(self, i: int) -> bool:
         """Take the cheapest place that no other label holds."""
-        positions = self.found[i]
+        positions = self.choices[i]
         k = self.held.first_free(positions, len(positions))
         if k is None:
             return False
@@ -171,7 +218,7 @@ class Placement:
         time that a label is driven out it grows harder to drive out.  Returns those that stand nowhere in the end."""
         if not left:
             return []
-        self._look(left, len(RINGS))
+        self.choices.look(left, len(RINGS))
         worth = np.array([_WORTH[min(rank, len(_WORTH) - 1)] for rank in self.ranks])
         weight = worth.copy()
         queue, hopeless = list(left), []
@@ -180,8 +227,8 @@ class Placement:
             if not queue:
                 break
             i = queue.pop(0)
-            self._look([i], len(RINGS))
-            positions = self.found[i]
+            self.choices.look([i], len(RINGS))
+            positions = self.choices[i]
             met = self.held.met(positions, len(positions))
             lost = weight @ met
             if not len(positions) or (self.ranks[i] and lost.min() > weight[i]):
@@ -204,11 +251,11 @@ class Placement:
         """Move labels to better places: such as have come free (if any has), and such as are further off but cost
         less."""
         uneasy = [i for i, position in self.held.standing.items() if position.cost > least_cost(_STAGES[-2])]
-        self._look(sorted(uneasy), _STAGES[-1])
+        self.choices.look(sorted(uneasy), _STAGES[-1])
         for i in sorted(self.held.standing):
             if i not in uneasy and not freed:
                 continue
-            position, positions = self.held.standing[i], self.found[i]
+            position, positions = self.held.standing[i], self.choices[i]
             better = positions.cheaper(position.cost)
             if better:
                 self.held.leave(i)
@@ -220,12 +267,11 @@ class Placement:
         """Find places for labels that dashed lines run through, or whose leaders cross vectors or joints, if need be by
         moving those in their way."""
         for rings in LED_RINGS:
-            tangled = [i for i in self.held.standing if self.clear[i] and self._badly(i)]
+            tangled = [i for i in self.held.standing if i not in self.faulty and self._badly(i)]
             if not tangled:
                 return
             tangled.sort(key=lambda i: (-self.held.standing[i].cost, i))
-            further = self.panel.further(tangled, rings, [self.found[i] for i in tangled])
-            self.found |= zip(tangled, further, strict=True)
+            self.choices.look_further(tangled, rings)
             for attempt in (self._make_room, self._make_room, self._push):  # once more, since others have made room
                 for i in tangled:
                     if i in self.held.standing and self._badly(i):
@@ -233,25 +279,23 @@ class Placement:
 
     def _badly(self, i: int) -> bool:
         """Whether a dashed line runs through a label, or its leader crosses what leaders are to go round."""
-        return self._tangled(i) or self.panel.struck(self.held.standing[i])
+        return self._tangled(i) or self.choices.panel.struck(self.held.standing[i])
 
     def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""
         position = self.held.standing[i]
-        return position.cost > TANGLED and self.panel.tangled(position)
+        return position.cost > TANGLED and self.choices.panel.tangled(position)
 
     def shorten(self) -> None:
         """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
         having = [i for i, label in enumerate(self.labels) if label.key is not None]
         crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
-        asked = self._ask_for_keys([i for i in having if i in crowded])
-        if asked:
-            self.found |= zip(asked, self.panel.everywhere_free(asked), strict=True)
+        self.choices.look_everywhere(self.choices.ask_for_keys([i for i in having if i in crowded]))
         for i in crowded:
             self._make_room(i)
         crowded = sorted(self.crowded, key=lambda i: (-self._cost(i), i))
         if crowded:
-            self._ask_for_keys([i for i in having if i not in self.keys])
+            self.choices.ask_for_keys([i for i in having if i not in self.choices.keys])
             for i in crowded:
                 self._make_room(i)
         self.telling = True
@@ -259,38 +303,13 @@ class Placement:
         for i in sorted(self.crowded, key=lambda i: (bool(self.labels[i].between), -self._cost(i), i)):
             self._make_room(i)
 
-    def _ask_for_keys(self, some: Sequence[int]) -> range:
-        """Let keys of some labels want places too; returns their requests."""
-        requests = []
-        for i in some:
-            label = self.labels[i]
-            assert label.key is not None
-            classes = ("label", *label.key.classes)
-            self.texts.append(replace(label.key, id=label.text.id, classes=classes, since=label.text.since))
-            self.boxes.append(box_about(label.key.runs))
-            requests.append(label.request(self.boxes[-1]))
-        first = self.panel.ask(requests)
-        asked = range(first, first + len(some))
-        self.keys |= zip(some, asked, strict=True)
-        return asked
-
-    def _places(self, request: int) -> LabelPositions:
-        """Those of a request; of a key, which may never be in question, they are looked for here."""
-        if request not in self.found:
-            (self.found[request],) = self.panel.free([request], 0, len(RINGS))
-        return self.found[request]
-
     def _cost(self, i: int) -> float:
         """What it costs that a label stands where it stands, or nowhere."""
         if i not in self.held.standing:
-            return _TOLD_COST if i in self.told else _MISSING_COST
-        if not self.clear[i]:
+            return _TOLD_COST if self.forms[i] == _TOLD else _MISSING_COST
+        if i in self.faulty:
             return FORBIDDEN
-        return self.held.standing[i].cost + _KEY_COST * (i in self.keyed)
-
-    def _forms(self, i: int) -> list[tuple[int, float]]:
-        """The requests by which a label may stand, and what they cost beside their places."""
-        return [(i, 0.0), *((key, _KEY_COST) for key in (self.keys.get(i),) if key is not None)]
+        return self.held.standing[i].cost + _KEY_COST * (self.forms[i] != i)
 
     def _make_room(self, i: int) -> None:
         """Move a label, and those in its way, to where they cost less together."""
@@ -303,8 +322,8 @@ class Placement:
         if self.telling and self.labels[i].between and best > _TOLD_COST:
             chosen, best = {i: (_TOLD, None)}, _TOLD_COST
         others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
-        for form, extra in self._forms(i):
-            positions = self._places(form)
+        for form, extra in self.choices.forms(i):
+            positions = self.choices[form]
             free = self.held.first_known_free(positions, positions.cheaper(best - extra))
             if free is not None:
                 position = positions.position(free)
@@ -323,7 +342,7 @@ class Placement:
                     for dear, own, k in others[j]:
                         if dear >= rest:
                             break
-                        its = None if own == _TOLD else self.found[own].position(k)
+                        its = None if own == _TOLD else self.choices[own].position(k)
                         if its is not None:
                             if any(its.meets(one, _SPACE) for one in taken):
                                 continue
@@ -339,7 +358,7 @@ class Placement:
         if chosen:
             self.moves += 1
         else:
-            self.stuck[i] = self.moves, len(self.keys), {i, *others}
+            self.stuck[i] = self.moves, len(self.choices.keys), {i, *others}
             if here is not None:
                 self.held.take(i, here)
         for label, (form, place) in chosen.items():
@@ -347,9 +366,8 @@ class Placement:
                 self.held.take(label, place)
             elif label in self.held.standing:
                 self.held.leave(label)
-            self.clear[label] = True
-            for kind, belongs in ((self.told, form == _TOLD), (self.keyed, form not in (label, _TOLD))):
-                (kind.add if belongs else kind.discard)(label)
+            self.faulty.discard(label)
+            self.forms[label] = form
 
     def _push(self, i: int) -> None:
         """Put a label where its leader crosses nothing, and whoever stands there elsewhere in the same way; everything
@@ -362,8 +380,8 @@ class Placement:
             if not queue:
                 break
             j = queue.pop(0)
-            self._look([j], len(RINGS))
-            positions = self.found[j]
+            self.choices.look([j], len(RINGS))
+            positions = self.choices[j]
             count = positions.cheaper(TANGLED)
             if not count:
                 queue.append(j)
@@ -385,13 +403,13 @@ class Placement:
     def _is_stuck(self, i: int) -> bool:
         """Whether no room could be made for a label, and nothing has changed since for it and those in its way."""
         moves, keys, concerned = self.stuck.get(i, (-1, 0, set()))
-        return moves == self.moves and concerned.isdisjoint(list(self.keys)[keys:])
+        return moves == self.moves and concerned.isdisjoint(list(self.choices.keys)[keys:])
 
     def _others(self, j: int) -> list[tuple[float, int, int]]:
         """Places of a label that no other is in the way of: what they cost, their request and index."""
         found = []
-        for form, extra in self._forms(j):
-            positions = self._places(form)
+        for form, extra in self.choices.forms(j):
+            positions = self.choices[form]
             met = self.held.met(positions, min(_LOOKED_AT, len(positions)))
             free = (met.sum(axis=0) == met[j]).nonzero()[0]
             costs = (positions.costs[free] + extra).tolist()
@@ -409,13 +427,14 @@ class Placement:
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
-        (positions, faults), important = self.panel.everywhere(i), np.array(self.ranks) == 0
+        (positions, faults), important = self.choices.panel.everywhere(i), np.array(self.ranks) == 0
         met = self.held.covered(positions)
         faults = faults + met[important].sum(axis=0)
         chosen = int(np.lexsort((positions.costs, met.sum(axis=0), faults))[0])
         for j in np.flatnonzero(met[:, chosen] & ~important):
             self.held.leave(int(j))
-        self.clear[i] = bool(faults[chosen] == 0)
+        if faults[chosen]:
+            self.faulty.add(i)
         self.held.take(i, positions.position(chosen))
 
 
