@@ -179,7 +179,7 @@ class Swept(OfScene, Result):
         if asked or not self.chords:
             pages = diagrams(self.turn, self.language, asked=asked, over=over)
         if self.chords:
-            from graphkin.study.graphical_page import chords_page
+            from graphkin.study.graphical import chords_page
 
             pages |= {name: chords_page(one, self.turn.reach, self.language) for name, one in self.chords.items()}
         return pages
@@ -211,7 +211,7 @@ class Swept(OfScene, Result):
         """The tables of what was differentiated or integrated on paper."""
         if not self.on_paper:
             return {}
-        from graphkin.study.graphical_page import chords_table
+        from graphkin.study.graphical import chords_table
 
         return {f"{name}.csv": chords_table(chords, self.over.base.reach) for name, chords in self.chords.items()}
 

@@ -1,5 +1,6 @@
-"""All methods on the same work, in one run; as a table, and as data for programs.  Those that draw: the exact board, a
-drafting program, pencil and ruler at several scales, instant centres."""
+"""All methods on the same work, in one run; as a table, as data for programs, and as a chart: cost of a position
+against the largest error, velocity and acceleration side by side.  Those that draw: the exact board, a drafting
+program, pencil and ruler at several scales, instant centres."""
 
 from __future__ import annotations
 
@@ -14,6 +15,9 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.drawing import Box, Stroke, Text
+from graphkin.drawing.chart import ChartPage, Shape, add_labels, add_panel, add_words, count_powers, look, marker
+from graphkin.drawing.text import rich, wrapped
 from graphkin.files import Json
 from graphkin.races.computed import closed_forms, complex_step, copy_time, differences, newton, one_by_one
 from graphkin.races.timing import Entry, Machine, Skipped, best_time, this_machine
@@ -24,11 +28,14 @@ from graphkin.solver.pose import Array
 from graphkin.study.reference import context
 from graphkin.table import Table
 from graphkin.words import Phrase, say, word
+from graphkin.words.written import in_markup
 
 if TYPE_CHECKING:
     from mpmath import MPContext
 
-__all__ = ["COUNT", "Race", "race", "race_table", "to_json"]
+    from graphkin.drawing.chart import Figure
+
+__all__ = ["COUNT", "Race", "race", "race_page", "race_table", "to_json"]
 
 COUNT = 100_800
 
@@ -239,3 +246,180 @@ def to_json(race: Race, language: str = "en") -> dict[str, Json]:
         ],
         "left_out": [{"peer": name, "why": say(why, language)} for name, why in race.skipped],
     }  # fmt: skip
+
+
+WIDTH, HEIGHT = 297.0, 210.0
+LEFT, RIGHT, GAP = 22.0, 8.0, 18.0
+TOP, BOTTOM = 40.0, 50.0
+LETTERS = 2.5
+LETTERS_TRIED = (2.5, 2.3, 2.1, 2.0)
+"""Letters of the labels, mm: where machine and methods crowd the points, smaller ones."""
+LOWEST = 1e-19
+HIGHEST = 10.0
+
+SHAPES: dict[str, Shape] = {
+    "closed": "disc",
+    "newton": "circle",
+    "differences": "diamond",
+    "complex step": "square",
+    "drawn": "cross",
+    "by hand": "down",
+    "peer": "up",
+}
+LINES = {
+    "newton": Stroke(0.25, (3.0, 1.2)),
+    "differences": Stroke(0.25, (0.9, 0.9)),
+    "pencil": Stroke(0.25),
+    "by hand": Stroke(0.25),
+}
+FLOOR = Stroke(0.35, (4.0, 1.0, 0.9, 1.0))
+SAVED = Stroke(0.18)
+NUMBERED = {"newton": ("1", "2", "3", "4"), "differences": ("1e-1", "1e-4", "1e-6", "1e-8")}
+"""Which points of a curve bear their number."""
+
+
+def race_page(race: Race, language: str = "en") -> ChartPage:
+    """One page for both."""
+    title = word("speed title", language)
+    name = race.scene.title_in(language)
+    versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
+    facts = say(
+        Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,
+                               race.places)), language)  # fmt: skip
+    wide = WIDTH - LEFT - RIGHT
+    half = (wide - GAP) / 2
+
+    def paint(figure: Figure) -> None:
+        add_words(
+            figure,
+            Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
+            Text(complex(LEFT - 12, 19.0), rich(in_markup(name), 3.5)),
+            *_lines([in_markup(facts)], 24.0, LETTERS, 3.3),
+            *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
+        )
+        for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
+            _draw(figure, race, kind, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
+
+    return ChartPage(
+        WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
+        metadata={"study": "speed-accuracy", "scene": race.scene.name},
+    )  # fmt: skip
+
+
+def lessons(race: Race) -> tuple[Phrase, ...]:
+    """What the entries say of drawing and computing accelerations: every number is one of theirs, or a quotient."""
+
+    def error(entry: Entry) -> str:
+        off = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
+        return f"{off:.1g}"
+
+    def times(entry: Entry, of: Entry) -> str:
+        return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"
+
+    def percent(entry: Entry) -> str:
+        return f"{100 * max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0):.2g}"
+
+    hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
+    drawn, closed = race.of("exact drawing"), race.of("closed arrays")
+    told = []
+    if hands:
+        usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
+        told.append(Phrase("speed lesson draw", (
+            f"{usual.acceleration_cost / 60:.2g}", percent(usual), usual.tag, percent(large), large.tag,
+            f"{1e3 * drawn.acceleration_cost:.2g}", error(drawn),
+        )))  # fmt: skip
+    told.append(Phrase("speed lesson compute", (times(closed, drawn), error(closed))))
+    steps = [e for e in race.entries if e.key == "differences"]
+    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
+    if steps and newton is not None:
+        single = race.of("closed single")
+        best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
+                for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
+        told.append(Phrase("speed lesson lose", (
+            times(steps[0], closed), *(f"{off:.1g}" for off in best), times(single, closed), error(single),
+            times(newton, closed), error(newton),
+        )))  # fmt: skip
+    return tuple(told)
+
+
+def _lessons(race: Race, language: str) -> list[str]:
+    lines = [say(lesson, language) for lesson in lessons(race)]
+    lines.append(say(Phrase("speed hand", (race.acts,)), language))
+    if race.skipped:
+        told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)
+        lines.append(say(Phrase("skipped", (told,)), language))
+    return lines
+
+
+def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> list[Text]:
+    """Paragraphs (markup) over the width of the page, from a baseline down."""
+    lines = [runs for markup in paragraphs for runs in wrapped(markup, letters, WIDTH - LEFT - RIGHT + 12)]
+    return [Text(complex(LEFT - 12, y + k * step), runs) for k, runs in enumerate(lines)]
+
+
+def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
+    """Entries that give something, with cost and error."""
+    found = []
+    for e in entries:
+        cost, error = (
+            (e.velocity_cost, e.velocity_error) if kind == "velocity" else (e.acceleration_cost, e.acceleration_error)
+        )
+        if error is not None and math.isfinite(error):
+            found.append((e, cost, max(error, LOWEST * 1.5)))
+    return found
+
+
+def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
+    points = _points(race.entries, kind)
+    costs = [c for _, c, _ in points]
+    floor = race.copying[kind == "acceleration"]
+    title = f"{word(f'speed of {kind}', language)}: {word('largest error', language)}"
+    axes = add_panel(figure, box, f"speed-{kind}", title, word("cost of a position", language))
+    count_powers(axes, "x", min(floor, *costs) / 1.5, max(costs) * 1.5, most=14)
+    count_powers(axes, "y", LOWEST, HIGHEST)
+    points = [p for p in points if p[2] <= HIGHEST]
+    axes.plot([floor] * 2, [LOWEST, HIGHEST], **look(FLOOR))
+    for name, stroke in LINES.items():
+        own = [p for p in points if p[0].family == name or (name == "pencil" and p[0].key == "pencil")]
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **look(stroke))
+    for e, cost, error in points:  # lines from each whole run to the one that is limited to what is asked
+        whole = next((p for p in points if p[0].key == e.key and not p[0].tag and e.tag == "asked"), None)
+        if whole is not None:
+            axes.plot([whole[1], cost], [whole[2], error], **look(SAVED))
+    for family, shape in SHAPES.items():
+        own = [p for p in points if p[0].family == family]
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **marker(shape))
+    named = [(_words(race, e, points, language), (cost, error)) for e, cost, error in points]
+    stretch = (floor, HIGHEST / 20), (floor, HIGHEST / 2e4)
+    add_labels(axes, [*((w, at) for w, at in named if w), (word("copying", language), stretch)], LETTERS_TRIED)
+
+
+def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
+    """The name of a method at its point; of a curve's points the first bears the name, some their numbers."""
+    if entry.tag == "asked":
+        return say(Phrase("only asked", (word(entry.key, language), _written(race.asked[0]))), language)
+    if not entry.tag:
+        return word(entry.key, language)
+    name = word("differences of" if entry.key == "differences" else entry.key, language)
+    first = next(p[0] for p in points if p[0].key == entry.key)
+    number = _number(entry.tag)
+    if entry is first:
+        return f"{name} {number}"
+    if entry.family in NUMBERED:
+        return number if entry.tag in NUMBERED[entry.family] else ""
+    last = [p[0] for p in points if p[0].key == entry.key][-1]
+    return number if entry is last else ""
+
+
+def _written(symbol: Symbol) -> str:
+    """A symbol as it is set: v_B@3 with B3 as its index."""
+    if symbol.link:
+        return f"${'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}$"
+    parts = [f"{ref.point}{ref.link}" for ref in (symbol.of, symbol.to) if ref is not None]
+    return f"${symbol.kind[0]}_{{{'/'.join(parts)}}}$"
+
+
+def _number(tag: str) -> str:
+    if "e-" in tag:
+        return f"$10^{{−{tag.partition('e-')[2]}}}$"
+    return {"0.25": "1/4", "0.5": "1/2"}.get(tag, tag)

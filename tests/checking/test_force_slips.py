@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin import solver
-from graphkin.checking.computed_slips import slipped_forces
+from graphkin.checking.slips import slipped_forces
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 

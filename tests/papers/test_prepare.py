@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 import graphkin
-from graphkin.api import checked, course_schemes
+from graphkin.api import checked, course_designs
 from graphkin.checking.readings import read_off
 from graphkin.construction import execute, plan
 from graphkin.construction.centres import find_centres
@@ -44,7 +44,7 @@ def misread(monkeypatch):
     def wrong(reading):
         return replace(reading, value=-reading.value) if str(reading.symbol) == "omega_3" else reading
 
-    for room in (prepare, checked, course_schemes):
+    for room in (prepare, checked, course_designs):
         monkeypatch.setattr(room, "read_off", lambda *given: [wrong(reading) for reading in read_off(*given)])
 
 

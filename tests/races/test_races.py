@@ -18,9 +18,8 @@ import graphkin
 import graphkin.races
 from graphkin.api.studied import SpeedAccuracy
 from graphkin.races import Race, peers, race, race_page, race_table, timing, to_json
-from graphkin.races.chart import lessons
 from graphkin.races.peers import pylinkage
-from graphkin.races.run import _peer
+from graphkin.races.run import _peer, lessons
 from graphkin.races.timing import Skipped
 from graphkin.scene import mechanism_of
 from graphkin.words import say

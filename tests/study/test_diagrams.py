@@ -16,8 +16,7 @@ from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import walk
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
-from graphkin.study.coupler import coupler_points
-from graphkin.study.diagrams import diagrams, measured
+from graphkin.study.diagrams import coupler_points, diagrams, measured
 from graphkin.study.quantities import link_quantities, slide_quantities
 from graphkin.study.turn import TurnStudy, study_turn
 from tests import scenes
