@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import math
+import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -20,6 +22,9 @@ from graphkin.study.stability import (
     stability_pages,
     to_json,
 )
+from graphkin.study.stability.chart import lessons
+from graphkin.study.stability.laws import in_powers
+from graphkin.words import Phrase, say
 from tests.drawing.chart_words import off_the_page, overlapping
 
 SLOPE = 0.15
@@ -171,3 +176,32 @@ def test_the_committed_example_shows_the_slopes_of_theory() -> None:
         rows = [row for row in csv.DictReader(file) if row["theory"]]
     assert {"singularity": 11} == {"singularity": len({row["singularity"] for row in rows})}
     assert all(abs(float(row["slope"]) - float(row["theory"])) <= SLOPE for row in rows)
+
+
+def test_what_is_concluded_is_what_was_measured():
+    found = tuple(map(singularity, KINDS))
+    by_key = {one.key: one for one in found}
+    height, dead = by_key["crossing height"], by_key["dead point RRR"]
+    assert in_powers(height["height by squares"].worst) == height.fates[0].args[0]
+    assert in_powers(dead["velocity closed form"].refuses_from) == dead.fates[0].args[0]
+    pencil = next(lesson for lesson in lessons(found) if lesson.key == "lesson pencil")
+    times, at, drawn, doubles = (float(re.sub(r"·\$10\^\{(.*)\}\$", r"e\1", a).replace("−", "-")) for a in pencil.args)
+    assert drawn / doubles == pytest.approx(times, rel=0.1)
+    assert drawn == pytest.approx(dead["velocity pencil"].near(at), rel=0.06)
+
+
+@pytest.mark.parametrize("times", [0.01, 100.0])
+def test_conclusions_follow_what_is_measured(times):
+    found = singularity("crossing height")
+    other = replace(found, laws=tuple(replace(law, error=tuple(times * e for e in law.error)) for law in found.laws))
+    angle = singularity("angle near zero")
+    (one,), (two,) = lessons((found, angle)), lessons((other, angle))
+    assert [in_powers(times * law.worst) for law in found.laws] == list(two.args[:2])
+    assert one.args[2:] == two.args[2:]
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_no_conclusion_has_a_number_that_was_not_measured(language):
+    keys = "fate height", "fate arccos", "fate scale", "fate centre", "lesson pencil", "lesson digits"
+    fixed = [say(Phrase(key, ("",) * 6), language) for key in keys]
+    assert [] == [text for text in fixed if re.search(r"\d", text.replace("c² − m²", "").replace("atan2", ""))]

@@ -21,14 +21,14 @@ from graphkin.drawing.chart import (
     marker,
 )
 from graphkin.drawing.text import rich, wrapped
-from graphkin.study.stability.laws import ErrorLaw, Singularity
-from graphkin.words import say, word
+from graphkin.study.stability.laws import ErrorLaw, Singularity, in_powers
+from graphkin.words import Phrase, say, word
 from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
 
-__all__ = ["stability_pages"]
+__all__ = ["lessons", "stability_pages"]
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP = 10.0, 38.0
@@ -47,11 +47,12 @@ def stability_pages(found: Sequence[Singularity], language: str = "en") -> dict[
     made = {}
     for k in range(0, len(found), PER_PAGE):
         name = "stability" if k == 0 else f"stability-{k // PER_PAGE + 1}"
-        made[name] = _page(found[k : k + PER_PAGE], language)
+        made[name] = _page(found[k : k + PER_PAGE], found, language)
     return made
 
 
-def _page(found: Sequence[Singularity], language: str) -> ChartPage:
+def _page(found: Sequence[Singularity], every: Sequence[Singularity], language: str) -> ChartPage:
+    """Some singularities, and what to take from ``every`` one where a place is left."""
     title, facts = word("stability title", language), word("stability facts", language)
     corners = [complex(LEFT + (k % 2) * CELL.real, TOP + (k // 2) * CELL.imag) for k in range(PER_PAGE + 1)]
     marks: tuple[Shape, ...] = (DOTS["Newton"], DOTS["drawing"], DOTS["pencil"], "square")
@@ -65,7 +66,7 @@ def _page(found: Sequence[Singularity], language: str) -> ChartPage:
         for one, corner in zip(found, corners, strict=False):
             _draw(figure, one, corner, language)
         if len(found) % 2:
-            add_words(figure, *_lesson(corners[len(found)], language))
+            add_words(figure, *_lesson(corners[len(found)], every, language))
 
     told = "; ".join(word(t.key, language) for t in found)
     return ChartPage(
@@ -118,12 +119,37 @@ def _stretch(
     return near[0], near[-1]
 
 
-def _lesson(corner: complex, language: str) -> list[Text]:
+def lessons(found: Sequence[Singularity]) -> tuple[Phrase, ...]:
+    """What to take from all that was measured, each number out of it; of what was not measured nothing."""
+    by_key = {one.key: one for one in found}
+    told = []
+    if dead := by_key.get("dead point RRR"):
+        lost, given = dead["acceleration closed form"], dead["all from the dead point"]
+        told.append(Phrase("lesson place", (in_powers(lost.worst), in_powers(given.worst))))
+    if (height := by_key.get("crossing height")) and (angle := by_key.get("angle near zero")):
+        laws = (height[f"height by {way}"] for way in ("squares", "Heron"))
+        formulas = *laws, *(angle[f"angle by {way}"] for way in ("arccos", "atan2"))
+        told.append(Phrase("lesson digits", tuple(in_powers(law.worst) for law in formulas)))
+    if dead:
+        pencil, doubles = dead["velocity pencil"], dead["velocity closed form"]
+        at = next((x for x in pencil.x if x < 0.15), pencil.x[0])
+        both = pencil.near(at), doubles.near(at)
+        told.append(Phrase("lesson pencil", tuple(map(in_powers, (both[0] / both[1], at, *both)))))
+    if lines := by_key.get("parallel lines"):
+        place, through = lines["centre place pencil"], lines["centre velocity pencil"]
+        told.append(Phrase("lesson centres", (in_powers(place.worst), in_powers(through.worst))))
+    silent = {"crossing height": "height by squares", "differences": "acceleration differences"}
+    if silent.keys() <= by_key.keys():
+        told.append(Phrase("lesson says", tuple(in_powers(by_key[key][law].worst) for key, law in silent.items())))
+    return tuple(told)
+
+
+def _lesson(corner: complex, found: Sequence[Singularity], language: str) -> list[Text]:
     """What to take from all of it, in the place that is left."""
     lines = [Text(complex(corner.real, corner.imag + 2.5), rich(word("lesson", language), 3.2, True))]
     y = corner.imag + 10.0
-    for key in ("lesson place", "lesson digits", "lesson pencil", "lesson centres", "lesson says"):
-        for runs in wrapped(word(key, language), 3.0, CELL.real - 10.0):
+    for lesson in lessons(found):
+        for runs in wrapped(say(lesson, language), 3.0, CELL.real - 10.0):
             lines.append(Text(complex(corner.real, y), runs))
             y += 4.2
         y += 2.2

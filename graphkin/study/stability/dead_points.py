@@ -29,9 +29,8 @@ from graphkin.solver.decimals import working
 from graphkin.structure import DyadKind
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import reference, refined
-from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid, in_powers
 from graphkin.words import Phrase
-from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpf
@@ -169,16 +168,12 @@ def dead_point(kind: DyadKind, mp: MPContext, samples: int = 4) -> Singularity:
     laws += [_given(case, x, truth, samples), _pencil(case, mp)]
     found = {law.key: law for law in laws}
     ends = (
-        ("fate dead closed", found["velocity closed form"].refuses_from),
-        ("fate dead newton", found["velocity Newton"].warns_from),
-        ("fate dead drawn", found["velocity pencil"].refuses_from),
+        ("fate dead closed", (found["velocity closed form"].refuses_from,)),
+        ("fate dead newton", (found["velocity Newton"].warns_from,)),
+        ("fate dead drawn", (found["velocity exact drawing"].warns_from, found["velocity pencil"].refuses_from)),
     )
-    fates = [Phrase(key, (_power(x),)) for key, x in ends if x is not None]
+    fates = [Phrase(key, tuple(in_powers(x) for x in at if x is not None)) for key, at in ends if None not in at]
     return Singularity(f"dead point {kind}", "crank before", tuple(laws), tuple(fates))
-
-
-def _power(x: float) -> str:
-    return f"$10^{{{true_minus(str(round(math.log10(x))))}}}$"
 
 
 @dataclass(frozen=True)

@@ -31,7 +31,7 @@ from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.study.equations import Equations
 from graphkin.study.reference import reference, refined
-from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid, in_powers
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -67,7 +67,8 @@ def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
     for key, theory in zip(errors, (-1.0, 0.0), strict=True):
         xs, es = binned(x, errors[key], samples)
         laws.append(ErrorLaw(key, xs, es, theory, window=(1e-13, 1e-1)))
-    return Singularity("crossing height", "gap of radii", tuple(laws), (Phrase("fate height"),))
+    fate = Phrase("fate height", tuple(in_powers(law.worst) for law in laws))
+    return Singularity("crossing height", "gap of radii", tuple(laws), (fate,))
 
 
 def _height2(r: mpf, s: mpf, c: mpf) -> mpf:
@@ -98,7 +99,8 @@ def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
         ErrorLaw("angle by arccos", xs, one, -1.0, window=(1e-7, 0.5)),
         ErrorLaw("angle by atan2", xs, two, 0.0, window=(1e-7, 0.5)),
     )
-    return Singularity("angle near zero", "angle of two lines", laws, (Phrase("fate arccos"),))
+    fate = Phrase("fate arccos", tuple(in_powers(law.worst) for law in laws))
+    return Singularity("angle near zero", "angle of two lines", laws, (fate,))
 
 
 def _ray(angle: float) -> complex:
@@ -150,7 +152,8 @@ def differences(mp: MPContext, samples: int = 4, name: str = "slider-crank-offse
     by_step = [_complex_step(equations, x0, q, (rate, second), k, h, (v, a)) for h in steps[::4]]
     errors = tuple(e[0] for e in by_step)
     laws.append(ErrorLaw("velocity complex step", tuple(steps[::4]), errors, 2.0, window=(1e-6, 0.2)))
-    return Singularity("differences", "step", tuple(laws), (Phrase("fate differences"),))
+    fate = Phrase("fate differences", tuple(in_powers(laws[k].best) for k in (0, 2, 4)))
+    return Singularity("differences", "step", tuple(laws), (fate,))
 
 
 def _part(key: str, x: Sequence[float], error: Sequence[float], theory: float, window: tuple[float, float]) -> ErrorLaw:
@@ -257,7 +260,10 @@ def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
         ErrorLaw("centre velocity", xs, two, 0.0),
         *_by_pencil(mp),
     ]
-    return Singularity("parallel lines", "angle of two lines", tuple(laws), (Phrase("fate centre"),))
+    fates = [Phrase("fate centre kept", (in_powers(laws[1].worst), in_powers(laws[3].worst)))]
+    if stops is not None:
+        fates.insert(0, Phrase("fate centre", (in_powers(stops),)))
+    return Singularity("parallel lines", "angle of two lines", tuple(laws), tuple(fates))
 
 
 def _by_pencil(mp: MPContext) -> list[ErrorLaw]:
@@ -309,7 +315,9 @@ def drawing_scale(mp: MPContext, samples: int = 1, name: str = "slider-crank-off
             predicted = predict(replace(what, scales=scales), "pencil", tools, together=False)
             errors.append(predicted[symbol].deviation / right)
         laws.append(ErrorLaw(key, tuple(x), tuple(errors), theory, lost=1.0))
-    return Singularity("small scale", "crank on paper", tuple(laws), (Phrase("fate scale"),))
+    ends = [f"{x[0]:.2g}", f"{x[-1]:.4g}"]
+    fate = Phrase("fate scale", (*ends, *(in_powers(law.error[k]) for law in laws for k in (0, -1))))
+    return Singularity("small scale", "crank on paper", tuple(laws), (fate,))
 
 
 def _value(what: Plan, symbol: Symbol) -> complex:

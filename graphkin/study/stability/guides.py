@@ -16,7 +16,7 @@ from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid
+from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid, in_powers
 from graphkin.words import Phrase
 from graphkin.words.written import true_minus
 
@@ -102,18 +102,21 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
     Coriolis grows as distance^-1, the second rate of the bar as distance^-2, their relative errors as distance^-1.
     """
     x = grid(0.3, 1e-8, samples)
-    rows, sizes = [], []
+    rows, sizes, solved = [], [], []
     for e in x:
         scene = mechanism_of_text(_BAR.format(ground=100, crank=repr(100 * (1 - e)), angle=-90), "near")
         rate, a = scene.drivers[0].values[1], abs(scene.by_name["1"].points["B"])
         angle = -math.pi / 2 + e
         right = _right(mp, mp.mpf(a), mp.mpf(scene.frame.points["A"].imag), rate, mp.mpf(angle))
         rows.append(right.off(_doubles(_at(scene, angle), angle)))
+        one = _solved(_at(scene, angle))
+        solved.append(right.off(one[0])[2] if one else math.nan)
         sizes.append((float(abs(right.coriolis / (a * rate**2))), float(abs(right.alpha / rate**2))))
     laws = _laws(("place bar", "acceleration Coriolis", "acceleration bar"), x, rows, (-1.0,) * 3, samples)
     growth = _laws(("size Coriolis", "size bar"), x, sizes, (-1.0, -2.0), samples, math.inf, (1e-12, 0.03))
     grown = Phrase("grows", tuple(true_minus(f"{law.slope:.2f}") for law in growth))
-    fates = grown, Phrase("fate near ground")
+    told = max((e for e in solved if math.isfinite(e)), default=math.nan)
+    fates = grown, Phrase("fate near ground", (in_powers(laws[2].worst), in_powers(told)))
     return Singularity("near ground", "crank from ground", tuple(laws), fates, tuple(growth))
 
 
@@ -166,7 +169,9 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         ErrorLaw("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
                  window=(1e-8, 0.1), lost=math.inf),
     ]  # fmt: skip
-    return Singularity("guide flip", "crank from flip", tuple(laws), (Phrase("fate flip"),))
+    ends = ("fate flip solved", stops.get("solved")), ("fate flip drawn", stops.get("drawn"))
+    fates = tuple(Phrase(key, (in_powers(at),)) for key, at in ends if at is not None)
+    return Singularity("guide flip", "crank from flip", tuple(laws), fates)
 
 
 def _drawn(scene: Mechanism) -> float:
@@ -205,7 +210,8 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
         ErrorLaw("velocity bar", xs, two, 0.0),
         *_pencil_sliding(scene, mp, rate),
     ]
-    return Singularity("slow sliding", "crank from line", tuple(laws), (Phrase("fate sliding"),))
+    fate = Phrase("fate sliding", tuple(in_powers(law.worst) for law in laws))
+    return Singularity("slow sliding", "crank from line", tuple(laws), (fate,))
 
 
 def _in_line(mp: MPContext, a: mpf, d: mpf, rate: float, e: float) -> tuple[mpf, mpf]:

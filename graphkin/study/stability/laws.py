@@ -9,8 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.words import Phrase
+from graphkin.words.written import true_minus
 
-__all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid"]
+__all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid", "in_powers"]
 
 LOST = 0.03
 PER_DECADE = 2
@@ -56,6 +57,37 @@ class ErrorLaw:
             return math.nan
         a, b = np.array(points).T
         return float(np.polyfit(a, b, 1)[0])
+
+
+    @property
+    def worst(self) -> float:
+        """The largest error where there is an answer."""
+        return max((e for e in self.error if math.isfinite(e)), default=math.nan)
+
+    @property
+    def best(self) -> float:
+        """The least error."""
+        return min((e for e in self.error if math.isfinite(e)), default=math.nan)
+
+    def near(self, x: float) -> float:
+        """The error at the distance next to one where there is an answer."""
+        told = [(abs(math.log(at / x)), e) for at, e in zip(self.x, self.error, strict=True) if math.isfinite(e)]
+        return min(told, default=(0.0, math.nan))[1]
+
+
+def in_powers(value: float) -> str:
+    """A measured number to two figures, as markup.
+
+    >>> in_powers(0.0123), in_powers(1.5e-8), in_powers(math.nan)
+    ('0.012', '1.5·$10^{−8}$', '–')
+    """
+    if not math.isfinite(value):
+        return "–"
+    text = f"{value:.2g}"
+    if "e" not in text:
+        return true_minus(text)
+    head, power = text.split("e")
+    return f"{head}·$10^{{{true_minus(str(int(power)))}}}$"
 
 
 @dataclass(frozen=True)
