@@ -22,18 +22,20 @@ from graphkin.drawing.text import fitted, plain, rich, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Convention
-from graphkin.words import Phrase, Wording, in_all, languages
+from graphkin.words import Phrase, Wording, in_all, languages, word
+from graphkin.words.written import in_markup
 
 __all__ = [
-    "BARE", "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "TOLD", "Block", "FigurePage", "column", "foot",
-    "framed", "heading", "line", "numbered", "numeral", "page", "pages", "panel", "prose", "row", "rows", "table",
-    "without_titles",
+    "GAP", "HEAD_LINE", "INSIDE", "MARGIN", "SIZE", "STEP", "TOLD", "WORKED", "Block", "FigurePage", "column", "foot",
+    "framed", "heading", "line", "numbered", "numeral", "page", "pages", "panel", "picture", "prose", "row", "rows",
+    "steps", "table", "without_titles", "worked_page",
 ]  # fmt: skip
 
 MARGIN = 8.0  # of a page
 INSIDE = 174.0  # width of a page between its margins, where a figure has none of its own
 BELOW = 6.0  # from the base line of the foot to the edge of the page
-SIZE = 2.8  # of the letters of prose
+WORKED = 186.0  # width between the margins of a page on which a task is worked out
+SIZE, STEP = 2.8, 3.0  # of the letters of prose; of steps and notes
 LEADING, BASE = 1.55, 0.7  # a line of text by the size of its letters; its base line, of the line
 TITLE, GIVEN, SCALE = 4.0, 3.2, 3.5  # letters of titles, of what stands below them, of the scale
 HEAD_LINE = 5.0  # from line to line of a heading
@@ -230,6 +232,39 @@ def page(
 def without_titles(children: tuple[Primitive, ...]) -> tuple[Primitive, ...]:
     """What a page shows without its heading, for a paper that tells the same."""
     return map_tree(children, lambda one: None if isinstance(one, Text) and "heading" in one.classes else one)
+
+
+def steps(told: Iterable[tuple[int, str]], width: float = WORKED) -> Block:
+    """Steps below each other behind their numbers, each a part of its step."""
+    return column(*(numbered(number, text, width, STEP, step=number) for number, text in told))
+
+
+def worked_page(
+    names: Iterable[str], given: str, parts: Sequence[Block], notes: Iterable[Wording], scale: str, *, title: str,
+    said: str, language: str, metadata: Mapping[str, object],
+) -> Drawing:  # fmt: skip
+    """A page on which a task is worked out: what is given, ``parts`` of the width `WORKED` below each other, notes, and
+    the foot.
+
+    Parameters
+    ----------
+    names : of the task, in each language that it has one in
+    title, said : of the figure as a key of the table of words, and the figure in words
+    """
+    own = dict.fromkeys(map(in_markup, names))
+    lines = [line.replace(" -", " −") for note in notes for line in in_all(note, language)]
+    body = column(*parts, prose(lines, WORKED, STEP, classes=TOLD), gap=3.0)
+    return page(
+        heading(own, given, WORKED), body, foot(scale, WORKED, language), said=said, language=language,
+        title=f"{' / '.join(own)}: {word(title, languages(language)[0])}", metadata=metadata, margin=12.0,
+    )  # fmt: skip
+
+
+def picture(body: Block, title: str, language: str, metadata: Mapping[str, object], scale: str = "") -> Drawing:
+    """A block by itself, with the scale below it where it has one, for a paper that tells the rest."""
+    told = word(title, languages(language)[0])
+    low = foot(scale, WORKED, language) if scale else BARE
+    return page(BARE, body, low, title=told, said=told, language=language, metadata=metadata, margin=2.0)
 
 
 @dataclass(frozen=True)

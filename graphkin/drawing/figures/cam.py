@@ -12,20 +12,7 @@ from graphkin.account.headings import number, once, term
 from graphkin.construction.cam_sheet import CamDivision, CamSheet, cam_sheet
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import (
-    BARE,
-    TOLD,
-    Block,
-    column,
-    foot,
-    heading,
-    numbered,
-    page,
-    panel,
-    prose,
-    row,
-    table,
-)  # fmt: skip
+from graphkin.drawing.boxes import STEP, WORKED, Block, panel, picture, row, steps, table, worked_page
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
@@ -38,13 +25,11 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
-from graphkin.words import Phrase, in_all, languages, say, word
-from graphkin.words.written import in_markup
+from graphkin.words import Phrase, languages, say, word
 
 __all__ = ["FIGURES", "cam_figure", "cam_given", "cam_pictures", "scaled_cam"]
 
-WIDTH, MARGIN, GUTTER = 186.0, 12.0, 8.0  # mm of the page between its margins, and between columns of the table
-LETTER = 3.0
+GUTTER = 8.0  # mm between columns of the table
 PANEL = (150.0, 140.0)
 """mm that the cam may fill."""
 SMALL = 2.4
@@ -80,43 +65,34 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], langua
     told : what is found of it
     language : "en", "zh" or "both"
     """
-    names = dict.fromkeys(in_markup(scene.title_in(each) or scene.name) for each in languages(language))
-    steps = [
-        column(*(numbered(k, say(step, each), WIDTH, LETTER, step=k) for k, step in enumerate(sheet.steps, 1)))
-        for each in languages(language)
+    first, every = languages(language)[0], languages(language)
+    parts = [
+        _diagram(scene, sheet, language), _cam(scene, sheet),
+        *(steps(enumerate((say(step, each) for step in sheet.steps), 1)) for each in every),
+        _table(scene, sheet, language),
     ]  # fmt: skip
-    notes = [line.replace(" -", " −") for said in told for line in in_all(said, language)]
-    body = column(
-        _diagram(scene, sheet, language), _cam(scene, sheet), *steps, _table(scene, sheet, language),
-        prose(notes, WIDTH, LETTER, classes=TOLD), gap=3.0,
-    )  # fmt: skip
-    first = languages(language)[0]
     spoken = " ".join([*(say(step, first) + "." for step in sheet.steps), *(say(found, first) for found in told)])
-    per = sheet.scale / scene.units.metres
-    facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link,
-             "units": {"length": scene.units.length, "paper": "mm"}, "scales": {"length": per}, "instrument": "exact",
-             "graphkin": __version__}  # fmt: skip
-    return page(
-        heading(names, _given(scene, sheet.cam, language), WIDTH), body, _foot(scene, sheet, language),
-        title=f"{' / '.join(names)}: {word('cam figure', first)}", said=spoken, language=language, metadata=facts,
-        margin=MARGIN,
+    facts = {"units": {"length": scene.units.length, "paper": "mm"},
+             "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
+    return worked_page(
+        (scene.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts, told,
+        _scale(scene, sheet), title="cam figure", said=spoken, language=language, metadata=_facts(scene, sheet) | facts,
     )  # fmt: skip
 
 
-def _foot(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
-    return foot(f"$μ_{{l}}$ = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm", WIDTH, language)
+def _scale(scene: Mechanism, sheet: CamSheet) -> str:
+    return f"$μ_{{l}}$ = {number(sheet.scale / scene.units.metres)} {scene.units.length}/mm"
+
+
+def _facts(scene: Mechanism, sheet: CamSheet) -> dict[str, object]:
+    return {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
 
 
 def cam_pictures(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = False) -> tuple[Drawing, Drawing]:
     """The displacement diagram and the cam, each by itself; ``begun`` leaves out all that is to be found."""
-    facts = {"figure": "cam", "scene": scene.name, "cam": sheet.cam.link, "graphkin": __version__}
-
-    def alone(key: str, body: Block, low: Block) -> Drawing:
-        told = word(key, languages(language)[0])
-        return page(BARE, body, low, title=told, said=told, language=language, metadata=facts, margin=2.0)
-
-    return (alone("cam diagram", _diagram(scene, sheet, language, begun), BARE),
-            alone("cam figure", _cam(scene, sheet, begun), _foot(scene, sheet, language)))  # fmt: skip
+    facts = _facts(scene, sheet)
+    return (picture(_diagram(scene, sheet, language, begun), "cam diagram", language, facts),
+            picture(_cam(scene, sheet, begun), "cam figure", language, facts, _scale(scene, sheet)))  # fmt: skip
 
 
 def cam_given(scene: Mechanism, cam: LawCam, language: str) -> str:
@@ -197,11 +173,11 @@ def _diagram(scene: Mechanism, sheet: CamSheet, language: str, begun: bool = Fal
     scale = f"$μ_{{φ}}$ = {number(360.0 / LONG)}°/mm,  $μ_{{s}}$ = {number(per)}{unit}/mm"
     scale += f",  ${h}$ = {number(span)}{unit}"
     labels.append(Text(complex(left, floor + 13.0), rich(scale, SMALL + 0.4), classes=("cell",)))
-    labels.append(Text(complex(left + 1.0, floor - span / per - 3.0), symbol("ψ" if unit == "°" else "s", LETTER)))
-    labels.append(Text(complex(left + LONG + 5.5, floor - 1.0), symbol("φ", LETTER)))
+    labels.append(Text(complex(left + 1.0, floor - span / per - 3.0), symbol("ψ" if unit == "°" else "s", STEP)))
+    labels.append(Text(complex(left + LONG + 5.5, floor - 1.0), symbol("φ", STEP)))
     found = () if begun else (Polyline(tuple(curve), strokes.LINK),)
     shape = Group((*axes, *rules, *found), id="displacement", classes=("diagram",))
-    return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WIDTH)
+    return Block(Piece({"construction": (shape,), "labels": tuple(labels)}), floor + 14.0, WORKED)
 
 
 def _closing(sheet: CamSheet) -> CamDivision:
@@ -276,7 +252,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
         origin = room.centre - box.centre
         return moved_piece(with_labels(piece, room.moved(-origin)), origin)
 
-    return panel(WIDTH, box.height, drawn)
+    return panel(WORKED, box.height, drawn)
 
 
 def _shown(sheet: CamSheet) -> list[CamDivision]:
@@ -330,7 +306,7 @@ def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:
     count = -(-len(sheet.divisions) // columns)
     cells = [[str(d.number), f"{math.degrees(d.degree):.2f}", f"{_lift(scene, sheet.cam, d.lift):.3f}",
               f"{math.degrees(d.pressure):.2f}"] for d in sheet.divisions]  # fmt: skip
-    wide = (WIDTH - GUTTER * (columns - 1)) / columns
+    wide = (WORKED - GUTTER * (columns - 1)) / columns
     widths = [share * wide for share in (0.16, 0.26, 0.32, 0.26)]
     tables = (table([heads], cells[k : k + count], widths, layer="answers") for k in range(0, len(cells), count))
     return row(*tables, gap=GUTTER)

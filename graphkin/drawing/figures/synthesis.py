@@ -23,20 +23,7 @@ from graphkin.construction.design_sheet import (
 )
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import (
-    BARE,
-    TOLD,
-    Block,
-    column,
-    foot,
-    heading,
-    numbered,
-    page,
-    panel,
-    prose,
-    row,
-    table,
-)  # fmt: skip
+from graphkin.drawing.boxes import WORKED, Block, panel, picture, row, steps, table, worked_page
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
@@ -47,9 +34,9 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.synthesis import BarPositionsTask, Design
 from graphkin.version import __version__
-from graphkin.words import Phrase, in_all, languages, say, word
+from graphkin.words import Phrase, languages, say, word
 from graphkin.words.rich_text import as_markup, as_plain, rich_text
-from graphkin.words.written import amount, in_markup, on_paper, product
+from graphkin.words.written import amount, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
@@ -59,8 +46,6 @@ __all__ = [
     "step_words",
 ]  # fmt: skip
 
-WIDTH, MARGIN = 186.0, 12.0  # mm of the page between its margins
-LETTER = 3.0
 ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
@@ -130,34 +115,31 @@ def design_figure(
     notes : sentences to be said of the result
     language : "en", "zh" or "both"
     """
-    unit, first = design.units.length, languages(language)[0]
-    names = dict.fromkeys(in_markup(design.title_in(each) or design.name) for each in languages(language))
-    steps = [
-        column(*(numbered(step.number, step_words(step.phrase, each), WIDTH, LETTER, step=step.number)
-                 for step in sheet.steps)) for each in languages(language)
+    unit, every = design.units.length, languages(language)
+    parts = [
+        _construction(sheet),
+        *(steps((step.number, step_words(step.phrase, each)) for step in sheet.steps) for each in every),
+        _tables(design, sheet.scale, rows, confirmed, language),
     ]  # fmt: skip
-    told = [line.replace(" -", " −") for note in notes for line in in_all(note, language)]
-    body = column(
-        _construction(sheet, WIDTH), *steps, _tables(design, sheet.scale, rows, confirmed, language),
-        prose(told, WIDTH, LETTER, classes=TOLD), gap=3.0,
-    )  # fmt: skip
-    spoken = " ".join(as_plain(rich_text(s.phrase, first)) + "." for s in sheet.steps)
+    spoken = " ".join(as_plain(rich_text(s.phrase, every[0])) + "." for s in sheet.steps)
     found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
-    facts = {"figure": "design", "design": design.name, "kind": design.task.kind,
-             "units": {"length": unit, "paper": "mm"},
-             "scales": {"length": sheet.scale}, "instrument": sheet.instrument, "graphkin": __version__}  # fmt: skip
-    return page(
-        heading(names, asked_words(design, language), WIDTH), body, _foot(design, sheet, WIDTH, language),
-        title=f"{' / '.join(names)}: {word('design figure', first)}", said=f"{spoken} {found}", language=language,
-        metadata=facts, margin=MARGIN,
+    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.instrument}
+    return worked_page(
+        (design.title_in(each) or design.name for each in every), asked_words(design, language), parts, notes,
+        _scale(design, sheet), title="design figure", said=f"{spoken} {found}", language=language,
+        metadata=_facts(design, sheet) | facts,
     )  # fmt: skip
 
 
-def _foot(design: Design, sheet: DesignSheet, width: float, language: str) -> Block:
-    return foot(f"1 mm = {number(sheet.scale)} {design.units.length}", width, language)
+def _scale(design: Design, sheet: DesignSheet) -> str:
+    return f"1 mm = {number(sheet.scale)} {design.units.length}"
 
 
-def _construction(sheet: DesignSheet, width: float, upto: int | None = None) -> Block:
+def _facts(design: Design, sheet: DesignSheet) -> dict[str, object]:
+    return {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
+
+
+def _construction(sheet: DesignSheet, upto: int | None = None) -> Block:
     """The construction, as far as a step, in the room of all of it."""
     content = _content(sheet)
     content = Box(content.left, -content.bottom, content.right, -content.top)  # y down
@@ -169,7 +151,7 @@ def _construction(sheet: DesignSheet, width: float, upto: int | None = None) -> 
         strokes = joined([_strokes(step.strokes, step.number, around) for step in shown])
         return moved_piece(with_labels(strokes, around), origin)
 
-    return panel(width, max(content.height, 40.0) + 2 * ROOM, drawn)
+    return panel(WORKED, max(content.height, 40.0) + 2 * ROOM, drawn)
 
 
 def step_words(phrase: Phrase, language: str) -> str:
@@ -179,10 +161,7 @@ def step_words(phrase: Phrase, language: str) -> str:
 
 def construction_picture(design: Design, sheet: DesignSheet, language: str, upto: int | None = None) -> Drawing:
     """The construction by itself, as far as a step, on a figure as large as all of it."""
-    told = word("design figure", languages(language)[0])
-    facts = {"figure": "design", "design": design.name, "scales": {"length": sheet.scale}, "graphkin": __version__}
-    return page(BARE, _construction(sheet, WIDTH, upto), _foot(design, sheet, WIDTH, language), title=told, said=told,
-                language=language, metadata=facts, margin=2.0)  # fmt: skip
+    return picture(_construction(sheet, upto), "design figure", language, _facts(design, sheet), _scale(design, sheet))
 
 
 def asked_words(design: Design, language: str) -> str:
