@@ -25,7 +25,6 @@ from graphkin.api.centre_speeds import TOLERANCE, Velocity, velocities_by_centre
 from graphkin.api.checked import solved_here
 from graphkin.api.reading_rows import SpeedByCentres
 from graphkin.api.results import OfScene, Result
-from graphkin.construction import Room
 from graphkin.construction.centres import (
     Centre,
     Centres,
@@ -35,6 +34,7 @@ from graphkin.construction.centres import (
     velocity_sentences,
 )
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
+from graphkin.construction.room import Room, scales_for
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -329,7 +329,8 @@ class Centred(OfScene, Result):
 
 def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None) -> Centres:
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
-    return find_centres(of, values).in_room(ROOM)
+    centres = find_centres(of, values)
+    return centres.at(scales_for(centres.sheet, ROOM))
 
 
 def _name(pair: LinkPair) -> str:

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.construction import GoneOn, Plan, Sheet, Slip
-from graphkin.construction.sizes import Order
-from graphkin.construction.slip import Component
+from graphkin.construction.sizes import Component, Order
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol, Value

@@ -19,7 +19,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import Plan, Sheet, Slip, execute
-from graphkin.construction.slip import Component
+from graphkin.construction.sizes import Component
 from graphkin.errors import GraphkinError
 from graphkin.plane import unit
 from graphkin.scene.contacts import PlacedGear

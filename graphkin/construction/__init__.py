@@ -8,7 +8,7 @@ from graphkin.construction.instruments import EXACT, Cad, Exact, Instrument, err
 from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
 from graphkin.construction.room import Room, drawn_sizes
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.sizes import NO_SLIP, Slip
 
 __all__ = [
     "EXACT",

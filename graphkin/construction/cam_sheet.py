@@ -12,8 +12,8 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from graphkin.construction.cam_outline import CamStation, outline, station
 from graphkin.construction.instruments import Instrument
+from graphkin.construction.touching import CamStation, outline, station
 from graphkin.plane import cross_arcs, cross_line_arc, unit
 from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
 from graphkin.words import Phrase

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from graphkin.construction.board import PARALLEL
 from graphkin.construction.instruments import Instrument
+from graphkin.construction.sheet import PARALLEL
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_line_arc, cross_lines, unit
 from graphkin.scene.synthesis import DesignTask

@@ -34,8 +34,16 @@ from graphkin.construction.polygon_acts import (
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.remarks import AtContact, ZeroVector
 from graphkin.construction.sheet import Equation, Rate, Term
-from graphkin.construction.sizes import Direction, Given, OffCurves, Order, RateTimes, RollingCurves, SquareOverRadius
-from graphkin.construction.slip import Component
+from graphkin.construction.sizes import (
+    Component,
+    Direction,
+    Given,
+    OffCurves,
+    Order,
+    RateTimes,
+    RollingCurves,
+    SquareOverRadius,
+)
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit

@@ -13,8 +13,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.asked_vectors import show
-from graphkin.construction.board import Board
-from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
@@ -27,10 +25,9 @@ from graphkin.construction.position import branches_at, draw_position, place, ro
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
-from graphkin.construction.sheet import Cause, DiagramName, DrawnGroup, Limits, Scales, Sheet, Step, either_way
-from graphkin.construction.sizes import ORDERS, Order
-from graphkin.construction.slip import NO_SLIP, Slip
-from graphkin.construction.touching import Touching
+from graphkin.construction.sheet import Board, Cause, DiagramName, DrawnGroup, Limits, Scales, Sheet, Step, either_way
+from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
+from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot

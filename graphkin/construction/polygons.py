@@ -13,15 +13,13 @@ import copy
 from collections.abc import Mapping, Sequence
 from typing import Literal, TypeVar
 
-from graphkin.construction.board import Board
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
 from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
-from graphkin.construction.sheet import Act, Rate, Scales
-from graphkin.construction.sizes import ORDERS, Order
-from graphkin.construction.slip import NO_SLIP, Slip
+from graphkin.construction.sheet import Act, Board, Rate, Scales
+from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
 from graphkin.construction.strokes import Aid, Bar, Image, Mark, Stroke, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.train_plan import Wheels

@@ -10,7 +10,6 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.board import Board
 from graphkin.construction.dyads import Choose, Meeting, Story, assemble, assembled, drive, meet
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
@@ -23,7 +22,7 @@ from graphkin.construction.mechanism_acts import (
     PathsCross,
 )
 from graphkin.construction.remarks import SharpCrossing, ShortArm
-from graphkin.construction.sheet import Cause, Placing
+from graphkin.construction.sheet import Board, Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable

@@ -8,14 +8,13 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import DIAGRAMS, DiagramName, Scales, Sheet
 from graphkin.construction.sizes import ORDERS, Order
 from graphkin.construction.strokes import Aid, Vector
-from graphkin.construction.touching import Touching
+from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.scene.model import Mechanism
 
 if TYPE_CHECKING:

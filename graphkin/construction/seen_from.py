@@ -34,8 +34,7 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.polygons import Polygons, letter
 from graphkin.construction.sheet import Act, DiagramName, Equation, Sheet, Step, Term
-from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, SquareOverRadius
-from graphkin.construction.slip import Slip
+from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius
 from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster

@@ -1,4 +1,8 @@
-"""What is known of a vector before it is drawn: the rule of its size, and its direction as it is written."""
+"""What is known of a vector before it is drawn: the rule of its size, and its direction as it is written; and what
+somebody may take where the drawing has something else: a component left out, a value of their own for a drawn one.
+
+A drawing with a slip shows what follows from it; nothing else of the construction changes.
+"""
 
 from __future__ import annotations
 
@@ -11,11 +15,12 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import word
 
 __all__ = [
-    "ORDERS", "Direction", "Given", "OffCurves", "Order", "RateTimes", "RollingCurves", "Size", "SquareOverRadius",
-    "plain_in",
+    "NO_SLIP", "ORDERS", "Component", "Direction", "Given", "OffCurves", "Order", "RateTimes", "Role", "RollingCurves",
+    "Size", "Slip", "SquareOverRadius", "plain_in",
 ]  # fmt: skip
 
 Order = Literal["velocity", "acceleration"]
+Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
 ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
 
 
@@ -145,3 +150,52 @@ def plain_in(language: str) -> Callable[[object], str]:
         return _SEEN.sub(lambda found: word("symbol seen", language).format(found[1]), text)
 
     return written
+
+
+# -- terms, and what somebody may take in their place ------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Component:
+    """One term of a relative motion in an equation: its vector on paper (mm) if known, else only its direction."""
+
+    symbol: Symbol
+    role: Role
+    along: complex
+    span: complex | None
+    written: Direction
+    size: Size | None = None
+
+
+def _same_term(part: Component) -> Component:
+    return part
+
+
+def _same_vector(_: Symbol, tail: complex, tip: complex) -> complex:
+    return tip
+
+
+def _same_line(_: Symbol, along: complex) -> complex:
+    return along
+
+
+def _same_rate(_: Symbol, value: float) -> float | None:
+    return None
+
+
+@dataclass(frozen=True)
+class Slip:
+    """Four places where a value may be another than the drawn one.
+
+    ``term`` gets each term of an equation before it is laid off; ``found`` each vector found (end points by image
+    included) by tail and tip, mm on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2),
+    and returns None where it stays; ``line`` the direction of each line along which a vector of unknown size is drawn.
+    """
+
+    term: Callable[[Component], Component] = _same_term
+    found: Callable[[Symbol, complex, complex], complex] = _same_vector
+    rate: Callable[[Symbol, float], float | None] = _same_rate
+    line: Callable[[Symbol, complex], complex] = _same_line
+
+
+NO_SLIP = Slip()

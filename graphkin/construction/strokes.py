@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sizes import Direction, Role
 from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["Aid", "Bar", "CompassArc", "Image", "Mark", "Ray", "Role", "Stroke", "TrialCurve", "Vector"]
-
-Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
+__all__ = ["Aid", "Bar", "CompassArc", "Image", "Mark", "Ray", "Stroke", "TrialCurve", "Vector"]
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,9 @@
-"""What touches, as it stands on paper: contacts with their normals, pitch circles, pitch lines and pitch points; and
-how far what rolls has gone, in angles and travels read off, since elsewhere."""
+"""What touches, as it stands on paper: the outlines of cams, found point by point, contacts with their normals, pitch
+circles, pitch lines and pitch points; and how far what rolls has gone, in angles and travels read off, since elsewhere.
+
+A cam's follower is turned back with its line; the normal goes through the instant centre, and the roller's radius is
+laid off along it.
+"""
 
 from __future__ import annotations
 
@@ -8,17 +12,23 @@ import math
 from cmath import phase
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from functools import lru_cache
+from typing import Literal, NamedTuple
 
-from graphkin.construction.cam_outline import station
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
-from graphkin.plane import dot
+from graphkin.plane import dot, unit
+from graphkin.scene.cams import TURN, LawCam, Lift, SlidingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism
 from graphkin.structure import Rolled, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = ["Touch", "Touching", "coordinate_on_paper", "rolled_near"]
+__all__ = [
+    "CamStation", "Touch", "Touching", "coordinate_on_paper", "outline", "outlines_on_paper", "rolled_near", "station",
+]  # fmt: skip
+
+POINTS = 180
+"""Points of an outline, those at the seams beside them."""
 
 
 @dataclass(frozen=True)
@@ -196,3 +206,77 @@ def coordinate_on_paper(structure: Structure, frame: PlacedLinks, coordinate: Co
     slide = structure.slide(name)
     along = frame.poses[slide.b].axis * slide.guide.direction
     return dot(frame.poses[slide.a].origin - frame.place(slide.b, slide.guide.through), along) / frame.mm
+
+
+# -- the outlines of cams ----------------------------------------------------------------------------------------------
+
+
+class CamStation(NamedTuple):
+    """The follower turned back about the cam (inversion), in the cam's own axes from its axis (any unit of length).
+
+    line : a point of the follower's line (the foot), or of the bar (the pivot)
+    base : its point at lift 0
+    point : its point (roller's centre, edge, foot of the face)
+    centre : instant centre of cam and follower; None where the follower swings at the cam's own rate
+    normal : unit, out of the cam
+    contact : point of the profile
+    way : the direction in which the point moves
+    """
+
+    line: complex
+    base: complex
+    point: complex
+    centre: complex | None
+    normal: complex
+    contact: complex
+    way: complex
+
+
+def station(cam: LawCam, degree: float, lift: Lift | None = None) -> CamStation:
+    """The follower at an angle of the law (rad), lengths in m; ``lift`` is that of one side, at a seam."""
+    start, lift = cam.beginning or 0.0, lift or cam.law.at(degree)
+    back = cmath.rect(1.0, -cam.sense * degree)
+    motion = cam.motion
+    point = cam.course(start, lift).point
+    way = cam.course(start, lift).way
+    base = cam.course(start, Lift(0.0, 0.0, 0.0, 0.0)).point
+    if isinstance(motion, SlidingFollower):
+        line = motion.foot - cam.axis
+        centre: complex | None = -1j * way * cam.sense * lift.slope
+    else:
+        line = motion.centre - cam.axis
+        ratio = motion.side * cam.sense * lift.slope
+        centre = None if ratio == 1.0 else -ratio * line / (1.0 - ratio)
+    if cam.flat:
+        assert centre is not None
+        normal, contact = way, centre + way * dot(way, point)
+    else:
+        # square to the motion of the point as seen from the cam, and so through the instant centre
+        normal = 1j * cam.course(start, lift).tangent if centre is None else (point - centre)
+        normal = unit(normal) if normal else way
+        if dot(normal, 1j * cam.course(start, lift).tangent) < 0.0:
+            normal = -normal
+        contact = point - cam.roller * normal
+    return CamStation(*(None if z is None else z * back for z in (line, base, point, centre, normal, contact, way)))  # type: ignore[arg-type]
+
+
+@lru_cache(maxsize=64)
+def outline(cam: LawCam) -> tuple[complex, ...]:
+    """The profile in the cam's own axes, point by point over a turn (m); both sides of each seam."""
+    found: list[complex] = []
+    for part in cam.law.parts:
+        count = max(2, math.ceil(POINTS * (part.end - part.start) / TURN))
+        for k in range(count + 1):
+            degree = part.start + (part.end - part.start) * k / count
+            found.append(station(cam, degree, part.at(degree)).contact)
+    return tuple(found)
+
+
+def outlines_on_paper(scene: Mechanism, poses: Mapping[str, Pose], mm: float) -> Mapping[str, tuple[complex, ...]]:
+    """The profile of each cam that stands on paper, by its link; ``mm`` of paper for one m."""
+    found = {}
+    for cam in scene.cams:
+        if cam.link in poses:
+            pose = poses[cam.link]
+            found[cam.link] = tuple(pose.origin + pose.axis * z * mm for z in outline(cam))
+    return found

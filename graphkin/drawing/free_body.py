@@ -10,11 +10,10 @@ from dataclasses import replace
 
 from graphkin.account.force_chain import corner_at, corners
 from graphkin.account.notation import Letters, as_vector, force_letters
-from graphkin.construction.cam_outline import outlines_on_paper
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Vector
-from graphkin.construction.touching import Touching
+from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.ink import strokes, symbols

@@ -29,7 +29,6 @@ from graphkin.account.written_lines import written_lines
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
-from graphkin.construction.board import Board
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.polygon_acts import (
     ByRate,
@@ -41,6 +40,7 @@ from graphkin.construction.polygon_acts import (
     Superposed,
     TrialDrawn,
 )
+from graphkin.construction.sheet import Board
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
 from graphkin.construction.strokes import Aid
 from graphkin.drawing.sheet_plan import sheet_room

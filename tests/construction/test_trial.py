@@ -11,7 +11,8 @@ import pytest
 import graphkin
 from graphkin import solver
 from graphkin.construction import trial
-from graphkin.construction.centres.find import Worked, work
+from graphkin.construction.centres import work
+from graphkin.construction.centres.find import Worked
 from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
 from graphkin.scene import mechanism_of

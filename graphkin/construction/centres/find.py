@@ -5,12 +5,15 @@ The motion of a link is measured on the velocity polygon; where two links have o
 
 from __future__ import annotations
 
+import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from heapq import heappop, heappush
 from typing import Literal
 
-from graphkin.construction.centres.kennedy import CentreRelation, CrossedCentre, Known, Search, closure
 from graphkin.construction.centres.pairs import (
+    Line,
     LinkPair,
     Links,
     Normal,
@@ -19,25 +22,29 @@ from graphkin.construction.centres.pairs import (
     links_on_paper,
     normals,
     permanent,
+    wedge,
 )
-from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import LinkMotion
-from graphkin.construction.plan import draft
-from graphkin.construction.room import Room, scales_for
-from graphkin.construction.sheet import Sheet
-from graphkin.scene.model import AngleDriver, Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Structure, analyse, part_of
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase
 
-__all__ = ["Centre", "Centres", "Worked", "centres_on", "find_centres", "work"]
+__all__ = [
+    "ROUNDING", "Centre", "CentreRelation", "Centres", "CrossedCentre", "Known", "Search", "Worked",
+    "closure", "found_on",
+]  # fmt: skip
 
 AT_REST = 1e-9
 """Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
-
-
 MEASURED = 1e-15  # so far off a measured centre may be (on the unit sphere)
 SLOW = 1e-3  # part of the largest motion below which a relative one is measured worse than that
+ROUNDING = 2e-16
+SURE = 1e-10
+"""A crossing whose place may err by more than this (of the mechanism's size) is not taken."""
+MOST_LINES = 24  # for one centre; a mechanism of many links has hundreds, and a few of them cross well
+TOGETHER = 1e-9  # two centres nearer to each other (on the unit sphere) give no line
 
 
 def measured(sheet: Sheet) -> dict[str, LinkMotion]:
@@ -85,16 +92,6 @@ class Worked:
     motions: Mapping[str, LinkMotion]
     way: Way = "velocity polygon"
     kept: tuple[str, ...] = ()
-
-
-def work(
-    of: Mechanism | Structure,
-    at: Mapping[str, float] | None = None,
-    instrument: Instrument = EXACT,
-    near: Sheet | None = None,
-) -> Worked:
-    """Draw everything of a scene and measure how it moves; parameters and exceptions are those of `draft`."""
-    return worked(draft(of, at, (), instrument, near=near))
 
 
 def worked(sheet: Sheet) -> Worked:
@@ -147,9 +144,8 @@ class Centres:
         """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
         return self.table[self.links.pair(a, b)]
 
-    def in_room(self, room: Room) -> Centres:
-        """The same centres on a figure that fills a room."""
-        scales = scales_for(self.sheet, room)
+    def at(self, scales: Scales) -> Centres:
+        """The same centres at other scales."""
         k = self.sheet.scales.length / scales.length
         poses = {name: pose.scaled(k) for name, pose in self.links.poses.items()}
         return Centres(
@@ -172,53 +168,12 @@ class Centres:
         return tuple(c for c in self.found if c.way or c.kind == "undetermined")
 
 
-def find_centres(
-    of: Mechanism | Structure, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
-    sheet: Sheet | None = None, near: Centres | None = None,
-) -> Centres:  # fmt: skip
-    """Find every centre of every two links on the drawing board.
-
-    Parameters
-    ----------
-    of, at, instrument : a mechanism or its structure, and as for `draft`
-    sheet : the scene drawn at this position already; it is used if every link stands on it
-    near : the centres at other driver values, from which a scene with larger groups is followed; without them the
-        scene's own position is found first
-
-    Raises
-    ------
-    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
-    """
-    scene = of.scene if isinstance(of, Structure) else of
-    moving = _moving(scene)
-    if sheet is not None and moving is scene and set(sheet.structure.links) <= set(sheet.poses):
-        found = worked(sheet)
-    else:
-        found = work(of if moving is scene else moving, at, instrument, near.sheet if near is not None else None)
-    if scene.cams and scene.instead_of is None:
-        scene = found.sheet.scene  # with the pins on pitch curves and faces, which have normals
-    links = links_on_paper(scene, 1.0 / found.sheet.scales.length, found.sheet.poses)
+def found_on(worked: Worked, scene: Mechanism, instrument: Instrument) -> Centres:
+    """Every centre of every two links of a scene that is drawn."""
+    links = links_on_paper(scene, 1.0 / worked.sheet.scales.length, worked.sheet.poses)
     chart = links.chart()
-    table, slots = _search(links, chart, found.motions, instrument, found.way)
-    return Centres(found.sheet, links, chart, table, slots, found.motions, found.kept)
-
-
-def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:
-    """The centres of what leads to the asked, on a sheet that shows it; errors as for `find_centres`."""
-    part = part_of(sheet.structure, asked)
-    if part is not sheet.scene:
-        sheet = replace(sheet, scene=part, structure=analyse(part))
-    return find_centres(part, {d.key: sheet.drivers[d.key] for d in part.drivers}, instrument, sheet)
-
-
-def _moving(scene: Mechanism) -> Mechanism:
-    """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
-    if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
-        return scene
-    driver = scene.drivers[0]
-    if isinstance(driver, AngleDriver):
-        return replace(scene, drivers=(replace(driver, omega=1.0),))
-    return replace(scene, drivers=(replace(driver, velocity=scene.size),))
+    table, slots = _search(links, chart, worked.motions, instrument, worked.way)
+    return Centres(worked.sheet, links, chart, table, slots, worked.motions, worked.kept)
 
 
 def _search(
@@ -325,3 +280,145 @@ def _why(search: Search, pair: LinkPair) -> Phrase:
     if count < 2:
         return Phrase("centre few lines", (*pair, count))
     return Phrase("centre lines together", pair)
+
+
+# -- Kennedy's theorem -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Known:
+    """A centre already found: its place, and how far it may err on the unit sphere."""
+
+    place: Place
+    error: float = ROUNDING
+
+
+@dataclass(frozen=True)
+class CentreRelation:
+    """A line on which a centre lies: through two centres with a third link, or the common normal of a pin in a slot.
+
+    ``via`` is the third link ("" for a normal); ``through`` names the two centres, or the pin in slot.
+    """
+
+    pair: LinkPair
+    line: Line
+    error: float
+    via: str
+    through: tuple[LinkPair, LinkPair] | tuple[str]
+
+
+@dataclass(frozen=True)
+class CrossedCentre:
+    """A centre found where two lines cross; ``sine`` of their angle on the sphere, ``error`` of the place."""
+
+    pair: LinkPair
+    place: Place
+    lines: tuple[CentreRelation, CentreRelation]
+    sine: float
+    error: float
+
+
+class Search:
+    """The circle diagram as it fills: centres known, lines known for each missing one, the best crossing of each."""
+
+    def __init__(self, pairs: Sequence[LinkPair], names: Sequence[str], normals: Sequence[Normal]) -> None:
+        self.pairs, self.names, self.known = pairs, names, dict[LinkPair, Known]()
+        self.lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in pairs}
+        self.best: dict[LinkPair, CrossedCentre] = {}
+        self._place = {pair: i for i, pair in enumerate(pairs)}
+        self._ranked: list[tuple[int, int]] = []  # powers of ten of the errors, with the place of the pair: a heap
+        self._bit = {name: 1 << i for i, name in enumerate(names)}
+        # for each link a bit for every other whose centre with it is known, and for every one that needs no more lines
+        self._joined, self._full = dict.fromkeys(names, 0), dict.fromkeys(names, 0)
+        self._as_written = {(a, b): pair for pair in pairs for a, b in (pair, pair[::-1])}
+        for normal in normals:
+            self._add(CentreRelation(normal.pair, normal.line, ROUNDING, "", (normal.key,)))
+
+    def learn(self, pair: LinkPair, known: Known) -> None:
+        """Take in a centre, and with it all lines that it completes."""
+        self.known[pair] = known
+        for a, b in (pair, pair[::-1]):
+            self._joined[a] |= self._bit[b]
+        for a, b in (pair, pair[::-1]):
+            # the triangle a, b, via: the side from a to via is missing, b is its third link
+            wanted = self._joined[b] & ~(self._joined[a] | self._full[a] | self._bit[a])
+            while wanted:
+                first = wanted & -wanted
+                wanted ^= first
+                via = self.names[first.bit_length() - 1]
+                self._relate(self._as_written[a, via], b, pair, self._as_written[b, via])
+
+    def next(self) -> CrossedCentre | None:
+        """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
+        those the first in the order of the links.  None where no two lines cross so well that the place errs by no
+        more than ``SURE`` (on the unit sphere)."""
+        while self._ranked:
+            pair = self.pairs[self._ranked[0][1]]
+            if pair in self.known:
+                heappop(self._ranked)
+            else:
+                return self.best[pair]
+        return None
+
+    def _relate(self, missing: LinkPair, via: str, one: LinkPair, two: LinkPair) -> None:
+        a, b = self.known[one], self.known[two]
+        line, sine = wedge(a.place, b.place)
+        if sine > TOGETHER:
+            if missing[0] not in one:
+                one, two = two, one
+            self._add(CentreRelation(missing, line, (a.error + b.error + ROUNDING) / sine, via, (one, two)))
+
+    def _add(self, relation: CentreRelation) -> None:
+        pair, lines = relation.pair, self.lines[relation.pair]
+        if len(lines) == MOST_LINES:
+            return
+        for other in lines:
+            error = other.error + relation.error + ROUNDING
+            if pair in self.best and error >= self.best[pair].error:
+                continue  # however well they cross
+            place, sine = wedge(other.line, relation.line)
+            if sine == 0.0 or (pair in self.best and error / sine >= self.best[pair].error):
+                continue
+            if place[2] < 0.0:
+                place = -place[0], -place[1], -place[2]
+            self.best[pair] = CrossedCentre(pair, place, (other, relation), sine, error / sine)
+            if error / sine <= SURE:
+                heappush(self._ranked, (math.ceil(math.log10(error / sine)), self._place[pair]))
+        lines.append(relation)
+        if len(lines) == MOST_LINES:
+            for a, b in (pair, pair[::-1]):
+                self._full[a] |= self._bit[b]
+
+
+def closure(
+    pairs: Sequence[LinkPair], names: Sequence[str], known: set[LinkPair], slots: Sequence[LinkPair]
+) -> set[LinkPair]:
+    """The centres that two closed triangles of the circle diagram can give, one after the other, lines never falling
+    together.  ``slots`` are pairs with a common normal: one line each."""
+    place = {name: i for i, name in enumerate(names)}
+    slotted = Counter(slots)
+    joined = [0] * len(names)  # for each link, a bit for every other whose centre with it is known
+
+    def join(pair: LinkPair) -> None:
+        a, b = place[pair[0]], place[pair[1]]
+        joined[a] |= 1 << b
+        joined[b] |= 1 << a
+
+    have = set(known)
+    for pair in have:
+        join(pair)
+    left = [pair for pair in pairs if pair not in have]
+    grown = True
+    while grown:
+        grown = False
+        missing = []
+        for pair in left:
+            triangles = (joined[place[pair[0]]] & joined[place[pair[1]]]).bit_count()
+            if slotted[pair] + triangles >= 2:
+                have.add(pair)
+                join(pair)
+                grown = True
+            else:
+                missing.append(pair)
+        left = missing
+    return {pair for pair in pairs if pair in have}

@@ -1,10 +1,9 @@
 """Forces on the drawing board: inertia forces, force polygons group by group, joint forces, what balances, and
 Zhukovsky's lever."""
 
-from graphkin.construction.forces.draw import force_scale, forces_on
+from graphkin.construction.forces.draw import force_readings, force_scale, forces_on, readings_of
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, Lever
 from graphkin.construction.forces.known import acting_loads, strokes_of_loads
-from graphkin.construction.forces.measured import force_readings, readings_of
 
 __all__ = [
     "ForceGroup", "ForceSheet", "ForceState", "Lever", "acting_loads", "force_readings", "force_scale", "forces_on",

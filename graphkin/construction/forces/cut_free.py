@@ -21,13 +21,17 @@ from graphkin.construction.forces.force_sheet import (
 from graphkin.construction.forces.images import Images
 from graphkin.construction.forces.joints import JointNames, opposite
 from graphkin.construction.instruments import Instrument
+from graphkin.construction.sizes import Direction
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Slide
+from graphkin.structure import Pair, Slide
 from graphkin.words import Phrase
 
-__all__ = ["CutFree", "HeadToTail", "dead_point"]
+__all__ = ["NORMAL", "TANGENT", "CutFree", "HeadToTail", "across", "dead_point", "guide_letters"]
+
+NORMAL, TANGENT = "n-n", "t-t"
+"""The common normal and tangent of what touches, by name as a guide."""
 
 PARALLEL = 1e-12
 
@@ -217,3 +221,14 @@ class CutFree:
         return dot(chain.at, along) * self.per_mm
 
 
+def across(pair: Pair) -> Direction:
+    """The direction of a sliding pair's force: square to the guide; of what touches along the normal, or the tangent of
+    pitch circles."""
+    assert isinstance(pair, Slide)
+    other = {NORMAL: TANGENT, TANGENT: NORMAL}.get(pair.guide.name.rstrip("'"))
+    return Direction("square", guide_letters(pair)) if other is None else Direction("along", (other,))
+
+
+def guide_letters(pair: Slide) -> tuple[str, ...]:
+    """A guide as its direction is written."""
+    return (pair.guide.name or f"x{pair.b}",)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.construction.forces.cut_free import CutFree, HeadToTail, dead_point
+from graphkin.construction.forces.cut_free import CutFree, HeadToTail, across, dead_point
 from graphkin.construction.forces.force_sheet import (
     Acting,
     ForceGroup,
@@ -17,7 +17,6 @@ from graphkin.construction.forces.force_sheet import (
     ForceVector,
     KnownMoment,
 )
-from graphkin.construction.forces.group_figure import across
 from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.plane import added_up, cross, unit
 from graphkin.scene.symbol import Symbol

@@ -9,7 +9,7 @@ import numpy as np
 from graphkin.account.headings import number
 from graphkin.account.notation import Letters
 from graphkin.construction.centres import Centre, Centres
-from graphkin.construction.centres.kennedy import CentreRelation
+from graphkin.construction.centres.find import CentreRelation
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.account.notation import Letters
-from graphkin.construction.cam_outline import outlines_on_paper, station
 from graphkin.construction.sheet import Sheet, links_drawn
 from graphkin.construction.strokes import Mark
+from graphkin.construction.touching import outlines_on_paper, station
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link
