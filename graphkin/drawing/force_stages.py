@@ -23,6 +23,7 @@ from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, For
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
+from graphkin.drawing.ink.primitives import on_page
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase, Wording, about, in_all, languages, listed, say
 
@@ -224,4 +225,4 @@ def lever_extent(lever: Lever) -> Box:
     """The box (mm, y down, about the pole) around the end points and forces of a lever."""
     spots = [0j, *(row.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
     spots += [z for z in lever.ends.values() if abs(z) > SHORT]
-    return Box.around([z.conjugate() for z in spots])
+    return Box.around([on_page(z) for z in spots])

@@ -17,10 +17,10 @@ from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.force_stages import ForceStage
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow, vector_group
 from graphkin.drawing.parts.mechanism import links_alone
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.polygon_on_page import side_by_side
 from graphkin.drawing.parts.touching import marks_cut_free
 from graphkin.drawing.place.labels import Label
@@ -95,7 +95,7 @@ def sketch_height(sheet: Sheet, group: ForceGroup, width: float) -> float:
 def _extent(sheet: Sheet, group: ForceGroup) -> Box:
     """The box around the places of a group, as on a page (mm, y down)."""
     spots = [v.at for v in _forces(group)] + _points(sheet, set(links_cut_free(group)))
-    return Box.around([page(z) for z in spots])
+    return Box.around([on_page(z) for z in spots])
 
 
 def _points(sheet: Sheet, links: set[str]) -> list[complex]:
@@ -114,15 +114,16 @@ def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], li
     parts, labels = links_alone(here, links, 2)
     for one in here.sliders:
         if one.slide.a in links:
-            parts += symbols.block(page(one.at), phase(one.along), here.colour(one.slide.a))
+            parts += symbols.block(on_page(one.at), phase(one.along), here.colour(one.slide.a))
     for point, z in here.places.items():
         known = here.sheet.structure.links
         if any(point in known[n].points for n in links if n in known):
             joint = point in here.sheet.structure.hinges
             size = JOINT_RADIUS * 0.85 if joint else JOINT_RADIUS * 0.5
-            parts.append(Circle(page(z), size, fill=strokes.WHITE if joint else strokes.BLACK, stroke=strokes.OUTLINE))
+            fill = strokes.WHITE if joint else strokes.BLACK
+            parts.append(Circle(on_page(z), size, fill=fill, stroke=strokes.OUTLINE))
             text = Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",))
-            labels.append(Label(text, page(z), rank=1))
+            labels.append(Label(text, on_page(z), rank=1))
     return parts, labels
 
 
@@ -141,7 +142,7 @@ def _arrows(
     labels: list[Label] = []
     taken: list[tuple[complex, complex]] = []
     near = _extent(sheet, group).grown(ARROW / times)
-    lines = {line.symbol: line.at for line in group.lines if near.holds(Box.around([line.at.conjugate()]))}
+    lines = {line.symbol: line.at for line in group.lines if near.holds(Box.around([on_page(line.at)]))}
     outside = set(links_cut_free(group))
     for n, vector in enumerate(_forces(group)):
         if not group.polygon and _within(vector, outside):
@@ -150,7 +151,7 @@ def _arrows(
         at = lines.get(vector.symbol, vector.at) * times
         again = sum(abs(at - z) < NEAR and abs(along - e) < 0.1 for z, e in taken)
         taken.append((at, along))
-        tail, tip = page(at), page(at + along * (ARROW + NEXT * again))
+        tail, tip = on_page(at), on_page(at + along * (ARROW + NEXT * again))
         kind = COMPONENT if vector.known or vector.part else RESULTANT
         colour = colour_of_force(sheet, vector)
         group_id, step = f"acts-{tag}-{n}", stage.on_links(vector)
@@ -170,12 +171,12 @@ def _arrows(
         at = _middle(sheet, link) * times
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
-        arc = symbols.sense_arc(page(at), radius, 0.9, 1 if moment > 0 else -1)
+        arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if moment > 0 else -1)
         group_id, step = f"acts-{tag}-{named.id}", stage.couples.get(named, stage.known)
         drawn.append(Group(arc, id=group_id, classes=("acting",), step=step))
         text = Text(0j, symbol(force_letters(letters.convention, named), 3.0), "start", strokes.BLACK,
                     f"label-{group_id}", ("label",), step)  # fmt: skip
-        labels.append(Label(text, page(at + radius * 0.7 * (1 + 1j)), rank=0))
+        labels.append(Label(text, on_page(at + radius * 0.7 * (1 + 1j)), rank=0))
     return tuple(drawn), labels
 
 
@@ -187,10 +188,10 @@ def shifted_lines(forces: ForceSheet, links: set[str], times: float) -> Iterator
         along, at, centre = unit(one.force), one.shifted * times, one.centre * times
         if abs(at - centre) < 1.0:
             continue
-        line = Line(page(at - 5.0 * along), page(at + ARROW * along), strokes.DIRECTION)
-        across = Line(page(centre), page(at), strokes.DIMENSION)
+        line = Line(on_page(at - 5.0 * along), on_page(at + ARROW * along), strokes.DIRECTION)
+        across = Line(on_page(centre), on_page(at), strokes.DIMENSION)
         text = Text(0j, symbol(f"h_{{{link}}}", 2.8), "start", strokes.GREY, classes=("label",))
-        yield Group((line, across), classes=("shifted",)), Label(text, (page(centre), page(at)), rank=2)
+        yield Group((line, across), classes=("shifted",)), Label(text, (on_page(centre), on_page(at)), rank=2)
 
 
 def colour_of_force(sheet: Sheet, vector: ForceVector) -> str:
@@ -231,7 +232,7 @@ def _arms(stage: ForceStage, group: ForceGroup, times: float) -> list[Primitive]
         for one in equation.terms:
             if one.arm is None or abs(one.arm.mm) * times < 1.0:
                 continue
-            a, b = page(one.arm.about * times), page(one.arm.foot * times)
+            a, b = on_page(one.arm.about * times), on_page(one.arm.foot * times)
             found.append(Line(a, b, strokes.DIRECTION))
         arms += [Group(tuple(found), classes=("arms",), step=step)] if found else []
     return arms
@@ -260,7 +261,7 @@ def polygons_of(group: ForceGroup) -> list[tuple[str, tuple[ForceVector, ...], t
 
 def extent_of(vectors: Sequence[ForceVector]) -> Box:
     """The box around a polygon as on a page (mm, y down)."""
-    return Box.around([z.conjugate() for v in vectors for z in (v.tail, v.tip)] or [0j])
+    return Box.around([on_page(z) for v in vectors for z in (v.tail, v.tip)] or [0j])
 
 
 def drawn_polygon(
@@ -276,10 +277,10 @@ def drawn_polygon(
         if abs(vector.span) <= SHORT:
             continue
         shift = shifts.get(_key(vector), 0j)
-        tail, tip = (vector.tail + shift).conjugate(), (vector.tip + shift).conjugate()
+        tail, tip = on_page(vector.tail + shift), on_page(vector.tip + shift)
         step = stage.in_polygon(vector, vector.link if vector in inside else link)
         if shift:
-            aside = (Line(z.conjugate(), w, strokes.CONSTRUCTION) for z, w in ((vector.tail, tail), (vector.tip, tip)))
+            aside = (Line(on_page(z), w, strokes.CONSTRUCTION) for z, w in ((vector.tail, tail), (vector.tip, tip)))
             thin.append(Group(tuple(aside), step=step))
         colour = colour_of_force(sheet, vector)
         kind = COMPONENT if vector.known or vector.part else RESULTANT
@@ -292,7 +293,7 @@ def drawn_polygon(
     for whole, tail, tip in _wholes(vectors):
         name = _unique(whole, names, suffix)
         colour = colour_of_force(sheet, whole)
-        ends = tail.conjugate(), tip.conjugate()
+        ends = on_page(tail), on_page(tip)
         step = stage.in_polygon(whole, link)
         arrows.append(vector_group(name, step, *ends, RESULTANT, colour, classes=("force",)))
         markup, own = letters_of_force(letters, whole), f"label-{name}"
@@ -302,10 +303,10 @@ def drawn_polygon(
         names[f"corner-{letter}"] += 1
         own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
         text = Text(0j, symbol(letter, 3.0), "start", classes=("label",), id=own, step=stage.in_polygon(vector, link))
-        labels.append(Label(text, (place + shifts.get(_key(vector), 0j)).conjugate(), rank=1))
+        labels.append(Label(text, on_page(place + shifts.get(_key(vector), 0j)), rank=1))
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]
     for vector in zero:
-        thin.append(Circle(vector.tip.conjugate(), 0.4, fill=strokes.BLACK))
+        thin.append(Circle(on_page(vector.tip), 0.4, fill=strokes.BLACK))
     for vector in (v for v in vectors if not v.known):
         thin += _direction(vector, stage.in_polygon(vector, link))
     piece = Piece({"construction": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
@@ -335,7 +336,7 @@ def _direction(vector: ForceVector, step: int) -> Iterator[Primitive]:
         return
     e = vector.span / abs(vector.span)
     for z, w in ((vector.tail, vector.tail - 6.0 * e), (vector.tip, vector.tip + 6.0 * e)):
-        yield Group((Line(z.conjugate(), w.conjugate(), strokes.DIRECTION),), classes=("direction",), step=step)
+        yield Group((Line(on_page(z), on_page(w), strokes.DIRECTION),), classes=("direction",), step=step)
 
 
 def _wholes(vectors: Sequence[ForceVector]) -> Iterator[tuple[ForceVector, complex, complex]]:

@@ -15,9 +15,9 @@ from graphkin.construction.polygon_acts import SeenFrom
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Aid, Bar, CompassArc, TrialCurve
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Group, Line, Polyline, Primitive, Text
+from graphkin.drawing.ink.primitives import Arc, Group, Line, Polyline, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import arrowhead
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, same_place, step_number
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
@@ -49,7 +49,7 @@ def compass_arcs(here: MechanismOnPaper) -> Piece:
         half = min(COMPASS / arc.radius, math.pi * 0.9)
         shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
         first, last = (half * (one or not any(shown)) for one in shown)
-        shape = Arc(page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
+        shape = Arc(on_page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
         covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
         (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
     return Piece({"construction": tuple(under), "mechanism": tuple(over)})
@@ -72,25 +72,25 @@ def aids_in_mechanism(sheet: Sheet) -> Piece:
             continue
         if isinstance(step.act, SpecialPoint):
             lines = tuple(
-                Line(page(s.a), page(s.b), strokes.DIRECTION)
+                Line(on_page(s.a), on_page(s.b), strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
             )  # fmt: skip
             over.append(Group(lines, id=f"special-{step.act.point}", classes=("special",), step=step.number))
         for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
             curves += 1
-            parts: list[Primitive] = [Polyline(tuple(map(page, curve.curve)), strokes.TRIAL_CURVE)]
+            parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
             for number, z in enumerate(curve.at, 1):
-                parts += [Line(page(z + w), page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
+                parts += [Line(on_page(z + w), on_page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
                 name = f"label-trial-{curve.point}-{number}"
                 numeral = symbol(str(number), 2.0)
                 text = Text(0j, numeral, "start", strokes.GREY, name, ("label", "trial"), since=step.number)
-                labels.append(Label(text, page(z), rank=4))
+                labels.append(Label(text, on_page(z), rank=4))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
         if isinstance(step.act, TrialPositions):
             goals = [s for s in step.strokes if isinstance(s, Bar)]
-            drawn += [Group((Line(page(s.a), page(s.b), strokes.DIRECTION),), classes=("trial",), step=step.number)
-                      for s in goals]  # fmt: skip
+            ways = [Line(on_page(s.a), on_page(s.b), strokes.DIRECTION) for s in goals]
+            drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]
     return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))
 
 

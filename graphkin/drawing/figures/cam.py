@@ -16,7 +16,18 @@ from graphkin.drawing.boxes import STEP, WORKED, Block, panel, picture, row, ste
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Stroke, Text
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Stroke,
+    Text,
+    on_page,
+)
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, moved_piece
@@ -201,41 +212,41 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
         part, end = _ray(sheet, d, far)
         lines += part
         text = Text(0j, plain(str(d.number), SMALL), id=f"label-division-{d.number}", classes=("label",))
-        labels.append(Label(text, _page(end), (cmath.phase(end),), rank=1))
+        labels.append(Label(text, on_page(end), (cmath.phase(end),), rank=1))
     if cam.flat:
         half = 0.35 * sheet.base
         faces = [(d.at.point - half * 1j * d.at.way, d.at.point + half * 1j * d.at.way) for d in shown]
         faces = [_over(d, face) for d, face in zip(shown, faces, strict=True)]
-        lines += [Line(_page(a), _page(b), strokes.CONSTRUCTION) for a, b in faces]
+        lines += [Line(on_page(a), on_page(b), strokes.CONSTRUCTION) for a, b in faces]
     else:
-        lines += [Circle(_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
+        lines += [Circle(on_page(d.at.point), sheet.roller, stroke=THIN) for d in shown if cam.roller]
         if cam.roller and not begun:
-            lines.append(Polyline(tuple(map(_page, sheet.pitch)), PITCH))
+            lines.append(Polyline(tuple(map(on_page, sheet.pitch)), PITCH))
         for d in shown:
-            lines.append(Line(_page(d.at.contact), _page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION))
-    profile = Polygon(tuple(map(_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
+            lines.append(Line(on_page(d.at.contact), on_page(d.at.point + 6.0 * d.at.normal), strokes.DIRECTION))
+    profile = Polygon(tuple(map(on_page, sheet.profile)), strokes.tint(colour), Stroke(0.7, (), colour))
     start = sheet.divisions[0].at
     follower: list[Primitive] = []
     if cam.roller:
-        follower.append(Circle(_page(start.point), sheet.roller, stroke=strokes.LINK.coloured(other)))
+        follower.append(Circle(on_page(start.point), sheet.roller, stroke=strokes.LINK.coloured(other)))
     if cam.flat:
         a, b = _over(sheet.divisions[0], (start.point - 8j * start.way, start.point + 8j * start.way))
-        follower.append(Line(_page(a), _page(b), strokes.LINK.coloured(other)))
+        follower.append(Line(on_page(a), on_page(b), strokes.LINK.coloured(other)))
     end = start.line
     if isinstance(cam.motion, SlidingFollower):
         end = start.point + (far - abs(start.point) + 12.0) * start.way
-    follower.append(Line(_page(start.point), _page(end), strokes.LINK.coloured(other)))
+    follower.append(Line(on_page(start.point), on_page(end), strokes.LINK.coloured(other)))
     if isinstance(cam.motion, SwingingFollower):
-        follower += symbols.fixed_pivot(_page(start.line))
+        follower += symbols.fixed_pivot(on_page(start.line))
     elif not cam.flat:
-        follower += symbols.pin(_page(start.point), other)
+        follower += symbols.pin(on_page(start.point), other)
     axis = Group(tuple(symbols.fixed_pivot(0j)), id=f"point-{cam.point}", classes=("point",))
     named = [(cam.point, 0j)]
     if isinstance(cam.motion, SwingingFollower):
         named += [(cam.motion.pivot, start.line), (cam.motion.tip, start.point)]
     for name, z in named:
         text = Text(0j, symbol(name), id=f"label-point-{name}", classes=("label",))
-        labels.append(Label(text, _page(z)))
+        labels.append(Label(text, on_page(z)))
     turn = _sense(sheet)
     piece = Piece({
         "mechanism": (Group(() if begun else (profile,), id=f"cam-{cam.link}", classes=("cam",)),
@@ -246,7 +257,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     piece = Piece({"construction": (*piece.layers["mechanism"][:1], *piece.layers["construction"]),
                    "mechanism": piece.layers["mechanism"][1:]}, piece.labels)  # fmt: skip
     box = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    box = box.joined(Box.around(map(_page, sheet.profile))).grown(6.0)
+    box = box.joined(Box.around(map(on_page, sheet.profile))).grown(6.0)
 
     def drawn(room: Box) -> Piece:
         origin = room.centre - box.centre
@@ -278,23 +289,19 @@ def _ray(sheet: CamSheet, d: CamDivision, far: float) -> tuple[list[Primitive], 
     if isinstance(motion, SlidingFollower):
         beyond = math.sqrt(max((far + sheet.roller + PAST) ** 2 - sheet.offset**2, 0.0))
         end = d.at.line + beyond * d.at.way
-        return [Line(_page(d.at.line), _page(end), RAY)], end
+        return [Line(on_page(d.at.line), on_page(end), RAY)], end
     pivot = d.at.line
     arm = abs(d.at.point - pivot)
     angles = [cmath.phase(z - pivot) for z in (d.at.base, d.at.point)]
     middle = angles[0] + math.remainder(angles[1] - angles[0], TURN) / 2
     half = abs(math.remainder(angles[1] - angles[0], TURN)) / 2 + 3.0 / arm
-    return [Arc(_page(pivot), arm, middle - half, middle + half, RAY), Circle(_page(pivot), 0.5, stroke=RAY)], pivot
+    return [Arc(on_page(pivot), arm, middle - half, middle + half, RAY), Circle(on_page(pivot), 0.5, stroke=RAY)], pivot
 
 
 def _sense(sheet: CamSheet) -> list[Primitive]:
     """The sense in which the cam turns."""
     radius = max(5.0, 0.3 * sheet.base)
     return list(symbols.sense_arc(0j, radius, 0.6, sheet.cam.sense, math.radians(60)))
-
-
-def _page(z: complex) -> complex:
-    return z.conjugate()
 
 
 def _table(scene: Mechanism, sheet: CamSheet, language: str) -> Block:

@@ -38,7 +38,7 @@ from graphkin.drawing.boxes import (
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, walk
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page, walk
 from graphkin.drawing.ink.strokes import colour_of_link, pale
 from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, mark_of, near_box
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -358,7 +358,7 @@ def _found(label: Label, centres: Centres) -> bool:
     at = label.mark
     if isinstance(at, tuple) or not label.text.id.startswith("label-centre-"):
         return False
-    near = [c for c in centres.found if c.point is not None and abs(c.point.conjugate() - at) < TOGETHER]
+    near = [c for c in centres.found if c.point is not None and abs(on_page(c.point) - at) < TOGETHER]
     return all(c.lines for c in near)
 
 

@@ -17,7 +17,7 @@ from graphkin.construction.centres.pairs import LinkPair
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
 from graphkin.drawing.figures.centres import background
-from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel
+from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel, on_page
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.parts.centre_marks import mark_of
 from graphkin.drawing.parts.mechanism import bare_mechanism
@@ -65,7 +65,7 @@ def centres_in_motion(
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     everywhere = np.concatenate([*points.values()]) if points else np.zeros(0, complex)
     for place in everywhere[np.isfinite(everywhere)].tolist():
-        mechanism = mechanism.joined(Box.around((place.conjugate(),)).grown(3.0))
+        mechanism = mechanism.joined(Box.around((on_page(place),)).grown(3.0))
     around = mechanism.grown(AROUND * max(mechanism.width, mechanism.height))
     shown = {pair: _inside(path, around) for pair, path in paths.items()}
     content = mechanism
@@ -100,7 +100,7 @@ def _inside(path: Places, box: Box) -> Places:
 
 def _travel(path: Places, turned: NDArray[np.float64] | None = None, about: complex = 0j) -> Travel:
     """How something moves that stands at the first place: a move on the page for each frame, None where it is away."""
-    moves = tuple(complex((z - path[0]).conjugate()) if np.isfinite(z) else None for z in path)
+    moves = tuple(complex(on_page(z - path[0])) if np.isfinite(z) else None for z in path)
     turns = () if turned is None else tuple(-math.degrees(float(t)) if math.isfinite(t) else 0.0 for t in turned)
     return Travel(moves, turns, about, SECONDS)
 
@@ -114,7 +114,7 @@ def _moving(
     kind, _, name = thing.id.partition("-")
     if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
-        return replace(thing, motion=_travel(path, turned[name], complex(path[0]).conjugate()))
+        return replace(thing, motion=_travel(path, turned[name], on_page(complex(path[0]))))
     return replace(thing, motion=_travel(points[name])) if kind == "point" and name in points else thing
 
 
@@ -130,7 +130,7 @@ def _paths(pair: LinkPair, path: Places, colour: str) -> Sequence[Primitive]:
     runs: list[list[complex]] = [[]]
     for z in path.tolist():
         if math.isfinite(z.real):
-            runs[-1].append(z.conjugate())
+            runs[-1].append(on_page(z))
         elif runs[-1]:
             runs.append([])
     lines = tuple(Polyline(tuple(run), Stroke(PATH, (), colour)) for run in runs if len(run) > 1)
@@ -143,12 +143,12 @@ def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -
     if not len(good):
         return ()
     base = complex(path[good[0]])
-    at = base.conjugate()
+    at = on_page(base)
     mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, at)
     off, anchor = NAMES[k % len(NAMES)]
     text = Text(at + off, rich(name, 3.0), anchor, classes=("label", "centre"))
     whole = (*mark, text)
-    moves = tuple(complex((z - base).conjugate()) if np.isfinite(z) else None for z in path)
+    moves = tuple(complex(on_page(z - base)) if np.isfinite(z) else None for z in path)
     motion = Travel(moves, (), 0j, SECONDS) if _moves(path) or len(good) < len(path) else None
     return (Group(whole, id="centre-" + "-".join(sorted(pair)), classes=("centre",), motion=motion),)
 
@@ -185,7 +185,7 @@ def centrodes_figure(
     mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
     around = mechanism.grown(CURVES_AROUND * max(mechanism.width, mechanism.height))
     centre = centres.of(link, sheet.scene.frame.name)
-    here = None if centre.point is None else centre.point.conjugate()
+    here = None if centre.point is None else on_page(centre.point)
     if here is not None and mechanism.distance(here) <= REACH * max(mechanism.width, mechanism.height):
         around = around.joined(Box.around((here,)).grown(ROOM))  # where the two touch
     colour = colour_of_link(sheet.scene, link)

@@ -17,7 +17,7 @@ from graphkin.drawing.boxes import Block, FigurePage, column, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.force_stages import SHORT, lever_extent, lever_on_page
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -98,10 +98,10 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
         if abs(end) > SHORT and (not link or link in sheet.scene.by_name):
             ends.setdefault(complex(round(end.real, 2), round(end.imag, 2)), []).append(name)
     for end, names in ends.items():
-        thin.append(Line(0j, end.conjugate(), strokes.RELATIVE))
+        thin.append(Line(0j, on_page(end), strokes.RELATIVE))
         written_ = ", ".join(_end(letters, name) for name in names[:3])
-        thin.append(Circle(end.conjugate(), 0.5, fill=strokes.BLACK))
-        labels.append(Label(Text(0j, symbol(written_), "start", classes=("label",)), end.conjugate(), rank=1))
+        thin.append(Circle(on_page(end), 0.5, fill=strokes.BLACK))
+        labels.append(Label(Text(0j, symbol(written_), "start", classes=("label",)), on_page(end), rank=1))
     mark = Text(0j, symbol(pole(letters.convention, "velocity")), "start", classes=("label",))
     labels.append(Label(mark, 0j, rank=0))
     taken: list[tuple[complex, complex]] = []
@@ -115,23 +115,23 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             tip = at + along * (ARROW + 4.0 * again)
             which = f"{row.symbol.id}-opposite" if row.turned else row.symbol.id
             name = f"lever-{which}{f'-{n + 1}' if len(ends_of) > 1 else ''}{tag}"
-            shapes = arrow(at.conjugate(), tip.conjugate(), RESULTANT if found else COMPONENT, colour)
+            shapes = arrow(on_page(at), on_page(tip), RESULTANT if found else COMPONENT, colour)
             arrows.append(Group(shapes, id=name, classes=("acting",)))
             markup = force_letters(letters.convention, row.symbol)
             named = as_vector(letters.convention, markup) if row.pair is None else f"{markup}/l"
             named = f"−{named}" if row.turned else named
             text = Text(0j, symbol(named, 3.0), "start", colour, f"label-{name}", ("label",))
-            labels.append(Label(text, (at.conjugate(), tip.conjugate()), rank=0))
+            labels.append(Label(text, (on_page(at), on_page(tip)), rank=0))
         if row.pair is None and abs(row.arm) > SHORT and ends_of:
             along = ends_of[0][1]
             foot = -1j * along * row.arm
-            lines = [Line(0j, foot.conjugate(), strokes.DIMENSION)]
+            lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
             if abs(foot - row.at) > SHORT:
-                lines.append(Line(foot.conjugate(), row.at.conjugate(), strokes.DIRECTION))
+                lines.append(Line(on_page(foot), on_page(row.at), strokes.DIRECTION))
             thin.append(Group(tuple(lines), classes=("arm",)))
             arm = force_letters(letters.convention, Symbol("arm", name=str(row.symbol))) + ("'" if row.turned else "")
             label = Text(0j, symbol(arm, 2.8), "start", strokes.GREY, classes=("label",))
-            labels.append(Label(label, (0j, foot.conjugate()), rank=2))
+            labels.append(Label(label, (0j, on_page(foot)), rank=2))
     thin.append(Circle(0j, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE))
     piece = Piece({"velocity": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
     placed = moved_piece(piece, origin)

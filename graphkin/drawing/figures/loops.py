@@ -18,7 +18,7 @@ from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.place.labels import Label
@@ -97,7 +97,7 @@ def _corners(loop: LoopValue, scale: float) -> list[complex]:
     at, corners = 0j, [0j]
     for arrow in loop.arrows:
         at += arrow.vector / scale
-        corners.append(at.conjugate())
+        corners.append(on_page(at))
     corners[-1] = 0j  # what is missing is rounding
     return corners
 
@@ -127,7 +127,7 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
             thin += _angle(tail, arrow.vector)
             turned = "" if along.real > 0 else " + 180°"
             mark = " ?" if ("theta", loop.loop.ties[arrow.arrow.link]) in open_ else ""
-            middle = cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2).conjugate()
+            middle = on_page(cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2))
             angle = rich(f"$θ_{{{arrow.arrow.link}}}${turned}{mark}", 3.0)
             letter = Text(0j, angle, "start", colour, classes=("label",))
             labels.append(Label(letter, tail + middle, rank=1))
@@ -153,7 +153,7 @@ def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primi
     at, corners = 0j, [0j]
     for vector in stated_arrows(sheet, loop.loop, sheet.scene.printed):
         at += vector / scale
-        corners.append(at.conjugate())
+        corners.append(on_page(at))
     drawn = Group((Polyline(tuple(corners), strokes.DIRECTION),), classes=("printed",))
     ends = Line(corners[-1], corners[0], OPEN)
     if abs(ends.end - ends.start) < 0.05:
@@ -179,8 +179,8 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
     parts: list[Primitive] = [Line(tail, tail + AXIS, strokes.DIRECTION)]
     if angle > 0.05:
         parts.append(Arc(tail, ARC, 0.0, angle - min(0.3, 0.4 * angle), strokes.DIMENSION))
-        tip = tail + cmath.rect(ARC, angle).conjugate()
-        along = (1j * cmath.rect(1.0, angle)).conjugate()
+        tip = tail + on_page(cmath.rect(ARC, angle))
+        along = on_page(1j * cmath.rect(1.0, angle))
         head, width = symbols.head_size(POINTER, ARC * angle)
         parts.append(arrowhead(tip, along, head, width, strokes.BLACK))
     return parts

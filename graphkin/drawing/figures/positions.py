@@ -16,10 +16,22 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Polyline, Primitive, Run, Stroke, Text
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Run,
+    Stroke,
+    Text,
+    on_page,
+)
 from graphkin.drawing.ink.symbols import BLOCK_LENGTH, BLOCK_WIDTH
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, dimension
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.names import with_labels
@@ -88,7 +100,7 @@ def positions_figure(shown: Shown, *, language: str | None = None, convention: s
     if shown.least is not None and "gamma" in shown.marks:
         least = [_position(shown.least[0], letters, NUMBERED, "least-transmission"), _gamma(shown)]
     paths = Piece({"construction": tuple(
-        Group((Polyline(tuple(map(page, places)), PATH),), id=f"path-{point}", classes=("path",))
+        Group((Polyline(tuple(map(on_page, places)), PATH),), id=f"path-{point}", classes=("path",))
         for point, places in shown.paths.items() if len(places) > 1
     )})  # fmt: skip
     drawn = joined((paths, *numbered, *limits, *least, _back(shown), bare_mechanism(sheet, letters)))
@@ -111,17 +123,17 @@ def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
     for shape in here.shapes:
         own = stroke.coloured(here.colour(shape.link))
         if shape.corners:
-            parts.append(Polygon(tuple(map(page, shape.corners)), "", own))
-        parts += [Line(page(a), page(b), own) for a, b in shape.bars]
+            parts.append(Polygon(tuple(map(on_page, shape.corners)), "", own))
+        parts += [Line(on_page(a), on_page(b), own) for a, b in shape.bars]
     for b in here.sliders:
         if not b.slide.slot:
             half, across = b.along * BLOCK_LENGTH * 0.35, 1j * b.along * BLOCK_WIDTH * 0.35
             corners = (b.at + half + across, b.at + half - across, b.at - half - across, b.at - half + across)
-            parts.append(Polygon(tuple(map(page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
+            parts.append(Polygon(tuple(map(on_page, corners)), "", strokes.DIMENSION.coloured(here.colour(b.slide.a))))
     moving = [p for p in here.places if here.moving(p) and p not in here.scene.frame.points]
-    parts += [Circle(page(here.places[p]), 0.7, fill=strokes.WHITE, stroke=strokes.DIMENSION) for p in moving]
+    parts += [Circle(on_page(here.places[p]), 0.7, fill=strokes.WHITE, stroke=strokes.DIMENSION) for p in moving]
     return Piece({"mechanism": (Group(tuple(parts), id=id, classes=("position",)),)},
-                 marks=tuple(page(here.places[p]) for p in moving))  # fmt: skip
+                 marks=tuple(on_page(here.places[p]) for p in moving))  # fmt: skip
 
 
 def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
@@ -145,7 +157,7 @@ def _numbers(shown: Shown) -> Piece:
         ends = _crank_end(sheet)
         if ends is not None and ends[1] != ends[0]:
             text = Text(0j, plain(name, 2.6), "start", strokes.BLACK, f"label-position-{name}", ("label",))
-            labels.append(Label(text, page(ends[1]), (cmath.phase(ends[1] - ends[0]),)))
+            labels.append(Label(text, on_page(ends[1]), (cmath.phase(ends[1] - ends[0]),)))
     return Piece(labels=tuple(labels))
 
 
@@ -196,7 +208,7 @@ def _back(shown: Shown) -> Piece:
     if crank is None:
         return Piece()
     _, pivot, _, two = crank
-    return Piece({"answers": (Line(page(pivot), page(pivot - 1.35 * two), strokes.DIRECTION),)})
+    return Piece({"answers": (Line(on_page(pivot), on_page(pivot - 1.35 * two), strokes.DIRECTION),)})
 
 
 _Wanted: TypeAlias = tuple[str, bool, Sequence[Parts]]
@@ -206,7 +218,7 @@ first."""
 
 def _arcs(centre: complex, radii: Sequence[float], start: float, end: float, words: tuple[Run, ...]) -> Sequence[Parts]:
     """An angle with arcs of some radii, its number at several shares of each."""
-    return [angle_dimension(page(centre), radius, start, end, words, share) for radius in radii for share in SHARES]
+    return [angle_dimension(on_page(centre), radius, start, end, words, share) for radius in radii for share in SHARES]
 
 
 def _crank(shown: Shown) -> Iterator[_Wanted]:
@@ -234,7 +246,7 @@ def _strokes(shown: Shown) -> Iterator[_Wanted]:
     for pair, (low, high) in shown.limits.items() if "stroke" in shown.marks else ():
         stroke = shown.measured.get(("stroke", pair))
         if "/" in pair and stroke is not None:
-            a, b = (page(one.poses[pair.split("/")[0]].origin) for one in (low, high))
+            a, b = (on_page(one.poses[pair.split("/")[0]].origin) for one in (low, high))
             words = rich(f"$H$ = {number(stroke / metres, 6)} {unit}", 2.8)
             if abs(b - a) > 1.0:
                 yield f"stroke-{pair.replace('/', '-')}", False, [dimension(a, b, offset, words) for offset in OFFSETS]
@@ -264,11 +276,11 @@ def _gamma(shown: Shown) -> Piece:
     if abs(turn) > math.pi / 2:  # the acute one of the two
         start, turn = cmath.phase(-first), math.remainder(cmath.phase(second) - cmath.phase(-first), math.tau)
     reach = 11.0
-    lines = [Line(page(joint), page(joint + reach * cmath.rect(1.0, angle)), strokes.DIRECTION)
+    lines = [Line(on_page(joint), on_page(joint + reach * cmath.rect(1.0, angle)), strokes.DIRECTION)
              for angle in (start, start + turn)]  # fmt: skip
     words = rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
-    arc = angle_dimension(page(joint), 8.0, start, start + turn, words)[:2]
-    middle = page(joint + 8.0 * cmath.rect(1.0, start + turn / 2))
+    arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
+    middle = on_page(joint + 8.0 * cmath.rect(1.0, start + turn / 2))
     label = Label(Text(0j, words, "start", strokes.BLACK, "label-least-gamma", ("label",)), middle)
     return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
 

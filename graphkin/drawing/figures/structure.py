@@ -15,10 +15,10 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page, replaced_pairs
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, replaced_pairs
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -84,18 +84,18 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
         count = len([n for n in names if n in sheet.scene.by_name])
         if count > 2 and point in here.places:
             text = Text(0j, rich(f"{count} − 1", 2.4, bold=True), "start", strokes.GREY, f"badge-{point}", ("label",))
-            labels.append(Label(text, page(here.places[point]), rank=1))
+            labels.append(Label(text, on_page(here.places[point]), rank=1))
     pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in (sheet.scene.instead_of or sheet.scene).pins]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
         text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{name}", ("label",))
-        labels.append(Label(text, page(place), rank=1))
+        labels.append(Label(text, on_page(place), rank=1))
     for cam in here.cams:
         if cam.roller:
             text = Text(0j, plain(term("own turning", spoken), 2.4), "start", strokes.GREY,
                         f"badge-roller-{cam.cam.follower}", ("label",))  # fmt: skip
-            labels.append(Label(text, page(cam.point), rank=1))
+            labels.append(Label(text, on_page(cam.point), rank=1))
     dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
     stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
                  if b.slide.key in replaced_pairs(small)}  # fmt: skip
@@ -254,10 +254,10 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         shape = next((shape for shape in here.shapes if shape.link == name), None)
         ends = [here.places[p] for p in (held.bar if shape is None else held.points) if p in here.places]
         if shape is not None:
-            parts += [Line(page(a), page(b), strokes.LINK.coloured(here.colour(name))) for a, b in shape.slots]
-            parts += [Line(page(ends[0]), page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
+            parts += [Line(on_page(a), on_page(b), strokes.LINK.coloured(here.colour(name))) for a, b in shape.slots]
+            parts += [Line(on_page(ends[0]), on_page(z), dashed) for z in ends[1:] if z not in shape.points.values()]
         elif len(ends) > 1:  # the bar that replaces a contact
-            parts.append(Line(page(ends[0]), page(ends[1]), dashed))
+            parts.append(Line(on_page(ends[0]), on_page(ends[1]), dashed))
     numbered = {shape.link for shape in here.shapes if shape.longest}
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
@@ -266,27 +266,28 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
         along = here.sheet.poses[slide.b].axis * slide.guide.direction
         colour = here.colour(slide.a)
-        parts += symbols.block(page(at), phase(along), colour)
+        parts += symbols.block(on_page(at), phase(along), colour)
         ends = [at - 8.0 * along, at + 8.0 * along]
         if slide.b not in links:  # the guide belongs to another link
-            parts.append(Line(page(ends[0]), page(ends[1]), strokes.DIRECTION))
+            parts.append(Line(on_page(ends[0]), on_page(ends[1]), strokes.DIRECTION))
         elif stands:  # along a face, from its link to beyond the block
             origin = here.sheet.poses[slide.b].origin
             foot = at + dot(origin - at, along) * along
             far = max(ends, key=lambda z: abs(z - foot))
             dashed = strokes.REDUNDANT.coloured(here.colour(slide.b))
-            parts += [Line(page(a), page(b), dashed) for a, b in ((origin, foot), (foot, far)) if abs(b - a) > TOUCH]
+            ways = (origin, foot), (foot, far)
+            parts += [Line(on_page(a), on_page(b), dashed) for a, b in ways if abs(b - a) > TOUCH]
         if slide.a in links and slide.a in here.scene.by_name and slide.a not in numbered:
             numbered.add(slide.a)
             text = Text(0j, plain(slide.a, bold=True), "start", colour, classes=("label",))
-            labels.append(Label(text, page(at), rank=1))
+            labels.append(Label(text, on_page(at), rank=1))
     pins = {pair.point: strokes.WHITE for pair in outer if isinstance(pair, Turn)}
     if any(isinstance(e, Driven) for e in elements):  # where groups hang on it
         pins |= {p: strokes.WHITE for n in links for p in structure.links[n].points if p in structure.hinges}
     pins |= {pair.point: strokes.BLACK for pair in inner if isinstance(pair, Turn)}
     for point, fill in pins.items():
         if point in here.places:
-            at = page(here.places[point])
+            at = on_page(here.places[point])
             parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
             labels.append(Label(Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",)), at))
     return parts, labels

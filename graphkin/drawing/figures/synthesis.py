@@ -26,7 +26,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import WORKED, Block, panel, picture, row, steps, table, worked_page
 from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, joined, moved_piece
@@ -194,10 +194,6 @@ def _at(z: complex) -> str:
     return f"({number(z.real)}, {number(z.imag)})"
 
 
-def _page(z: complex) -> complex:
-    return z.conjugate()
-
-
 def _strokes(made: Sequence[DesignStroke], step: int, panel: Box) -> Piece:
     """The strokes of one step, y down, cut at the panel."""
     lines: list[Primitive] = []
@@ -205,7 +201,7 @@ def _strokes(made: Sequence[DesignStroke], step: int, panel: Box) -> Piece:
     labels: list[Label] = []
     for stroke in made:
         if isinstance(stroke, DesignLine):
-            line = Line(_page(stroke.a), _page(stroke.b), _KINDS[stroke.kind])
+            line = Line(on_page(stroke.a), on_page(stroke.b), _KINDS[stroke.kind])
             inside = cut_to((line,), panel)
             (marks if stroke.kind in ("given", "mechanism") else lines).extend(inside)
         elif isinstance(stroke, DesignCircle):
@@ -215,7 +211,7 @@ def _strokes(made: Sequence[DesignStroke], step: int, panel: Box) -> Piece:
             lines += part
             labels.append(label)
         else:
-            at = _page(stroke.at)
+            at = on_page(stroke.at)
             if not (panel.left <= at.real <= panel.right and panel.top <= at.imag <= panel.bottom):
                 continue
             if not stroke.name:
@@ -244,7 +240,7 @@ def _angle(stroke: DesignAngle) -> tuple[list[Primitive], Label]:
     if second < first:
         second += 2 * math.pi
     radius = min(12.0, 0.4 * abs(stroke.first))
-    apex = _page(stroke.apex)
+    apex = on_page(stroke.apex)
     middle = apex + (radius + 1.0) * cmath.rect(1.0, -(first + second) / 2)
     text = f"${stroke.name}$ = {number(stroke.value)}°" if stroke.name else f"{number(stroke.value)}°"
     label = Label(Text(0j, rich(text, 2.8), classes=("label",)), middle, ((first + second) / 2,), rank=1)
@@ -253,7 +249,7 @@ def _angle(stroke: DesignAngle) -> tuple[list[Primitive], Label]:
 
 def _arcs(stroke: DesignCircle, panel: Box) -> list[Primitive]:
     """A circle as far as it lies in the panel, or its arcs near points."""
-    centre, radius = _page(stroke.centre), stroke.radius
+    centre, radius = on_page(stroke.centre), stroke.radius
     if stroke.near:
         half = min(0.35, 6.0 / radius)
         angles = [cmath.phase(z - stroke.centre) for z in stroke.near]

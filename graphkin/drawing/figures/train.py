@@ -13,7 +13,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Stroke, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Stroke, Text, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, hatched_line
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -120,7 +120,7 @@ def _lines(sheet: Sheet, plan: TrainPlan, k: int, letters: Letters, start: float
         labels.append(Label(text, complex(0.0, -h), rank=1))
     for one in own:
         colour = strokes.colour_of_link(sheet.scene, one.link)
-        a, b = (z.conjugate() for z in one.ends)
+        a, b = (on_page(z) for z in one.ends)
         over = 3.0 * (b - a) / abs(b - a)
         arrows.append(Group((Line(a - over, b + over, strokes.LINK.coloured(colour)),),
                             id=f"plan-line-{one.link}{tag}", classes=("plan-line",)))  # fmt: skip

@@ -29,6 +29,7 @@ __all__ = [
     "class_names",
     "map_tree",
     "moved",
+    "on_page",
     "page_direction",
     "walk",
 ]
@@ -45,6 +46,11 @@ Recolour: TypeAlias = Callable[[str], str]
 def page_direction(angle: float) -> complex:
     """Unit step on the page at an angle (rad) counter-clockwise from the x axis."""
     return cmath.rect(1.0, -angle)
+
+
+def on_page(z: complex) -> complex:
+    """A place (mm) of a mechanism or polygon, whose y axis points up, on the page, whose points down."""
+    return z.conjugate()
 
 
 @dataclass(frozen=True)

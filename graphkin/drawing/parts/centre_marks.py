@@ -13,7 +13,7 @@ from graphkin.construction.centres.find import CentreRelation
 from graphkin.construction.centres.pairs import Line as Straight
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import obstacles_of
@@ -55,7 +55,7 @@ def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box
     """The box (mm about the world's origin, y down) of the mechanism and of the centres that lie near enough to be
     shown with it: the nearest first, as long as the whole stays within a width and height."""
     box = mechanism
-    spots = [c.point.conjugate() for c in centres.found if c.point is not None]
+    spots = [on_page(c.point) for c in centres.found if c.point is not None]
     for z in sorted(spots, key=mechanism.distance):
         larger = box.joined(Box.around((z,)).grown(3.0))
         if larger.width <= most[0] and larger.height <= most[1]:
@@ -81,16 +81,13 @@ class _Marks:
         obstacles = obstacles_of(drawn)
         self.solid = list(obstacles.solid)
 
-    def at(self, z: complex) -> complex:
-        return z.conjugate()
-
     def piece(self) -> Piece:
         near: list[list[Centre]] = []
         far: list[Centre] = []
         for centre in self.centres.found:
             if centre.place is None:
                 continue
-            if centre.point is None or self.inside.distance(self.at(centre.point)) > 0.0:
+            if centre.point is None or self.inside.distance(on_page(centre.point)) > 0.0:
                 far.append(centre)
                 continue
             home = next((g for g in near if abs((g[0].point or 0j) - centre.point) < TOGETHER), None)
@@ -103,11 +100,11 @@ class _Marks:
         names += [label for group in near for label in self._crossings(group)]
         marks: list[Primitive] = []
         for group in near:
-            spot = self.at(group[0].point or 0j)
+            spot = on_page(group[0].point or 0j)
             marks += self._group(group, spot)
             names.append(self._name(group, spot))
         self.solid += [(line.start, line.end) for line in lines]
-        for spot in [self.at(g[0].point or 0j) for g in near]:
+        for spot in [on_page(g[0].point or 0j) for g in near]:
             self.solid += [(spot - 4.0, spot + 4.0), (spot - 4.0j, spot + 4.0j)]
         for together in self._alike(far):
             tail, tip = self._arrow(together[0])
@@ -128,7 +125,7 @@ class _Marks:
         """One mark for centres that fall together: that of the best known, every name with a group of its own."""
         return [
             Group(
-                mark_of(c, self.frame, spot) if i == 0 else (Circle(self.at(c.point or 0j), 0.3, strokes.BLACK),),
+                mark_of(c, self.frame, spot) if i == 0 else (Circle(on_page(c.point or 0j), 0.3, strokes.BLACK),),
                 id=self._id(c),
                 classes=("centre", c.kind, *((f"step-{c.number:02d}",) if c.number else ())),
             )
@@ -157,7 +154,7 @@ class _Marks:
             if c.lines:
                 words = " × ".join(line_name(line, self.letters) for line in c.lines)
                 text = Text(0j, rich(words, SMALLEST), "start", strokes.GREY, f"label-lines-{self._id(c)}", ("label",))
-                labels.append(Label(text, self.at(c.point or 0j), (), 3))
+                labels.append(Label(text, on_page(c.point or 0j), (), 3))
         return labels
 
     def _lines(self, centre: Centre) -> list[Line]:
@@ -168,13 +165,13 @@ class _Marks:
             if abs(complex(*relation.line[:2])) <= 1e-12 * abs(relation.line[2]):
                 continue  # the line at infinity
             along = self._along(relation.line)
-            known = [self.at(z) for z in self._known(relation)]
+            known = [on_page(z) for z in self._known(relation)]
             if centre.point is None:
                 # towards a centre that lies at infinity, as far as the panel goes
                 ends = [self.panel.clip(z - 1e4 * along, z + 1e4 * along) for z in known[:1]]
                 found += [Line(*end, strokes.OF_CENTRES) for end in ends if end is not None]
                 continue
-            here = self.at(centre.point)
+            here = on_page(centre.point)
             base = known[0] if known else here - BEYOND * along
             shares = [dot(z - base, along) for z in (*known, here)]
             end = shares[-1]
@@ -199,7 +196,7 @@ class _Marks:
 
     def _along(self, line: Straight) -> complex:
         """Direction of a line on the page (y down)."""
-        return unit(complex(-line[1], line[0])).conjugate()
+        return on_page(unit(complex(-line[1], line[0])))
 
     # -- far ones ----------------------------------------------------------------------------------------------------
 
@@ -243,9 +240,9 @@ class _Marks:
 
     def _towards(self, centre: Centre, start: complex, sense: int) -> complex:
         if centre.point is not None:
-            return unit(self.at(centre.point) - start)
+            return unit(on_page(centre.point) - start)
         assert centre.direction is not None
-        return sense * centre.direction.conjugate()
+        return sense * on_page(centre.direction)
 
     def _crowd(self, tail: complex, tip: complex) -> float:
         """How much is drawn near an arrow."""

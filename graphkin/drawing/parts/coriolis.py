@@ -18,7 +18,7 @@ from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, sense_arc
 from graphkin.drawing.place.labels import Label
@@ -61,9 +61,9 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     slip, turned = unit(velocity.span), unit(vector.span)
     sense = 1 if cross(slip, turned) > 0 else -1
     inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 6.2)
-    centre = inner.centre - REACH / 2 * (slip + turned).conjugate()
+    centre = inner.centre - REACH / 2 * on_page(slip + turned)
     colour = colour_of_vector(sheet, vector.symbol)
-    tips = [centre + REACH * way.conjugate() for way in (slip, turned)]
+    tips = [centre + REACH * on_page(way) for way in (slip, turned)]
     arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
     parts: tuple[Primitive, ...] = (
         *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
@@ -79,7 +79,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
         _label(letters.arrow(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
     ]
     if links:
-        middle = centre + 3.6 * (slip + turned).conjugate() / abs(slip + turned)
+        middle = centre + 3.6 * on_page(slip + turned) / abs(slip + turned)
         names.append(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
     name = f"${letters.vector(vector.symbol)}$"
     caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)

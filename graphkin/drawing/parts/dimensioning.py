@@ -15,7 +15,7 @@ from graphkin.account.headings import number, slide_index, written
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, Text
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, Text, on_page
 from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
 from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, link_since, shapes, sliders
 from graphkin.drawing.place.dimensions import (
@@ -124,7 +124,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         for one, other in spans:
             if one not in places or other not in places or abs(places[one] - places[other]) < 1.0:
                 continue
-            start, end = places[one].conjugate(), places[other].conjugate()
+            start, end = on_page(places[one]), on_page(places[other])
             value = abs(link.points[other] - link.points[one]) / sheet.scene.units.metres
             runs = rich(written(as_given(value)), SIZE)
             parts = None
@@ -169,7 +169,7 @@ def _corner(
         return None
     turn = _angle(link, start, at, end)
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
-    centre, first = places[at].conjugate(), phase(places[start] - places[at])
+    centre, first = on_page(places[at]), phase(places[start] - places[at])
     choices = (angle_dimension(centre, radius, first, first + turn, runs) for radius in ANGLE_RADII)
     return room.take(choices, 0, ends_on_line=True)
 
@@ -185,7 +185,7 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     or above the mechanism, upright beside it."""
     scene = sheet.scene
     spots = {
-        ref.point: z.conjugate() for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points
+        ref.point: on_page(z) for ref, z in sheet.points.items() if not ref.link and ref.point in scene.frame.points
     }
     datum = next((spots[p] for p in _datums(sheet) if p in spots), None)
     guides: tuple[list[complex], list[complex]] = ([], [])
@@ -193,12 +193,12 @@ def _frame(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     for slider in sliders(sheet):
         if slider.slide.b == scene.frame.name and slider.slide.guide.name:
             if abs(slider.along.imag) < 1e-9:
-                guides[1].append(slider.at.conjugate())
+                guides[1].append(on_page(slider.at))
             elif abs(slider.along.real) < 1e-9:
-                guides[0].append(slider.at.conjugate())
+                guides[0].append(on_page(slider.at))
             sliding = scene.by_name.get(slider.slide.a)  # none is the block of a pin, which has no other points
             ends = (sheet.points.get(PointRef(p), slider.at) for p in (sliding.points if sliding else ()))
-            on_guides += [z.conjugate() for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
+            on_guides += [on_page(z) for z in ends if abs(z - slider.at) > GUIDE_LENGTH / 2]
     for upright in (False, True):
         places = [_Spot(z) for z in spots.values()]
         places += [_Spot(z, GUIDE_LENGTH / 2 - 4.0) for z in guides[upright]]
@@ -326,7 +326,7 @@ def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
         if pivot is None:
             continue
         start = phase(base.axis) if base is not None else 0.0
-        at, way = pivot.conjugate(), complex(math.cos(start), -math.sin(start))
+        at, way = on_page(pivot), complex(math.cos(start), -math.sin(start))
         # rather an arc over the links than none; of a turn too small no arc is seen
         found = None
         ways = product(turns, ((False, ANGLE_RADII), (True, CLOSE_RADII)))
@@ -385,7 +385,7 @@ def travels(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             start = pose.origin + pose.axis * slider.slide.guide.through / sheet.scales.length
             runs = rich(f"$s_{{{slide_index(sheet, key)}}}$ = {written(as_given(value))}", SIZE)
             parts = _apart(room, (start,), (slider.at,), slider.along, abs(value), runs)
-            yield parts or driven_value(sheet, key, runs, (start.conjugate(), slider.at.conjugate()))
+            yield parts or driven_value(sheet, key, runs, (on_page(start), on_page(slider.at)))
 
 
 def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
@@ -416,7 +416,7 @@ def _off_pivot(sheet: Sheet, room: DimensionClearance, slider: Slider) -> Parts 
             continue  # the problem gives no distance straight from the pivot
         foot = pivot + given * way * sheet.scene.units.metres / sheet.scales.length
         end = min((slider.at + s * GUIDE_LENGTH / 2 * slider.along for s in (1, -1)), key=lambda z: abs(z - foot))
-        along = (Line(end.conjugate(), foot.conjugate(), strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
+        along = (Line(on_page(end), on_page(foot), strokes.DIMENSION),) if abs(end - foot) > SHORTEST else ()
         found = _apart(room, (pivot,), (foot,), way, abs(given), also=along)
         if found is not None:
             return found
@@ -434,12 +434,12 @@ def _slant(room: DimensionClearance, slider: Slider) -> Parts | None:
         way = sense * slider.along
         level = math.copysign(1.0, way.real)
         start = 0.0 if level > 0 else math.pi
-        corner = (slider.at + (GUIDE_LENGTH / 2 + 0.5) * way).conjugate()
+        corner = on_page(slider.at + (GUIDE_LENGTH / 2 + 0.5) * way)
         for radius in RADII:
             further = radius + OVERRUN
             choices.append((
                 Line(corner, corner + further * level, strokes.DIMENSION),
-                Line(corner, corner + further * way.conjugate(), strokes.DIMENSION),
+                Line(corner, corner + further * on_page(way), strokes.DIMENSION),
                 *angle_dimension(corner, radius, start, start + math.radians(angle), runs),
             ))  # fmt: skip
     return room.take(choices, 2, ends_on_line=True)
@@ -498,7 +498,7 @@ def _guide_angle(room: DimensionClearance, at: complex, one: complex, other: com
     runs = rich(f"{number(abs(math.degrees(turn)), 5)}°", SIZE)
     starts = [phase(one), phase(-one)]
     choices = (
-        angle_dimension(at.conjugate(), radius, start, start + turn, runs) for radius in RADII for start in starts
+        angle_dimension(on_page(at), radius, start, start + turn, runs) for radius in RADII for start in starts
     )
     return room.take(choices, 0, ends_on_line=True)
 
@@ -523,8 +523,8 @@ def _apart(
             foot = spot + (line - dot(spot, aside)) * aside
             way = (foot - spot) / abs(foot - spot)
             begin, end = spot + GAP * way, foot + OVERRUN * way
-            extensions.append(Line(begin.conjugate(), end.conjugate(), strokes.DIMENSION))
-            feet.append(foot.conjugate())
+            extensions.append(Line(on_page(begin), on_page(end), strokes.DIMENSION))
+            feet.append(on_page(foot))
         return *extensions, *also, *dimension(feet[0], feet[1], 0.0, runs)
 
     return room.take((drawn(line) for line in lines), 2)

@@ -14,7 +14,7 @@ from graphkin.construction.sheet import DiagramName, Scales, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree, on_page
 from graphkin.drawing.ink.strokes import colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.parts.coriolis import (
@@ -27,7 +27,6 @@ from graphkin.drawing.parts.coriolis import (
     per_row,
 )
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.mechanism_on_paper import page
 from graphkin.drawing.parts.polygon import polygon_piece, rings, step_numbers
 from graphkin.drawing.parts.polygon_on_page import END_RADIUS, Detail, PolygonOnPage, crowds, details, side_by_side
 from graphkin.drawing.place.labels import Label, Obstacles
@@ -195,7 +194,7 @@ def _detail_inset(
     sheet, letters = here.sheet, here.letters
 
     def at(z: complex) -> complex:
-        return inner.centre + detail.factor * (z - detail.centre).conjugate()
+        return inner.centre + detail.factor * on_page(z - detail.centre)
 
     parts: list[Primitive] = [Polygon(box.corners, "", strokes.DIMENSION)]
     names = []
@@ -204,7 +203,7 @@ def _detail_inset(
     for _, vector in here.in_order():
         kind = RESULTANT if vector.role == "resultant" else COMPONENT
         colour = colour_of_vector(sheet, vector.symbol)
-        shift = shifts.get(vector.symbol, 0j).conjugate()
+        shift = on_page(shifts.get(vector.symbol, 0j))
         tail, tip = at(vector.tail) + shift, at(vector.tip) + shift
         clipped = inner.clip(tail, tip)
         if vector.symbol in own and clipped is not None:
@@ -264,7 +263,7 @@ def mechanism_detail(
     inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - CAPTION)
     scales = sheet.scales
     larger = sheet.at(Scales(scales.length / factor, scales.velocity, scales.acceleration))
-    shift = inner.centre - page(factor * middle)
+    shift = inner.centre - on_page(factor * middle)
     bare = moved_piece(bare_mechanism(larger, letters), shift)
     kept = {f"label-point-{ref.point}" for ref in near}
     names = tuple(

@@ -20,7 +20,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text, on_page
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.parts.dimensioning import drawn_lengths
 from graphkin.drawing.parts.mechanism_on_paper import (
@@ -30,7 +30,6 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     LinkShape,
     MechanismOnPaper,
     Slider,
-    page,
     points_since,
 )
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
@@ -71,14 +70,14 @@ def links_alone(
         colour = here.colour(shape.link)
         stroke = strokes.LINK.coloured(colour)
         if shape.corners:
-            parts.append(Polygon(tuple(map(page, shape.corners)), strokes.tint(colour), stroke))
-        parts += [Line(page(a), page(b), stroke) for a, b in shape.bars]
+            parts.append(Polygon(tuple(map(on_page, shape.corners)), strokes.tint(colour), stroke))
+        parts += [Line(on_page(a), on_page(b), stroke) for a, b in shape.bars]
         parts += [*outlines_of(here, shape.link, replaced), *wheels_of(here, shape.link)]
         text = Text(0j, plain(shape.link, bold=True), "start", colour, classes=("label",))
         if shape.longest:
-            labels.append(Label(text, (page(shape.longest[0]), page(shape.longest[1])), rank=rank))
+            labels.append(Label(text, (on_page(shape.longest[0]), on_page(shape.longest[1])), rank=rank))
         elif here.scene.contacts or here.scene.gears or here.scene.cams:
-            labels.append(Label(text, page(here.sheet.poses[shape.link].origin), rank=rank))
+            labels.append(Label(text, on_page(here.sheet.poses[shape.link].origin), rank=rank))
     return parts, labels
 
 
@@ -105,38 +104,38 @@ def _profile(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Group]:
     beyond = one.contact + one.roller * one.normal
     thin = ((one.contact - NORMAL * one.normal, beyond + NORMAL * one.normal),
             (one.point - NORMAL * across, one.point + NORMAL * across))  # fmt: skip
-    lines = tuple(Line(page(a), page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
+    lines = tuple(Line(on_page(a), on_page(b), strokes.DIRECTION) for a, b in thin[: 1 if one.cam.flat else 2])
     yield Group(lines, id=f"touch-{one.cam.link}", classes=("touch",), since=here.stands)
 
 
 def _cam_alone(here: MechanismOnPaper, one: CamOnPaper) -> Polygon:
     colour = here.colour(one.cam.link)
-    return Polygon(tuple(map(page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
+    return Polygon(tuple(map(on_page, one.profile)), strokes.tint(colour), strokes.LINK.coloured(colour))
 
 
 def _follower_end(here: MechanismOnPaper, one: CamOnPaper) -> Iterator[Primitive]:
     """What of a follower touches its cam: the roller, the flat face."""
     stroke, across = strokes.LINK.coloured(here.colour(one.cam.follower)), 1j * one.normal
     if one.roller:
-        yield Circle(page(one.point), one.roller, stroke=stroke)
+        yield Circle(on_page(one.point), one.roller, stroke=stroke)
     if one.cam.flat:
-        yield Line(page(one.point - FACE * across), page(one.point + FACE * across), stroke)
+        yield Line(on_page(one.point - FACE * across), on_page(one.point + FACE * across), stroke)
         if abs(one.contact - one.point) > FACE:
-            yield Line(page(one.point), page(one.contact), stroke)
+            yield Line(on_page(one.point), on_page(one.contact), stroke)
 
 
 def _frame(here: MechanismOnPaper) -> Group:
     parts: list[Primitive] = []
     for point in here.scene.frame.points:
         if here.moving(point):
-            parts += symbols.fixed_pivot(page(here.places[point]), here.foot(point))
+            parts += symbols.fixed_pivot(on_page(here.places[point]), here.foot(point))
     for b in here.sliders:
         if b.slide.slot and b.slide.b == here.ground:
             reach = GUIDE_LENGTH / 2 * b.along
-            parts += symbols.slot(page(b.at - reach), page(b.at + reach))
-            parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH, symbols.SLOT_WIDTH)
+            parts += symbols.slot(on_page(b.at - reach), on_page(b.at + reach))
+            parts += symbols.guide(on_page(b.at), phase(b.along), GUIDE_LENGTH, symbols.SLOT_WIDTH)
         elif here.ground in (b.slide.a, b.slide.b):
-            parts += symbols.guide(page(b.at), phase(b.along), GUIDE_LENGTH)
+            parts += symbols.guide(on_page(b.at), phase(b.along), GUIDE_LENGTH)
     parts += [*outlines_of(here, here.ground), *wheels_of(here, here.ground), *faces_of_frame(here)]
     return Group(tuple(parts), id=f"link-{here.ground}", classes=("frame",), since=here.since(here.ground))
 
@@ -146,29 +145,29 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     parts: list[Primitive] = []
     stroke = (strokes.REDUNDANT if shape.redundant else strokes.LINK).coloured(colour)
     if shape.corners:
-        corners = tuple(map(page, shape.corners))
+        corners = tuple(map(on_page, shape.corners))
         clear = shape.redundant or here.scene.background is not None  # what a scan shows is seen through it
         parts.append(Polygon(corners, "" if clear else strokes.tint(colour), stroke))
     parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
     if shape.link not in hidden:
-        parts += [Line(page(start), page(end), stroke) for start, end in shape.bars]
+        parts += [Line(on_page(start), on_page(end), stroke) for start, end in shape.bars]
         parts += _texture(here, shape)
         parts += _welds(here, shape, colour)
     for start, end in shape.slots:
-        parts += symbols.slot(page(start), page(end), colour)
+        parts += symbols.slot(on_page(start), on_page(end), colour)
     for curved in here.curved:
         if curved.slot.block and curved.slot.bar == shape.link:
-            parts += symbols.block(page(curved.at), phase(1j * (curved.at - curved.centre)), colour)
+            parts += symbols.block(on_page(curved.at), phase(1j * (curved.at - curved.centre)), colour)
     for b in here.sliders:
         if b.slide.b == shape.link and b.slide.key in here.cylinders:
-            parts += symbols.cylinder(page(here.pivot(b)), page(b.at), colour)
+            parts += symbols.cylinder(on_page(here.pivot(b)), on_page(b.at), colour)
     for b in here.sliders:
         if b.slide.a == shape.link and not b.slide.slot and b.slide.key not in here.cylinders:
             parts += _block(here, b)
         if b.slide.a == shape.link and b.slide.key in here.cylinders:
             start, end = here.rod(b)
-            parts.append(Line(page(start), page(end), strokes.LINK.coloured(colour)))
+            parts.append(Line(on_page(start), on_page(end), strokes.LINK.coloured(colour)))
     return Group(tuple(parts), id=f"link-{shape.link}", classes=("link",), since=here.since(shape.link))
 
 
@@ -178,7 +177,7 @@ def _texture(here: MechanismOnPaper, shape: LinkShape) -> list[Primitive]:
     if white is None or shape.redundant:
         return []
     edges = zip(shape.corners, (*shape.corners[1:], *shape.corners[:1]), strict=True)
-    return [Line(page(start), page(end), white) for start, end in (*shape.bars, *edges)]
+    return [Line(on_page(start), on_page(end), white) for start, end in (*shape.bars, *edges)]
 
 
 def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
@@ -189,15 +188,14 @@ def _curved(here: MechanismOnPaper, curved: CurvedSlot) -> Iterator[Primitive]:
         rim = curved.centre + radius * rect(1.0, curved.start)
         held = [here.places[p] for p in here.scene.by_name[slot.on].points if p in here.places and p != slot.centre]
         near = min(held or [curved.centre], key=lambda z: abs(z - rim))
-        yield Line(page(near), page(rim), strokes.LINK.coloured(colour))
-    yield from symbols.circular_slot(page(curved.centre), radius, curved.start, curved.end, colour)
+        yield Line(on_page(near), on_page(rim), strokes.LINK.coloured(colour))
+    yield from symbols.circular_slot(on_page(curved.centre), radius, curved.start, curved.end, colour)
 
 
 def _block(here: MechanismOnPaper, b: Slider) -> tuple[Primitive, ...]:
     shrink = 0.72 ** here.nested(b.slide.a)
-    return symbols.block(
-        page(b.at), phase(b.along), here.colour(b.slide.a), symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
-    )
+    size = symbols.BLOCK_LENGTH * shrink, symbols.BLOCK_WIDTH * shrink
+    return symbols.block(on_page(b.at), phase(b.along), here.colour(b.slide.a), *size)
 
 
 def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primitive]:
@@ -212,7 +210,7 @@ def _welds(here: MechanismOnPaper, shape: LinkShape, colour: str) -> list[Primit
                 if any(abs(corner - z) < 1.0 for z in here.places.values()):
                     continue
                 along = b if abs(b - corner) > abs(a - corner) else a
-                parts += symbols.weld(page(corner), page(far), page(along), colour)
+                parts += symbols.weld(on_page(corner), on_page(far), on_page(along), colour)
     return parts
 
 
@@ -233,16 +231,16 @@ def _joint(here: MechanismOnPaper, point: str) -> list[Primitive]:
     if len(held) > 1 and moving:
         on_block = point in {b.slide.pin for b in here.sliders if not b.slide.slot}
         radius = symbols.JOINT_RADIUS * (0.85 if on_block else 1.0)
-        circle = symbols.turning_pair(page(z), radius=radius)
+        circle = symbols.turning_pair(on_page(z), radius=radius)
         return [*(_over_block(here, z) if on_block else ()), *circle, *_through(here, z, held)]
     if moving:
-        return [*symbols.pin(page(z), here.colour(moving[0]))]
+        return [*symbols.pin(on_page(z), here.colour(moving[0]))]
     if any(c.name == point for c in here.scene.contacts):
-        return [Circle(page(z), 0.5, fill=strokes.BLACK)]
+        return [Circle(on_page(z), 0.5, fill=strokes.BLACK)]
     if any(p.point == point for p in here.scene.pins):
-        return [*symbols.pin(page(z), strokes.BLACK)]
+        return [*symbols.pin(on_page(z), strokes.BLACK)]
     thin = strokes.OUTLINE
-    return [Line(page(z - 1.2), page(z + 1.2), thin), Line(page(z - 1.2j), page(z + 1.2j), thin)]
+    return [Line(on_page(z - 1.2), on_page(z + 1.2), thin), Line(on_page(z - 1.2j), on_page(z + 1.2j), thin)]
 
 
 def _letter(here: MechanismOnPaper, point: str) -> Label:
@@ -250,7 +248,7 @@ def _letter(here: MechanismOnPaper, point: str) -> Label:
     away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
     letter = symbol(here.letters.point(point))
     text = Text(0j, letter, "start", strokes.BLACK, f"label-point-{point}", ("label",))
-    return Label(text, page(z), (phase(away),) if abs(away) > 0.1 else ())
+    return Label(text, on_page(z), (phase(away),) if abs(away) > 0.1 else ())
 
 
 def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
@@ -262,7 +260,7 @@ def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
                 stroke = strokes.LINK.coloured(here.colour(shape.link))
                 for other in (shape.corners[i - 1], shape.corners[(i + 1) % len(shape.corners)]):
                     reach = min(symbols.BLOCK_LENGTH * 0.7, abs(other - z))
-                    parts.append(Line(page(z), page(z + reach * (other - z) / abs(other - z)), stroke))
+                    parts.append(Line(on_page(z), on_page(z + reach * (other - z) / abs(other - z)), stroke))
     return parts
 
 
@@ -277,7 +275,7 @@ def _through(here: MechanismOnPaper, z: complex, held: list[str]) -> list[Primit
             if abs(cross(z - a, e)) < 1e-3 and 2.0 < dot(z - a, e) < abs(b - a) - 2.0:
                 r = symbols.JOINT_RADIUS
                 stroke = strokes.LINK.coloured(here.colour(shape.link))
-                parts.append(Line(page(z - r * e), page(z + r * e), stroke))
+                parts.append(Line(on_page(z - r * e), on_page(z + r * e), stroke))
     return parts
 
 
@@ -297,12 +295,12 @@ def _numbers(here: MechanismOnPaper) -> Iterator[Label]:
         whole = _cylinder_part(here, shape.link) or shape.longest
         block = next((b.at for b in here.sliders if b.slide.a == shape.link), None)
         if whole is not None:
-            yield Label(text, (page(whole[0]), page(whole[1])), rank=1)
+            yield Label(text, (on_page(whole[0]), on_page(whole[1])), rank=1)
         elif block is not None:
-            yield Label(text, page(block), rank=1)
+            yield Label(text, on_page(block), rank=1)
         elif (cam := next((c for c in here.cams if c.cam.link == shape.link), None)) is not None:
             axis = here.sheet.poses[shape.link].origin
-            yield Label(text, page(axis + 0.6 * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)), rank=1)
+            yield Label(text, on_page(axis + 0.6 * (max(cam.profile, key=lambda z: abs(z - axis)) - axis)), rank=1)
 
 
 def _cylinder_part(here: MechanismOnPaper, link: str) -> tuple[complex, complex] | None:
@@ -327,7 +325,7 @@ def _guides(here: MechanismOnPaper, panel: Box | None) -> Iterator[Label]:
             edge = GUIDE_LENGTH / 2 if b.slide.b == here.ground else 7.0
             letter = symbol(here.letters.guide(name, here.ground), 3.0)
             text = Text(0j, letter, "start", strokes.BLACK, f"label-guide-{b.slide.b}-{name}", ("label",))
-            ends = page(b.at), page(b.at + edge * b.along)
+            ends = on_page(b.at), on_page(b.at + edge * b.along)
             inside = panel.grown(-0.5).clip(*ends) if panel is not None else ends
             yield Label(text, (inside or ends)[1], (phase(b.along),), 0)
 
@@ -339,7 +337,7 @@ def _frame_name(here: MechanismOnPaper) -> Iterator[Label]:
     if spots:
         foot = here.foot(pivots[0]) if pivots else 0.0
         away = complex(math.cos(foot), math.sin(foot)) * 5 if pivots else 3.6j
-        yield Label(_number(here, here.ground, strokes.BLACK), page(spots[0] + away), (phase(away),), 1)
+        yield Label(_number(here, here.ground, strokes.BLACK), on_page(spots[0] + away), (phase(away),), 1)
 
 
 def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | None = None) -> tuple[Piece, Box]:
@@ -366,7 +364,7 @@ def mechanism_piece(sheet: Sheet, letters: Letters, room: tuple[float, float] | 
         assert room is not None  # without one everything fits
         centres = [around.centre]
     else:
-        points = Box.around(page(z) for z in sheet.points.values())
+        points = Box.around(on_page(z) for z in sheet.points.values())
         centres = [_least_cut(around, points, room), points.centre]
     half = complex(*room) / 2
     panels = [Box.around((centre - half, centre + half)) for centre in centres]
@@ -398,7 +396,7 @@ def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
 
 
 def _marks(here: MechanismOnPaper) -> Piece:
-    return Piece(marks=tuple(page(z) for z in here.places.values()))
+    return Piece(marks=tuple(on_page(z) for z in here.places.values()))
 
 
 def _without_lengths(here: MechanismOnPaper) -> Piece:
@@ -533,7 +531,7 @@ def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
         return Piece()
     way = b.along * (1 if driver.velocity > 0 else -1)
     side = 1j * b.along * 5.2
-    tail, tip = page(b.at + side - 5 * way), page(b.at + side + 5 * way)
+    tail, tip = on_page(b.at + side - 5 * way), on_page(b.at + side + 5 * way)
     colour, id = here.colour(b.slide.a), f"driver-{driver.key.replace('/', '-')}"
     head = arrowhead(tip, tip - tail, POINTER.head_length, 1.0, colour)
     line = Line(tail, tip, Stroke(0.25, (), colour), covered=1.6)
@@ -586,9 +584,9 @@ def _arc(
 ) -> Piece:
     """An arc at its place (centre, radius, middle direction), with its symbol."""
     centre, radius, middle = place
-    parts = symbols.sense_arc(page(centre), radius, middle, sense, colour=colour, heads=heads)
+    parts = symbols.sense_arc(on_page(centre), radius, middle, sense, colour=colour, heads=heads)
     text = Text(0j, symbol(markup), "start", strokes.BLACK, f"label-{id}", ("label",))
-    top = page(centre + radius * complex(math.cos(middle), math.sin(middle)))
+    top = on_page(centre + radius * complex(math.cos(middle), math.sin(middle)))
     return Piece({layer: (Group(parts, id=id, classes=("sense",)),)}, (Label(text, top, (middle,)),))
 
 
@@ -601,7 +599,8 @@ def _springs(here: MechanismOnPaper) -> Piece:
         poses = [(here.sheet.poses[link], at / here.sheet.scales.length) for link, at in one.ends]
         a, b = (pose.place(at) for pose, at in poses)
         since = max((number for number in map(here.since, one.links) if number), default=None)
-        drawn.append(Group(symbols.spring(page(a), page(b)), id=f"spring-{one.name}", classes=("spring",), since=since))
+        shape = symbols.spring(on_page(a), on_page(b))
+        drawn.append(Group(shape, id=f"spring-{one.name}", classes=("spring",), since=since))
         text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",), since=since)
-        names.append(Label(text, (page(a), page(b)), rank=1))
+        names.append(Label(text, (on_page(a), on_page(b)), rank=1))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()

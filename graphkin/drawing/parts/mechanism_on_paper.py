@@ -1,7 +1,7 @@
 """The mechanism as it stands on paper: where its points, links and sliding pairs are, what a link looks like, and what
 the parts must know of each other to be drawn.
 
-Places are in mm, y up, about the world's origin, until `page` turns them.
+Places are in mm, y up, about the world's origin, until `on_page` turns them.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
 
 __all__ = [
-    "GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider", "page",
+    "GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider",
     "replaced_pairs", "sliders",
 ]  # fmt: skip
 
@@ -38,11 +38,6 @@ CURVED_ALONG = 16.0  # mm of a circular slot to either side of what runs in it
 GUIDE_LENGTH = 24.0  # mm of the frame's guide about a block
 NEAR = 1e-4  # mm: points so near to a line lie on it
 FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where feet may point, and how little liked
-
-
-def page(z: complex) -> complex:
-    """A place on the page, whose y axis points down."""
-    return z.conjugate()
 
 
 @dataclass(frozen=True)

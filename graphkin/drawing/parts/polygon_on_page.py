@@ -21,7 +21,7 @@ from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Segment, Stroke, Text
+from graphkin.drawing.ink.primitives import Circle, Group, Segment, Stroke, Text, on_page
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import SMALLEST, plain, symbol
@@ -57,7 +57,7 @@ class PolygonOnPage:
 
     def at(self, z: complex) -> complex:
         """The page point of a point of the polygon."""
-        return self.origin + z.conjugate()
+        return self.origin + on_page(z)
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
@@ -87,7 +87,7 @@ class PolygonOnPage:
     def shifts(self) -> Mapping[Symbol, complex]:
         """How far (mm on the page) vectors lie off their places, so that they do not cover others."""
         found = side_by_side(vector for _, vector in self.vectors.values())
-        return {symbol: shift.conjugate() for symbol, shift in found.items()}
+        return {symbol: on_page(shift) for symbol, shift in found.items()}
 
     def drawn(self, vector: Vector) -> Segment:
         """Where a vector is drawn on the page."""
@@ -117,11 +117,11 @@ def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box
     seen = vectors_seen(sheet, diagram)
     vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
-    box = Box.around(z.conjugate() for z in ends)
+    box = Box.around(on_page(z) for z in ends)
     for step in sheet.steps:
         for stroke in step.strokes:
             if step.diagram == diagram and isinstance(stroke, Bar):
-                wider = box.joined(Box.around((stroke.a.conjugate(), stroke.b.conjugate())))
+                wider = box.joined(Box.around((on_page(stroke.a), on_page(stroke.b))))
                 if within is None:
                     fits = max(wider.width - box.width, wider.height - box.height) < FAR
                 else:
@@ -169,7 +169,7 @@ def crowds(here: PolygonOnPage, crowded: Iterable[Label]) -> list[Detail]:
         if vector is not None:
             point = vector.tip
         elif isinstance(label.mark, complex):
-            point = (label.mark - here.origin).conjugate()
+            point = on_page(label.mark - here.origin)
         else:
             continue
         if any(abs(point - known.centre) <= known.radius for known in here.enlarged):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import Group, Line, Primitive, Scan, Stroke, Text
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Scan, Stroke, Text, on_page
 from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.text import plain
 
@@ -21,7 +21,7 @@ def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
     if under is None:
         return Piece()
     mm = 1 / sheet.scales.length
-    corner, step = (z.conjugate() * mm for z in (under.corner, under.step))
+    corner, step = (on_page(z) * mm for z in (under.corner, under.step))
     scan = Scan(origin + corner, step, under.width, under.height, under.kind, under.data, panel.corners)
     return Piece({"background": (scan,)})
 
@@ -34,10 +34,10 @@ def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) 
     for judged in judge_scans(sheet, diagram):
         scan = judged.scan
         if scan.data:
-            corner, step = (z.conjugate() for z in (judged.corner, judged.step))
+            corner, step = (on_page(z) for z in (judged.corner, judged.step))
             under.append(Scan(origin + corner, step, scan.width, scan.height, scan.kind, scan.data, panel.corners))
         for line in judged.lines:
-            ends = panel.clip(origin + line.tail.conjugate(), origin + line.tip.conjugate())
+            ends = panel.clip(origin + on_page(line.tail), origin + on_page(line.tip))
             if ends is None:
                 continue
             wrong = line is judged.off

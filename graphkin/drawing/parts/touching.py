@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator
 
 from graphkin.construction.touching import Touching
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text
-from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, page
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page
+from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
@@ -48,7 +48,7 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
             continue
         centre = links.place(link, here.scene.by_name[link].points[disc.centre])
         radius = abs(disc.radius) * links.mm
-        parts += _outline(page(centre), radius, strokes.LINK.coloured(colour))
+        parts += _outline(on_page(centre), radius, strokes.LINK.coloured(colour))
         if link == here.ground or disc.radius < 0:
             parts += _ring(centre, radius, disc.radius < 0, colour)
     return parts
@@ -65,7 +65,7 @@ def _ring(centre: complex, radius: float, outside: bool, colour: str) -> Iterato
     for k in range(count):
         way = complex(math.cos(2 * math.pi * k / count), math.sin(2 * math.pi * k / count))
         foot = centre + radius * way
-        yield Line(page(foot), page(foot + away * way * complex(1, 0.8)), strokes.HATCHING.coloured(colour))
+        yield Line(on_page(foot), on_page(foot + away * way * complex(1, 0.8)), strokes.HATCHING.coloured(colour))
 
 
 def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
@@ -74,27 +74,27 @@ def wheels_of(here: MechanismOnPaper, link: str) -> list[Primitive]:
     parts: list[Primitive] = []
     for wheel, centre, radius in links.pitch_circles():
         if wheel == link:
-            parts += _outline(page(centre), abs(radius), PITCH.coloured(colour))
+            parts += _outline(on_page(centre), abs(radius), PITCH.coloured(colour))
             if link == here.ground:
                 parts += _ring(centre, abs(radius), radius < 0, colour)
     for rack, foot, body in links.pitch_lines():
         if rack == link:
             along = 1j * body
             reach = 2.2 * FACE * along
-            parts.append(Line(page(foot - reach), page(foot + reach), PITCH.coloured(colour)))
+            parts.append(Line(on_page(foot - reach), on_page(foot + reach), PITCH.coloured(colour)))
             edge = body * 2.0
             ends = (foot - reach + edge, foot + reach + edge)
-            edge_of_body = Line(page(ends[0]), page(ends[1]), strokes.LINK.coloured(colour))
+            edge_of_body = Line(on_page(ends[0]), on_page(ends[1]), strokes.LINK.coloured(colour))
             parts += _hatched(*ends, body) if link == here.ground else [edge_of_body]
     return parts
 
 
 def _hatched(start: complex, end: complex, body: complex) -> tuple[Primitive, ...]:
     """An edge of the frame, hatched on the side of ``body``."""
-    right = page(end - start) * 1j
-    if (right * page(body).conjugate()).real < 0:
+    right = on_page(end - start) * 1j
+    if (right * on_page(body).conjugate()).real < 0:
         start, end = end, start
-    return symbols.hatched_line(page(start), page(end))
+    return symbols.hatched_line(on_page(start), on_page(end))
 
 
 def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
@@ -127,15 +127,15 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
         lines = list[Primitive]()
         for letter, along, reach in (("n", normal, NORMAL), ("t", 1j * normal, TANGENT)):
             ends = at - reach * along, at + reach * along
-            lines.append(Line(page(ends[0]), page(ends[1]), AXIS))
+            lines.append(Line(on_page(ends[0]), on_page(ends[1]), AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
                 mark = f"label-{letter}-{name}-{k + 1}{tag}"
                 text = Text(0j, symbol(letter, 3.0), "start", strokes.BLACK, mark, ("label",))
-                names.append(Label(text, page(end), (phase(way),), 0))
+                names.append(Label(text, on_page(end), (phase(way),), 0))
         if tag:
-            lines.append(Circle(page(at), 0.5, fill=strokes.BLACK))
+            lines.append(Circle(on_page(at), 0.5, fill=strokes.BLACK))
             own = Text(0j, symbol(name, 3.0), "start", strokes.BLACK, classes=("label",))
-            names.append(Label(own, page(at), rank=1))
+            names.append(Label(own, on_page(at), rank=1))
         drawn.append(Group(tuple(lines), id=f"contact-{name}{tag}", classes=("contact",)))
     return Piece({"construction": tuple(drawn)}, tuple(names))
 
@@ -153,9 +153,9 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
         if contact.flat:
             _, normal = links.contact(contact)
             along = 1j * normal
-            drawn += symbols.block(page(spots[0]), phase(along), colour)
+            drawn += symbols.block(on_page(spots[0]), phase(along), colour)
             reach = FACE * along
-            drawn.append(Line(page(spots[0] - reach), page(spots[0] + reach), strokes.DIRECTION))
+            drawn.append(Line(on_page(spots[0] - reach), on_page(spots[0] + reach), strokes.DIRECTION))
         else:
             drawn += _dashed(spots[0], spots[1], colour, clear)
     whole = here.scene.instead_of or here.scene
@@ -166,7 +166,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
     for pin in here.scene.pins:
         if pin not in whole.pins and pin.point in here.places:
             along = here.sheet.poses[pin.on].axis * here.scene.by_name[pin.on].guides[pin.guide].direction
-            at = page(here.places[pin.point])
+            at = on_page(here.places[pin.point])
             drawn += symbols.block(at, phase(along), here.colour(pin.on))
             drawn.append(Circle(at, symbols.JOINT_RADIUS, fill=strokes.WHITE, stroke=strokes.OUTLINE))
     for cam in whole.cams:
@@ -183,4 +183,4 @@ def _dashed(start: complex, end: complex, colour: str, clear: float) -> Iterator
     far = abs(end - start)
     if far > 2 * clear + TOUCHING:
         off = (end - start) / far * clear
-        yield Line(page(start + off), page(end - off), strokes.REDUNDANT.coloured(colour))
+        yield Line(on_page(start + off), on_page(end - off), strokes.REDUNDANT.coloured(colour))
