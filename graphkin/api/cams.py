@@ -204,7 +204,7 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     """One row a step (degrees) of each cam, of measured discs by the angle of the driver, from 0 on: cam, angle, lift,
     pitch curve, profile and pressure angle, points in the cam's own axes from its axis."""
     from graphkin.solver import structure_of
-    from graphkin.solver.cam_profile import cam_at
+    from graphkin.solver.cams import cam_at
     from graphkin.solver.contacts import disc_course
     from graphkin.table import Column, Table, text_column
 

@@ -18,7 +18,7 @@ from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.synthesis import DesignTask
-from graphkin.solver.cam_profile import cam_at
+from graphkin.solver.cams import cam_at
 
 __all__ = ["CamPoints", "FoundLength", "compare_cam", "compare_lengths", "predict_cam", "predict_lengths"]
 

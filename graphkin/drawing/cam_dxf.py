@@ -12,7 +12,7 @@ import numpy as np
 from graphkin.drawing.write.dxf import closed_curve_dxf
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SmoothPart
-from graphkin.solver.cam_profile import cam_with
+from graphkin.solver.cams import cam_with
 
 __all__ = ["arcs_of_profile", "outline_dxf", "profile_dxf"]
 

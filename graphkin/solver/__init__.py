@@ -5,12 +5,11 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.exact_values import exact_values, senses_along, value_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, Sliding
 from graphkin.solver.over_time import over_time
-from graphkin.solver.reach import driver_range
 from graphkin.solver.solve import as_drawn, solve, sweep_in_blocks
 
 if TYPE_CHECKING:

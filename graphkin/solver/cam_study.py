@@ -15,7 +15,7 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.scene.cams import FollowerLaw, LawCam, Lift, SmoothPart
 from graphkin.search import intervals, last_true
-from graphkin.solver.cam_profile import CamAt, cam_with
+from graphkin.solver.cams import CamAt, cam_with
 from graphkin.solver.pose import Array
 
 __all__ = ["AtDegree", "CamStudy", "Jump", "least_base", "study_cam"]

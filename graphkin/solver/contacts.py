@@ -14,10 +14,9 @@ from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import least_value
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.reach import driver_range
 from graphkin.solver.whole_turn import extremes
 from graphkin.structure import Structure
 

@@ -13,10 +13,9 @@ from graphkin.errors import CallError, Problem
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.reach import driver_range
 from graphkin.solver.solve import solve
 from graphkin.words import Phrase
 

@@ -13,10 +13,9 @@ from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import changes
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.reach import driver_range
 from graphkin.solver.whole_turn import extremes
 
 __all__ = ["EDGE", "Action", "actions", "load_edges", "spring_ends", "stroke_of", "without_line"]

@@ -17,9 +17,8 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import AngleDriver
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.external_forces import Action, load_edges
-from graphkin.solver.forces import forces_of
+from graphkin.solver.forces import balances, forces_of
 from graphkin.solver.motion import Motion
-from graphkin.solver.pair_forces import balances
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase, Wording
 

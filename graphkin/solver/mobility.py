@@ -18,10 +18,10 @@ from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_forms, new_places, own_values
+from graphkin.solver.cams import meeting_followers
 from graphkin.solver.diagnosis import singular
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.followers import meeting_followers
 from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit

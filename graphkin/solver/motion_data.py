@@ -12,13 +12,13 @@ from graphkin.files import Json
 from graphkin.files import json_text as one_line
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, SlideDriver
-from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.cams import contact_of
 from graphkin.solver.contacts import contact_motion, pitch_point
+from graphkin.solver.driver_range import driver_range
 from graphkin.solver.flywheel import flywheel_of
 from graphkin.solver.forces import Forces
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array
-from graphkin.solver.reach import driver_range
 from graphkin.structure import Cluster, Dyad, Slide
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, say

@@ -13,10 +13,9 @@ from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
-from graphkin.solver.reach import driver_range
 from graphkin.solver.whole_turn import Extremes, extremes
 from graphkin.words import Phrase
 

@@ -17,12 +17,11 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import at_time
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.diagnosis import assembly_words, limit_why
+from graphkin.solver.driver_range import driver_range, way_to
 from graphkin.solver.joints import Drive
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import Motion
-from graphkin.solver.motion_at import motion_of
+from graphkin.solver.motion import Motion, motion_of
 from graphkin.solver.pose import Array, Pose
-from graphkin.solver.reach import driver_range, way_to
 from graphkin.solver.rounding import UNIT, ErrorBound
 from graphkin.structure import Structure
 from graphkin.words import Wording

@@ -15,7 +15,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
 from graphkin.solver.diagnosis import singular
-from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
@@ -25,7 +25,6 @@ from graphkin.solver.joints import Drive, turned
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, Array
 from graphkin.solver.program import GIVEN, DimensionedProgram, Units, bounds, formulas, program_of
-from graphkin.solver.reach import driver_range
 from graphkin.solver.rounding import UNIT
 from graphkin.structure import Cluster, Structure, in_stages
 

@@ -16,12 +16,11 @@ from graphkin.errors import CallError, Problem
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver.bounds import ErrorFormulas
+from graphkin.solver.bounds import ErrorFormulas, FrameError
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, PoseFormula, Real, Vec, fmax
-from graphkin.solver.frame_errors import FrameError
 from graphkin.solver.joints import body_shape, driven, dyad_joints, members
 from graphkin.solver.pose import Pose
 from graphkin.solver.quantities import VALUES, Posed

@@ -17,7 +17,7 @@ from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import dot
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
-from graphkin.solver.cam_profile import cam_at
+from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import Array, Pose, R, V
 from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of
 from graphkin.structure.transmission import (

@@ -13,12 +13,11 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.diagnosis import assembly_words
+from graphkin.solver.driver_range import range_from, stopped_why, way_to
 from graphkin.solver.joints import Drive
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import Motion
-from graphkin.solver.motion_at import goal_values, motion_of
+from graphkin.solver.motion import Motion, goal_values, motion_of
 from graphkin.solver.pose import Array, Pose, rest
-from graphkin.solver.reach import range_from, stopped_why, way_to
 from graphkin.solver.redundant import all_slides
 from graphkin.solver.rounding import ErrorBound
 from graphkin.structure import Structure

@@ -13,8 +13,8 @@ from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
+from graphkin.solver.cams import beginning
 from graphkin.solver.driver_range import DriverRange
-from graphkin.solver.followers import beginning
 from graphkin.solver.pose import Array
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording

@@ -16,7 +16,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import AngleDriver
 from graphkin.search.curves import Pieces, resolve
 from graphkin.solver import DriverRange, Motion
-from graphkin.solver.followers import cam_angle
+from graphkin.solver.cams import cam_angle
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad

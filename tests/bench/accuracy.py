@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
-from graphkin.solver import engine, extended_precision
+from graphkin.solver import engine
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
@@ -102,7 +102,7 @@ def measure(positions: int, seed: int, refine: bool = False, each: int = EACH) -
     """
     rng = np.random.default_rng(seed)
     tally = Tally()
-    with patch.object(extended_precision, "ROUGH", extended_precision.ROUGH if refine else np.inf):
+    with patch.object(engine, "ROUGH", engine.ROUGH if refine else np.inf):
         while tally.looked_at < positions:
             try:
                 scene = random_scene(rng)
@@ -186,7 +186,7 @@ def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degre
 
     def row(k: int) -> dict[str, _Exact]:
         exact = Decimal(float(degrees[k]))
-        with working(), patch.object(extended_precision, "meant_angle", lambda _: (exact * PI / 180, True)):
+        with working(), patch.object(engine, "meant_angle", lambda _: (exact * PI / 180, True)):
             numbers = list(again.row(k))
         found: dict[str, _Exact] = {}
         for name in names:

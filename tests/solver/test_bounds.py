@@ -12,7 +12,7 @@ import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import solve
-from graphkin.solver.frame_errors import carried
+from graphkin.solver.bounds import carried
 from graphkin.solver.group_errors import Rows
 from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import System

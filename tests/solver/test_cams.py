@@ -12,7 +12,7 @@ import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
 from graphkin.scene.cams import Lift
-from graphkin.solver.cam_profile import cam_at, cam_with
+from graphkin.solver.cams import cam_at, cam_with
 
 LAWS = ("parabolic", "harmonic", "cycloidal", "345", "4567")
 LIBRARY = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")

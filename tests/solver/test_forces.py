@@ -13,7 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import library, mechanism_of
-from graphkin.solver.cam_profile import contact_of
+from graphkin.solver.cams import contact_of
 from graphkin.solver.contacts import pitch_point
 from tests import with_tables
 from tests.command import run

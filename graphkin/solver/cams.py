@@ -1,4 +1,5 @@
-"""The profile of a cam in closed form: pitch curve, contact, normal, curvature and pressure angle by the law.
+"""Cams and what they move: the law at many angles of the cam, what it gives the formulas of a mechanism, and the
+profile in closed form: pitch curve, contact, normal, curvature and pressure angle.
 
 With P the follower's point from the cam's axis, and derivatives by the cam's own angle, w = P' - iP is the tangent of
 the pitch curve and i w points out of the cam; a flat face touches where the normal passes the instant centre (Norton,
@@ -7,17 +8,24 @@ Cam Design and Manufacturing Handbook, ch. 7; Sun Huan, Mechanical Principles, c
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.cams import LawCam, Lift, SlidingFollower
-from graphkin.solver.followers import beginning, lifts
+from graphkin.scene.cams import SEAM, TURN, FollowerLaw, LawCam, Lift, SlidingFollower
+from graphkin.scene.tables import Units
+from graphkin.solver.joints import turned
 from graphkin.solver.pose import Array
+from graphkin.structure import Structure
+from graphkin.words import Phrase, Wording
 
-__all__ = ["CamAt", "CamContact", "cam_at", "cam_with", "contact_of"]
-
+__all__ = [
+    "CamAt", "CamContact", "beginning", "cam_angle", "cam_at", "cam_with", "contact_of", "follower_inputs",
+    "greatest_jerk", "lifts", "meeting_followers",
+]  # fmt: skip
 
 @dataclass(frozen=True)
 class CamAt:
@@ -120,3 +128,92 @@ def contact_of(cam: LawCam, turn: Array, omega: Array) -> CamContact:
     slip = 1j * omega * at.contact - follower
     slip = slip - at.normal * dot(at.normal, slip)  # what rounding leaves across
     return CamContact(at.lift, cam.axis + at.contact, at.normal, slip, at.pressure)
+
+
+def lifts(law: FollowerLaw, angle: Array) -> Lift:
+    """Lift and derivatives at angles of the cam (rad), each of shape (n,); a seam belongs to the later piece."""
+    within = np.remainder(np.asarray(angle, dtype=float), TURN)
+    seams = np.array([*law.starts, TURN])
+    nearest = np.argmin(np.abs(within[:, None] - seams[None, :]), axis=1)
+    near = np.abs(within - seams[nearest]) < SEAM
+    within = np.where(near, seams[nearest] % TURN, within)
+    which = np.searchsorted(seams, within, side="right") - 1
+    found = np.empty((4, len(within)))
+    for k, part in enumerate(law.parts):
+        rows = which == k
+        if rows.any():
+            for order, values in enumerate(part.at(within[rows], np)):
+                found[order, rows] = values
+    return Lift(*found)
+
+
+def greatest_jerk(law: FollowerLaw) -> float:
+    """The greatest third derivative of the lift (m or rad, per rad3), jumps left out."""
+    at = [
+        abs(part.at(part.start + x * (part.end - part.start)).jerk) for part in law.parts for x in (0.0, 0.25, 0.5, 1.0)
+    ]
+    return float(max(at))
+
+
+def cam_angle(cam: LawCam, turn: Array) -> Array:
+    """The angle of the law (rad) where the cam's own axis points along unit complex numbers."""
+    return np.asarray(cam.sense * np.angle(turn))
+
+
+def beginning(cam: LawCam, units: Units | None = None) -> float:
+    """Where the follower stands at lift 0: distance beyond the foot (m), or angle of its bar (rad).
+
+    Raises
+    ------
+    Unsolvable : it does not come to the base circle
+    """
+    found = cam.beginning
+    if found is not None:
+        return found
+    raise Unsolvable("not assembled", Problem(f"cams.{cam.link}", *_apart(cam, units or Units())))
+
+
+def _apart(cam: LawCam, units: Units) -> tuple[Wording, Wording]:
+    motion = cam.motion
+
+    def length(metres: float) -> str:
+        return f"{metres / units.metres:.6g} {units.length}"
+
+    if isinstance(motion, SlidingFollower):
+        said = Phrase("the line of follower passes outside the base", follower=cam.follower)
+        return said, Phrase("its radius is at least the offset", length=length(abs(motion.offset)))
+    far = abs(cam.axis - motion.centre)
+    said = Phrase("follower does not reach the base circle of", follower=cam.follower)
+    return said, Phrase(
+        "its radius lies between and", length=length(abs(far - motion.arm)), other=length(far + motion.arm)
+    )
+
+
+def meeting_followers(structure: Structure) -> Structure:
+    """The structure itself, if every follower comes to its base circle.  Raises Unsolvable, all of them named."""
+    problems: list[Problem] = []
+    for cam in structure.scene.cams:
+        try:
+            beginning(cam, structure.scene.units)
+        except Unsolvable as stop:
+            problems += stop.problems
+    if problems:
+        raise Unsolvable("not assembled", *problems)
+    return structure
+
+
+def follower_inputs(cam: LawCam, turn: Array) -> Mapping[str, Array]:
+    """What the formulas of a follower take at each position, by the direction of the cam's own axis.
+
+    travel (m), or cos and sin of the angle of the follower's own axis, and the two derivatives of either by the angle
+    of the cam's own axis, slope and bend
+    """
+    lift, start = lifts(cam.law, cam_angle(cam, turn)), beginning(cam)
+    motion = cam.motion
+    if isinstance(motion, SlidingFollower):
+        return {"travel": motion.travel + start + lift.lift, "slope": cam.sense * lift.slope, "bend": lift.bend}
+    line = cam.axis - motion.centre
+    line = line / abs(line) * (-1 if motion.back else 1)
+    axis = line * turned(motion.side * (start + lift.lift))
+    return {"cos": axis.real, "sin": axis.imag, "slope": motion.side * cam.sense * lift.slope,
+            "bend": motion.side * lift.bend}  # fmt: skip
