@@ -21,6 +21,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, listed, say, word
+from graphkin.words.rich_text import as_plain, rich_text
 from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
 
 __all__ = [
@@ -255,8 +256,7 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
-                sentence = say(step.phrase, language, _plain_symbol(language))
-                said.append(f"{step.number}. {_sentence(sentence, language)}")
+                said.append(f"{step.number}. {_sentence(step.phrase, language)}")
         if diagram != "mechanism":
             said += _vectors(sheet, diagram, language)
     said += remarks(sheet, language)
@@ -268,7 +268,7 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
     ``letters``, symbols stand between dollar signs as a convention writes them."""
     notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
     if letters is None:
-        return [_sentence(say(n, language, _plain_symbol(language)), language) for n in notes]
+        return [_sentence(note, language) for note in notes]
 
     def written(thing: object) -> str:
         try:
@@ -331,8 +331,9 @@ def _ref(ref: PointRef, language: str) -> str:
     return say(Phrase("point of link", (ref.point, ref.link)), language) if ref.link else ref.point
 
 
-def _sentence(text: str, language: str) -> str:
-    return _capital(text.replace("{", "").replace("}", "")).rstrip("。.") + word("full stop", language)
+def _sentence(said: Phrase, language: str) -> str:
+    text = as_plain(rich_text(said, language, _plain_symbol(language)), "_")
+    return _capital(text).rstrip("。.") + word("full stop", language)
 
 
 def _capital(text: str) -> str:

@@ -3,15 +3,17 @@ from __future__ import annotations
 import math
 import re
 from decimal import Decimal
+from typing import get_args
 
 import pytest
 
 from graphkin import read
 from graphkin.account.notation import letters_of
-from graphkin.account.tell import Account
+from graphkin.account.tell import Account, groups, polygon, position
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
+from graphkin.construction.sheet import Act
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.moving import motion_data
 from graphkin.scene import library, mechanism_of
@@ -248,3 +250,9 @@ def test_the_sense_of_a_coriolis_term_follows_from_the_two_arrows():
 def test_a_page_of_one_position_says_one():
     page = handout("swinging-block", formats=("html",), positions=1).files["handout.html"].decode()
     assert "drawn for one position of the driver" in page
+
+
+def test_what_is_told_in_a_way_of_its_own_is_told_of_acts_of_the_board():
+    told = [*position.TOLD, *polygon.TOLD, *groups.TOLD]
+    assert [] == [act.__name__ for act in told if act not in get_args(Act)]
+    assert len(set(told)) == len(told)
