@@ -178,6 +178,10 @@ def _links(scene: Mechanism) -> Iterator[Sentence]:
             yield about, Phrase("explained bar", (link.name, "".join(own), length, scene.units.length))
         elif any(s.link == link.name for s in scene.slidings):
             yield about, Phrase("explained block", (link.name, own[0] if own else "-"))
+        elif own and any(cam.link == link.name for cam in scene.cams):
+            yield about, Phrase("explained cam link", (link.name, own[0]))
+        elif own and any(link.name in gear.wheels for gear in scene.gears):
+            yield about, Phrase("explained wheel", (link.name, own[0]))
         else:
             yield about, Phrase("explained ray", (link.name, own[0] if own else "-"))
         further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]

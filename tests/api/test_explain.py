@@ -76,3 +76,10 @@ def test_the_command_says_it_in_chinese_and_leaves_with_3_where_nothing_moves(tm
     answer = run("explain", str(path))
     assert 3 == answer.returncode
     assert "a mechanism of mobility 2 needs as many" in answer.stderr
+
+
+@pytest.mark.parametrize(("name", "what"), [("cam-offset-roller", "cam"), ("gears-epicyclic", "wheel")])
+def test_a_cam_and_a_wheel_are_told_as_what_they_are(name: str, what: str) -> None:
+    lines = graphkin.explain(name).text.splitlines()
+    assert f"link 1 is a {what} about A" in [line.strip() for line in lines]
+    assert not any("no fixed length" in line for line in lines)
