@@ -66,3 +66,14 @@ def test_a_file_leaves_unsaid_since_when_a_name_is_there_and_a_page_of_steps_say
     ends = [g for g in layer.children if "end" in g.classes]
     assert {None} == {g.step for g in ends}
     assert {g.since for g in ends} == {g.step for g in stepped(ends)} != {None}
+
+
+@pytest.mark.parametrize(("name", "diagram", "part", "step"), [
+    ("four-bar-coupler-point", "acceleration", "acceleration-C", 22),  # where two lines meet; its vector is drawn in 25
+    ("four-bar-coupler-point", "acceleration", "a_C", 25),
+    ("loader-cylinder", "mechanism", "dimensions", 7),  # a special point is found in 12, when the polygons have begun
+    ("four-bar-coupler-point", "mechanism", "omega-3", 12),
+])  # fmt: skip
+def test_a_part_is_there_from_the_step_on_that_finds_it(name, diagram, part, step):
+    _, layers = _layers(name, diagram)
+    assert {part: step} == {t.id: t.step for t in walk(layers) if isinstance(t, Group) and t.id == part}
