@@ -19,8 +19,8 @@ from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pa
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.force_stages import ForceStage, force_stages
-from graphkin.drawing.free_body import drawn_polygon, extent_of, free_body, polygons_of, sketch_height
 from graphkin.drawing.ink.primitives import Group
+from graphkin.drawing.parts.free_body import drawn_polygon, extent_of, free_body, polygons_of, sketch_height
 from graphkin.drawing.place.piece import Piece, layer_groups
 from graphkin.drawing.stepwise import tied
 from graphkin.drawing.tables import TableRow, readings_table

@@ -1,1 +1,1 @@
-"""Parts of figures: the mechanism and its dimensions, polygons, centres, insets."""
+"""Parts of figures: the mechanism and its dimensions, trial marks, polygons, centres, insets, free bodies."""

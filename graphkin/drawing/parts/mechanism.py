@@ -18,7 +18,6 @@ from graphkin.construction.mechanism_acts import SpecialPoint
 from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.group_aids import aids_in_mechanism, compass_arcs
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text, on_page
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
@@ -33,8 +32,9 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     points_since,
 )
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
+from graphkin.drawing.parts.trial_marks import compass_arcs, trial_marks_in_mechanism
+from graphkin.drawing.place.intersections import Floats, Points
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.meeting import Floats, Points
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot
@@ -402,7 +402,7 @@ def _marks(here: MechanismOnPaper) -> Piece:
 def _without_lengths(here: MechanismOnPaper) -> Piece:
     clear = clearance(here)
     bodies = joined((links(here), _springs(here)))
-    placed = joined((contact_marks(here), bodies, compass_arcs(here), aids_in_mechanism(here.sheet)))
+    placed = joined((contact_marks(here), bodies, compass_arcs(here), trial_marks_in_mechanism(here.sheet)))
     return joined((placed, joints(here), drivers(here, clear), found_rates(here, clear)))
 
 
@@ -424,7 +424,7 @@ _MIDDLES = np.arange(20) * (2 * math.pi / 20)
 _SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
 
 
-class SenseClearance:
+class RateArrowClearance:
     """Segments (mm) that arcs keep clear of; arcs that were given a place are added to them."""
 
     def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
@@ -484,7 +484,7 @@ def _off(points: Points, start: Points, along: Points) -> Floats:
 DRIVER_RADIUS, RADIUS = 6.5, 5.5
 
 
-def clearance(here: MechanismOnPaper) -> SenseClearance:
+def clearance(here: MechanismOnPaper) -> RateArrowClearance:
     """Everything that arcs keep clear of."""
     segments = [segment for shape in here.shapes for segment in shape.segments]
     segments += [(z, z + 0.01) for z in here.places.values()]
@@ -498,10 +498,10 @@ def clearance(here: MechanismOnPaper) -> SenseClearance:
         reach = GUIDE_LENGTH / 2 if here.ground in (b.slide.a, b.slide.b) else symbols.BLOCK_LENGTH / 2
         side = 1j * b.along * symbols.BLOCK_WIDTH / 2
         segments += [(b.at + s * side - reach * b.along, b.at + s * side + reach * b.along) for s in (-1, 1)]
-    return SenseClearance(segments)
+    return RateArrowClearance(segments)
 
 
-def drivers(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
+def drivers(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
     """What drives, and which way."""
     pieces = [Piece({"mechanism": ()})]
     for driver in here.scene.drivers:
@@ -513,7 +513,7 @@ def drivers(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
 
 
 def _driver_arc(
-    here: MechanismOnPaper, clear: SenseClearance, driver: AngleDriver, kind: Literal["omega", "alpha"]
+    here: MechanismOnPaper, clear: RateArrowClearance, driver: AngleDriver, kind: Literal["omega", "alpha"]
 ) -> Piece:
     other, speed = driver.relative_to, kind == "omega"
     markup = f"{'ω' if speed else 'α'}_{{{driver.link}{'' if other == here.ground else other}}}"
@@ -543,7 +543,7 @@ def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
     return dated(piece, here.since(driver.key.split("/")[0]))
 
 
-def found_rates(here: MechanismOnPaper, clear: SenseClearance) -> Piece:
+def found_rates(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
     """Angular velocities and accelerations measured on the drawing."""
     pieces = [Piece({"answers": ()})]
     acts = [(step.number, step.act) for step in here.sheet.steps]

@@ -15,12 +15,12 @@ from graphkin.construction.polygon_acts import Carried
 from graphkin.construction.strokes import Bar, Image, Ray, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import text_box
-from graphkin.drawing.group_aids import aids_in_polygon
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Text
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
 from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, points, same_place, step_number
+from graphkin.drawing.parts.trial_marks import trial_marks_in_polygon
 from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.obstacles import first_free
 from graphkin.drawing.place.piece import Piece, dated, joined
@@ -41,7 +41,7 @@ def polygon_piece(here: PolygonOnPage) -> Piece:
 def _construction(here: PolygonOnPage) -> Piece:
     """Everything thin, with its names."""
     shapes = Piece({"construction": (*rings(here), *_images(here))})
-    return joined((shapes, *aids_in_polygon(here), *_bars(here), *_rays(here)))
+    return joined((shapes, *trial_marks_in_polygon(here), *_bars(here), *_rays(here)))
 
 
 def rings(here: PolygonOnPage) -> Iterator[Group]:

@@ -19,8 +19,8 @@ from graphkin.drawing.font_widths import CAP_HEIGHT, text_box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing.place.intersections import Flags, Floats, Indices, Points, meets
 from graphkin.drawing.place.labels import Obstacles
-from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points, meets
 from graphkin.drawing.text import plain
 from graphkin.plane import cross
 

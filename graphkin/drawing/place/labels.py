@@ -16,7 +16,7 @@ import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Segment, Text, page_direction
-from graphkin.drawing.place.meeting import Flags, Floats, Indices, Points
+from graphkin.drawing.place.intersections import Flags, Floats, Indices, Points
 from graphkin.plane import cross
 
 __all__ = [

@@ -24,8 +24,8 @@ from graphkin.drawing.ink.primitives import (
     page_direction,
     walk,
 )
+from graphkin.drawing.place.intersections import Flags, Points, meets
 from graphkin.drawing.place.labels import Obstacles
-from graphkin.drawing.place.meeting import Flags, Points, meets
 
 __all__ = ["CLEAR", "first_free", "free_boxes", "obstacles_of"]
 

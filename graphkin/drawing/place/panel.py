@@ -13,6 +13,19 @@ import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Segment
+from graphkin.drawing.place.intersections import (
+    Flags,
+    Floats,
+    Indices,
+    Points,
+    crosses,
+    joined,
+    near,
+    separated,
+    sides,
+    sides_around,
+    touching,
+)
 from graphkin.drawing.place.labels import (
     LEADER_FROM,
     LEADER_LEAST,
@@ -31,19 +44,6 @@ from graphkin.drawing.place.labels import (
     candidates,
     ends,
     led_candidates,
-)
-from graphkin.drawing.place.meeting import (
-    Flags,
-    Floats,
-    Indices,
-    Points,
-    crosses,
-    joined,
-    near,
-    separated,
-    sides,
-    sides_around,
-    touching,
 )
 
 __all__ = ["FORBIDDEN", "TANGLED", "InkRaster", "LabelPanel", "least_cost"]

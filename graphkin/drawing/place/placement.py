@@ -22,6 +22,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.font_widths import box_about
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
+from graphkin.drawing.place.intersections import ON_LINE, Flags, Floats, Indices
 from graphkin.drawing.place.labels import (
     LED_RINGS,
     LOTS,
@@ -35,7 +36,6 @@ from graphkin.drawing.place.labels import (
     Placed,
     leader_forms,
 )
-from graphkin.drawing.place.meeting import ON_LINE, Flags, Floats, Indices
 from graphkin.drawing.place.panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
 from graphkin.plane import added_up
 

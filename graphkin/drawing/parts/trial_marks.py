@@ -24,7 +24,7 @@ from graphkin.drawing.place.piece import Piece, dated
 from graphkin.drawing.text import symbol
 from graphkin.plane import cross, dot, unit
 
-__all__ = ["aids_in_mechanism", "aids_in_polygon", "compass_arcs"]
+__all__ = ["compass_arcs", "trial_marks_in_mechanism", "trial_marks_in_polygon"]
 
 COMPASS = 7.0  # mm of arc to either side of what it finds
 SPLINTER = math.sin(math.radians(15.0))  # a smaller angle of an arc to a bar looks like a splinter of the bar
@@ -61,7 +61,7 @@ def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
     return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
 
 
-def aids_in_mechanism(sheet: Sheet) -> Piece:
+def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     """Trial curves with their positions numbered, and the lines of legs drawn on to special points."""
     drawn: list[Primitive] = []
     over: list[Primitive] = []  # lines that run over the areas of links
@@ -94,7 +94,7 @@ def aids_in_mechanism(sheet: Sheet) -> Piece:
     return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))
 
 
-def aids_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
+def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
     held = {step.act.held for step in here.steps if isinstance(step.act, SeenFrom)}
     for step in here.steps:
