@@ -29,7 +29,7 @@ from graphkin.solver.decimals import working
 from graphkin.structure import DyadKind
 from graphkin.study.equations import Equations, Solution
 from graphkin.study.reference import reference, refined
-from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid, in_powers
+from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid, in_powers, measured
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -148,6 +148,7 @@ CASES: Mapping[DyadKind, DeadPointCase] = {
 
 
 NEAR, FAR = 1e-15, 0.3
+NEARBY = (1e-12, 1e-2)  # over which slopes are fitted
 STEP = 0.02  # rad; where Newton's method comes from
 PATIENCE = 60
 
@@ -210,7 +211,7 @@ def _truth(case: DeadPointCase, mp: MPContext, x: Sequence[float]) -> list[_Exac
 
 def _closed(
     case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequence[_Exactly], samples: int
-) -> list[ErrorLaw]:
+) -> tuple[ErrorLaw, ...]:
     rows: list[tuple[float, float, float]] = []
     bounds: list[float] = []
     stops: float | None = None
@@ -224,14 +225,13 @@ def _closed(
         pose = motion.poses[case.follower]
         rows.append(right.off(complex(pose.u[0]), float(pose.omega[0]), float(pose.alpha[0])))
         bounds.append(_stated(case, motion))
-    errors = list(zip(*rows, strict=True))
-    names = ("place closed form", "velocity closed form", "acceleration closed form")
     stated = binned(x, bounds, samples)[1]
-    laws = []
-    for name, error, theory in zip(names, errors, (-0.5, -1.0, -1.0), strict=True):
-        xs, es = binned(x, error, samples)
-        laws.append(ErrorLaw(name, xs, es, theory, None, stops, stated if name[0] == "v" else (), (1e-12, 1e-2)))
-    return laws
+    laws = (
+        ErrorLaw("place closed form", theory=-0.5, refuses_from=stops, window=NEARBY),
+        ErrorLaw("velocity closed form", theory=-1.0, refuses_from=stops, bound=stated, window=NEARBY),
+        ErrorLaw("acceleration closed form", theory=-1.0, refuses_from=stops, window=NEARBY),
+    )
+    return measured(laws, x, rows, samples)
 
 
 def _stated(case: DeadPointCase, motion: Motion) -> float:
@@ -265,7 +265,7 @@ def _newton(
     ]
     lost = [e for e, w in zip(x, waiting, strict=True) if w]
     xs, es = binned(x, error, samples)
-    return ErrorLaw("velocity Newton", xs, es, -1.0, max(lost, default=None), window=(1e-12, 1e-2))
+    return ErrorLaw("velocity Newton", xs, es, -1.0, max(lost, default=None), window=NEARBY)
 
 
 def _given(case: DeadPointCase, x: Sequence[float], truth: Sequence[_Exactly], samples: int) -> ErrorLaw:
@@ -305,7 +305,7 @@ def _drawn(case: DeadPointCase, mp: MPContext, x: Sequence[float], truth: Sequen
         if any(isinstance(r, SharpCrossing) for r in sheet.remarks):
             told = told or e
         error.append(float(abs(sheet.omega[case.follower].value / right.omega - 1)))
-    return ErrorLaw("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=(1e-12, 1e-2))
+    return ErrorLaw("velocity exact drawing", tuple(x), tuple(error), -1.0, told, stops, window=NEARBY)
 
 
 def _pencil(case: DeadPointCase, mp: MPContext) -> ErrorLaw:

@@ -31,13 +31,15 @@ from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.study.equations import Equations
 from graphkin.study.reference import reference, refined
-from graphkin.study.stability.laws import ErrorLaw, Singularity, binned, grid, in_powers
+from graphkin.study.stability.laws import ErrorLaw, Singularity, grid, in_powers, measured
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from mpmath import MPContext, mpc, mpf
 
 __all__ = ["angle_formulas", "crossing_height", "differences", "drawing_scale", "parallel_lines"]
+
+TRIALS = 6  # at each distance, of which the worst counts
 
 
 def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
@@ -48,27 +50,31 @@ def crossing_height(mp: MPContext, samples: int = 4) -> Singularity:
     """
     dice = random.Random(1)
     x = grid(0.1, 1e-15, samples)
-    errors: dict[str, list[float]] = {"height by squares": [], "height by Heron": []}
-    for e in x:
-        worst = dict.fromkeys(errors, 0.0)
-        for _ in range(6):
+
+    def errors(e: float) -> list[float]:
+        rows = []
+        for _ in range(TRIALS):
             r, s = dice.uniform(0.1, 1.0), dice.uniform(0.1, 1.0)
             c = (r + s) * (1 - e)
             right = _height2(mp.mpf(r), mp.mpf(s), mp.mpf(c))
             middle = (c * c + r * r - s * s) / (2 * c)
             crossing = cross_arcs(0j, r, complex(c), s)
-            found = {"height by squares": r * r - middle * middle,
-                     "height by Heron": crossing[0].imag ** 2 if crossing else math.nan}
-            for key, value in found.items():
-                worst[key] = max(worst[key], float(abs(value / right - 1)))
-        for key, value in worst.items():
-            errors[key].append(value)
-    laws = []
-    for key, theory in zip(errors, (-1.0, 0.0), strict=True):
-        xs, es = binned(x, errors[key], samples)
-        laws.append(ErrorLaw(key, xs, es, theory, window=(1e-13, 1e-1)))
-    fate = Phrase("fate height", tuple(in_powers(law.worst) for law in laws))
-    return Singularity("crossing height", "gap of radii", tuple(laws), (fate,))
+            found = r * r - middle * middle, crossing[0].imag ** 2 if crossing else math.nan
+            rows.append([float(abs(value / right - 1)) for value in found])
+        return _largest(rows)
+
+    laws = (
+        ErrorLaw("height by squares", theory=-1.0, window=(1e-13, 1e-1)),
+        ErrorLaw("height by Heron", theory=0.0, window=(1e-13, 1e-1)),
+    )
+    found = measured(laws, x, map(errors, x), samples)
+    fate = Phrase("fate height", tuple(in_powers(law.worst) for law in found))
+    return Singularity("crossing height", "gap of radii", found, (fate,))
+
+
+def _largest(rows: Sequence[Sequence[float]]) -> list[float]:
+    """The largest error of each method over some trials; those without an answer do not count."""
+    return [max(0.0, *column) for column in zip(*rows, strict=True)]
 
 
 def _height2(r: mpf, s: mpf, c: mpf) -> mpf:
@@ -79,28 +85,26 @@ def angle_formulas(mp: MPContext, samples: int = 4) -> Singularity:
     """An angle near 0 or 180 degrees from the vectors of its sides: by arccos of their product, and by atan2."""
     dice = random.Random(2)
     x = grid(1.0, 1e-15, samples)
-    errors: dict[str, list[float]] = {"angle by arccos": [], "angle by atan2": []}
-    for phi in x:
-        worst = dict.fromkeys(errors, 0.0)
-        for _ in range(6):
+
+    def errors(phi: float) -> list[float]:
+        rows = []
+        for _ in range(TRIALS):
             turn = dice.uniform(0, 2 * math.pi)
             a, b = _ray(turn), _ray(turn + phi)
             over = a.real * b.imag - a.imag * b.real
             along = a.real * b.real + a.imag * b.imag
             right = mp.arg(mp.mpc(b) / mp.mpc(a))
-            by_arccos = math.acos(max(-1.0, min(1.0, along / (abs(a) * abs(b)))))
-            worst["angle by arccos"] = max(worst["angle by arccos"], float(abs(by_arccos - right)))
-            worst["angle by atan2"] = max(worst["angle by atan2"], float(abs(math.atan2(over, along) - right)))
-        for key, value in worst.items():
-            errors[key].append(value)
-    xs, one = binned(x, errors["angle by arccos"], samples)
-    _, two = binned(x, errors["angle by atan2"], samples)
+            found = math.acos(max(-1.0, min(1.0, along / (abs(a) * abs(b))))), math.atan2(over, along)
+            rows.append([float(abs(angle - right)) for angle in found])
+        return _largest(rows)
+
     laws = (
-        ErrorLaw("angle by arccos", xs, one, -1.0, window=(1e-7, 0.5)),
-        ErrorLaw("angle by atan2", xs, two, 0.0, window=(1e-7, 0.5)),
+        ErrorLaw("angle by arccos", theory=-1.0, window=(1e-7, 0.5)),
+        ErrorLaw("angle by atan2", theory=0.0, window=(1e-7, 0.5)),
     )
-    fate = Phrase("fate arccos", tuple(in_powers(law.worst) for law in laws))
-    return Singularity("angle near zero", "angle of two lines", laws, (fate,))
+    found = measured(laws, x, map(errors, x), samples)
+    fate = Phrase("fate arccos", tuple(in_powers(law.worst) for law in found))
+    return Singularity("angle near zero", "angle of two lines", found, (fate,))
 
 
 def _ray(angle: float) -> complex:
@@ -143,21 +147,17 @@ def differences(mp: MPContext, samples: int = 4, name: str = "slider-crank-offse
         sense = math.copysign(1.0, rate)
         speeds.append(_worst((after - before) * (w * sense / (2 * h)), v))
         pushes.append(_worst((after - 2 * at(q) + before) * (w / h) ** 2, a - second * v / rate))
-    laws = [
-        _part("velocity differences", steps, speeds, 2.0, (3e-4, 1e-1)),
-        _part("velocity differences", steps, speeds, -1.0, (1e-10, 1e-7)),
-        _part("acceleration differences", steps, pushes, 2.0, (3e-3, 1e-1)),
-        _part("acceleration differences", steps, pushes, -2.0, (1e-7, 2e-5)),
-    ]
-    by_step = [_complex_step(equations, x0, q, (rate, second), k, h, (v, a)) for h in steps[::4]]
-    errors = tuple(e[0] for e in by_step)
-    laws.append(ErrorLaw("velocity complex step", tuple(steps[::4]), errors, 2.0, window=(1e-6, 0.2)))
-    fate = Phrase("fate differences", tuple(in_powers(laws[k].best) for k in (0, 2, 4)))
-    return Singularity("differences", "step", tuple(laws), (fate,))
-
-
-def _part(key: str, x: Sequence[float], error: Sequence[float], theory: float, window: tuple[float, float]) -> ErrorLaw:
-    return ErrorLaw(key, tuple(x), tuple(error), theory, window=window)
+    laws = (
+        ErrorLaw("velocity differences", theory=2.0, window=(3e-4, 1e-1)),
+        ErrorLaw("velocity differences", theory=-1.0, window=(1e-10, 1e-7)),
+        ErrorLaw("acceleration differences", theory=2.0, window=(3e-3, 1e-1)),
+        ErrorLaw("acceleration differences", theory=-2.0, window=(1e-7, 2e-5)),
+    )
+    found = measured(laws, steps, zip(speeds, speeds, pushes, pushes, strict=True))
+    by_step = [[_complex_step(equations, x0, q, (rate, second), k, h, v)] for h in steps[::4]]
+    found += measured([ErrorLaw("velocity complex step", theory=2.0, window=(1e-6, 0.2))], steps[::4], by_step)
+    fate = Phrase("fate differences", tuple(in_powers(found[k].best) for k in (0, 2, 4)))
+    return Singularity("differences", "step", found, (fate,))
 
 
 def _worst(found: Array, right: Array) -> float:
@@ -165,19 +165,15 @@ def _worst(found: Array, right: Array) -> float:
 
 
 def _complex_step(
-    equations: Equations, x0: Array, q: Array, rates: tuple[float, float], k: int, h: float,
-    right: tuple[Array, Array],
-) -> tuple[float, float]:
+    equations: Equations, x0: Array, q: Array, rates: tuple[float, float], k: int, h: float, right: Array
+) -> float:
     """Closure equations solved at a driver value with a small imaginary part; its share in the place is the rate."""
     rate, second = rates
     x, t = x0.astype(complex), 1j * h / abs(rate)
     values = [q + rate * t + second * t * t / 2]
     for _ in range(6):
         x = equations.improved(x, values)
-    speed = equations.velocities(x, values, [rate + second * t])
-    v = (x[k].imag + 1j * x[k + 1].imag) / t.imag
-    a = (speed[k].imag + 1j * speed[k + 1].imag) / t.imag
-    return _worst(v, right[0]), _worst(a, right[1])
+    return _worst((x[k].imag + 1j * x[k + 1].imag) / t.imag, right)
 
 
 SEEDS = 12
@@ -245,41 +241,39 @@ def _found(scene: Mechanism, right: _Right, hand: Instrument) -> tuple[float, fl
 def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
     """Errors against the angle of the two lines that cross in the centre."""
     x = grid(0.5, 1e-15, samples)
-    places, velocities = [], []
+    rows = []
     stops: float | None = None
     for phi in x:
         scene = _four_bar(phi)
         place, velocity, far = _found(scene, _right(scene, mp), EXACT)
         stops = stops or (phi if far else None)
-        places.append(place)
-        velocities.append(velocity)
-    xs, one = binned(x, places, samples)
-    _, two = binned(x, velocities, samples)
-    laws = [
-        ErrorLaw("centre place", xs, one, -1.0, stops, stops, window=(1e-12, 0.1)),
-        ErrorLaw("centre velocity", xs, two, 0.0),
-        *_by_pencil(mp),
-    ]
-    fates = [Phrase("fate centre kept", (in_powers(laws[1].worst), in_powers(laws[3].worst)))]
+        rows.append((place, velocity))
+    laws = (
+        ErrorLaw("centre place", theory=-1.0, warns_from=stops, refuses_from=stops, window=(1e-12, 0.1)),
+        ErrorLaw("centre velocity", theory=0.0),
+    )
+    found = measured(laws, x, rows, samples) + _by_pencil(mp)
+    fates = [Phrase("fate centre kept", (in_powers(found[1].worst), in_powers(found[3].worst)))]
     if stops is not None:
         fates.insert(0, Phrase("fate centre", (in_powers(stops),)))
-    return Singularity("parallel lines", "angle of two lines", tuple(laws), tuple(fates))
+    return Singularity("parallel lines", "angle of two lines", found, tuple(fates))
 
 
-def _by_pencil(mp: MPContext) -> list[ErrorLaw]:
+def _by_pencil(mp: MPContext) -> tuple[ErrorLaw, ...]:
     """Root of the mean square over some drawings."""
-    x = grid(0.5, 1e-5, 1)
-    places, velocities = [], []
-    for phi in x:
+
+    def errors(phi: float) -> tuple[float, float]:
         scene = _four_bar(phi)
         right = _right(scene, mp)
         rows = [_found(scene, right, pencil(scene.sheet.tools, seed)) for seed in range(SEEDS)]
-        places.append(_rms([row[0] for row in rows]))
-        velocities.append(_rms([row[1] for row in rows]))
-    return [
-        ErrorLaw("centre place pencil", tuple(x), tuple(places), -1.0, window=(1e-3, 0.2), lost=1.0),
-        ErrorLaw("centre velocity pencil", tuple(x), tuple(velocities), 0.0),
-    ]
+        return _rms([row[0] for row in rows]), _rms([row[1] for row in rows])
+
+    x = grid(0.5, 1e-5, 1)
+    laws = (
+        ErrorLaw("centre place pencil", theory=-1.0, window=(1e-3, 0.2), lost=1.0),
+        ErrorLaw("centre velocity pencil", theory=0.0),
+    )
+    return measured(laws, x, map(errors, x))
 
 
 def _rms(values: list[float]) -> float:
@@ -306,18 +300,19 @@ def drawing_scale(mp: MPContext, samples: int = 1, name: str = "slider-crank-off
     right = abs(_value(what, symbol))
     x = [1e3 / v for v in grid(0.3e3, 1.0, 1)]  # falling ratios turned into growing sizes, mm
     x = sorted(size for size in x if 3.0 <= size <= 1000.0)
-    laws = []
-    for key, tools, theory in (("pencil points", POINTS_ONLY, -1.0), ("pencil all", scene.sheet.tools, None)):
-        errors = []
-        for size in x:
-            by = own / size
-            scales = Scales(*(s * by for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
-            predicted = predict(replace(what, scales=scales), "pencil", tools, together=False)
-            errors.append(predicted[symbol].deviation / right)
-        laws.append(ErrorLaw(key, tuple(x), tuple(errors), theory, lost=1.0))
+    hands = POINTS_ONLY, scene.sheet.tools
+
+    def errors(size: float) -> list[float]:
+        by = own / size
+        scales = Scales(*(s * by for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
+        larger = replace(what, scales=scales)
+        return [predict(larger, "pencil", tools, together=False)[symbol].deviation / right for tools in hands]
+
+    laws = ErrorLaw("pencil points", theory=-1.0, lost=1.0), ErrorLaw("pencil all", lost=1.0)
+    found = measured(laws, x, map(errors, x))
     ends = [f"{x[0]:.2g}", f"{x[-1]:.4g}"]
-    fate = Phrase("fate scale", (*ends, *(in_powers(law.error[k]) for law in laws for k in (0, -1))))
-    return Singularity("small scale", "crank on paper", tuple(laws), (fate,))
+    fate = Phrase("fate scale", (*ends, *(in_powers(law.error[k]) for law in found for k in (0, -1))))
+    return Singularity("small scale", "crank on paper", found, (fate,))
 
 
 def _value(what: Plan, symbol: Symbol) -> complex:

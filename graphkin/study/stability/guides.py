@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -16,7 +15,7 @@ from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid, in_powers
+from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid, in_powers, measured
 from graphkin.words import Phrase
 from graphkin.words.written import true_minus
 
@@ -26,6 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["flip", "near_ground", "slow_sliding"]
 
 FLOOR = 1e-17  # of the charts
+NEAR = (1e-8, 0.03)  # over which slopes are fitted beside the pivot of a bar
+BAR_LAWS = "place bar", "acceleration Coriolis", "acceleration bar"
 
 _BAR = """
 [frame]
@@ -112,23 +113,15 @@ def near_ground(mp: MPContext, samples: int = 4) -> Singularity:
         one = _solved(_at(scene, angle))
         solved.append(right.off(one[0])[2] if one else math.nan)
         sizes.append((float(abs(right.coriolis / (a * rate**2))), float(abs(right.alpha / rate**2))))
-    laws = _laws(("place bar", "acceleration Coriolis", "acceleration bar"), x, rows, (-1.0,) * 3, samples)
-    growth = _laws(("size Coriolis", "size bar"), x, sizes, (-1.0, -2.0), samples, math.inf, (1e-12, 0.03))
+    laws = [ErrorLaw(name, theory=-1.0, window=NEAR) for name in BAR_LAWS]
+    sized = [ErrorLaw("size Coriolis", theory=-1.0, window=(1e-12, 0.03), lost=math.inf),
+             ErrorLaw("size bar", theory=-2.0, window=(1e-12, 0.03), lost=math.inf)]  # fmt: skip
+    growth = measured(sized, x, sizes, samples)
     grown = Phrase("grows", tuple(true_minus(f"{law.slope:.2f}") for law in growth))
+    found = measured(laws, x, rows, samples)
     told = max((e for e in solved if math.isfinite(e)), default=math.nan)
-    fates = grown, Phrase("fate near ground", (in_powers(laws[2].worst), in_powers(told)))
-    return Singularity("near ground", "crank from ground", tuple(laws), fates, tuple(growth))
-
-
-def _laws(
-    names: Sequence[str], x: Sequence[float], rows: Sequence[Sequence[float]], theory: Sequence[float], samples: int,
-    lost: float = LOST, window: tuple[float, float] = (1e-8, 0.03),
-) -> list[ErrorLaw]:  # fmt: skip
-    laws = []
-    for name, error, slope in zip(names, zip(*rows, strict=True), theory, strict=True):
-        xs, es = binned(x, error, samples)
-        laws.append(ErrorLaw(name, xs, es, slope, window=window, lost=lost))
-    return laws
+    fates = grown, Phrase("fate near ground", (in_powers(found[2].worst), in_powers(told)))
+    return Singularity("near ground", "crank from ground", found, fates, growth)
 
 
 def flip(mp: MPContext, samples: int = 4) -> Singularity:
@@ -157,21 +150,23 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
             drawn.append(_drawn(_at(scene, angle)) / rate**2)
             if math.isnan(drawn[-1]):
                 stops.setdefault("drawn", e)
-    names = ("place bar", "acceleration Coriolis", "acceleration bar")
-    laws = _laws(names, x, plain, (-1.0, -2.0, -3.0), samples)
-    laws[-1] = replace(laws[-1], lost=math.inf)  # in parts of the crank's own rate squared: it goes on growing
+    # the last in parts of the crank's own rate squared: it goes on growing
+    lost = LOST, LOST, math.inf
+    laws = measured([ErrorLaw(name, theory=-slope, window=NEAR, lost=most)
+                     for name, slope, most in zip(BAR_LAWS, (1.0, 2.0, 3.0), lost, strict=True)],
+                    x, plain, samples)  # fmt: skip
     xs, es = binned(x, refined, samples)
     stated = binned(x, bounds, samples)[1]
     told = next((e for e in x[::samples] if _warns(_at(scene, -math.pi / 2 + e))), stops.get("drawn"))
-    laws += [
+    laws += (
         ErrorLaw("acceleration bar solved", xs, tuple(max(e, FLOOR) for e in es), refuses_from=stops.get("solved"),
                  bound=stated),
         ErrorLaw("acceleration bar drawn", tuple(x[::samples]), tuple(drawn), -3.0, told, stops.get("drawn"),
                  window=(1e-8, 0.1), lost=math.inf),
-    ]  # fmt: skip
+    )  # fmt: skip
     ends = ("fate flip solved", stops.get("solved")), ("fate flip drawn", stops.get("drawn"))
     fates = tuple(Phrase(key, (in_powers(at),)) for key, at in ends if at is not None)
-    return Singularity("guide flip", "crank from flip", tuple(laws), fates)
+    return Singularity("guide flip", "crank from flip", laws, fates)
 
 
 def _drawn(scene: Mechanism) -> float:
@@ -197,21 +192,28 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
     rate = scene.drivers[0].values[1]
     a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
     x = grid(0.3, 1e-15, samples)
-    slips, turns = [], []
-    for e in x:
+
+    def errors(e: float) -> tuple[float, float]:
         motion = solver.solve(_at(scene, float(mp.pi / 2 + mp.mpf(e))))
         slip, omega = _in_line(mp, a, d, rate, e)
-        slips.append(float(abs(float(motion.slide("2/3").velocity[0]) / slip - 1)))
-        turns.append(float(abs(float(motion.omega("3")[0]) / omega - 1)))
-    xs, one = binned(x, slips, samples)
-    _, two = binned(x, turns, samples)
-    laws = [
-        ErrorLaw("velocity sliding", xs, one, -1.0, window=(1e-13, 0.1)),
-        ErrorLaw("velocity bar", xs, two, 0.0),
-        *_pencil_sliding(scene, mp, rate),
-    ]
-    fate = Phrase("fate sliding", tuple(in_powers(law.worst) for law in laws))
-    return Singularity("slow sliding", "crank from line", tuple(laws), (fate,))
+        found = float(motion.slide("2/3").velocity[0]), float(motion.omega("3")[0])
+        return float(abs(found[0] / slip - 1)), float(abs(found[1] / omega - 1))
+
+    def by_pencil(e: float) -> list[float]:
+        what = plan(_at(scene, float(mp.pi / 2 + mp.mpf(e))))
+        predicted = predict(what, "pencil", scene.sheet.tools, together=False)
+        sizes = zip((Symbol.parse("v_B@3/B@2"), Symbol("omega", link="3")), _in_line(mp, a, d, rate, e), strict=True)
+        return [float(predicted[symbol].deviation / abs(size)) for symbol, size in sizes]
+
+    laws = ErrorLaw("velocity sliding", theory=-1.0, window=(1e-13, 0.1)), ErrorLaw("velocity bar", theory=0.0)
+    drawn = (
+        ErrorLaw("velocity sliding pencil", theory=-1.0, lost=2.0),
+        ErrorLaw("velocity bar pencil", theory=0.0, lost=2.0),
+    )
+    few = grid(0.3, 1e-4, 1)
+    found = measured(laws, x, map(errors, x), samples) + measured(drawn, few, map(by_pencil, few))
+    fate = Phrase("fate sliding", tuple(in_powers(law.worst) for law in found))
+    return Singularity("slow sliding", "crank from line", found, (fate,))
 
 
 def _in_line(mp: MPContext, a: mpf, d: mpf, rate: float, e: float) -> tuple[mpf, mpf]:
@@ -219,19 +221,3 @@ def _in_line(mp: MPContext, a: mpf, d: mpf, rate: float, e: float) -> tuple[mpf,
     2 a d cos e."""
     c = mp.sqrt(a * a + d * d + 2 * a * d * mp.cos(e))
     return -a * d * mp.sin(e) * rate / c, rate * a * (a + d * mp.cos(e)) / (c * c)
-
-
-def _pencil_sliding(scene: Mechanism, mp: MPContext, rate: float) -> list[ErrorLaw]:
-    symbols = {"velocity sliding pencil": Symbol.parse("v_B@3/B@2"), "velocity bar pencil": Symbol("omega", link="3")}
-    x = grid(0.3, 1e-4, 1)
-    errors: dict[str, list[float]] = {key: [] for key in symbols}
-    a, d = mp.mpf(scene.by_name["1"].length), mp.mpf(scene.frame.points["A"].imag)
-    for e in x:
-        predicted = predict(plan(_at(scene, float(mp.pi / 2 + mp.mpf(e)))), "pencil", scene.sheet.tools, together=False)
-        slip, omega = _in_line(mp, a, d, rate, e)
-        for (key, symbol), size in zip(symbols.items(), (slip, omega), strict=True):
-            errors[key].append(float(predicted[symbol].deviation / abs(size)))
-    return [
-        ErrorLaw(key, tuple(x), tuple(errors[key]), theory, lost=2.0)
-        for key, theory in zip(symbols, (-1.0, 0.0), strict=True)
-    ]

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphkin.words import Phrase
 from graphkin.words.written import true_minus
 
-__all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid", "in_powers"]
+__all__ = ["LOST", "ErrorLaw", "Singularity", "binned", "grid", "in_powers", "measured"]
 
 LOST = 0.03
 PER_DECADE = 2
@@ -35,8 +35,8 @@ class ErrorLaw:
     """
 
     key: str
-    x: tuple[float, ...]
-    error: tuple[float, ...]
+    x: tuple[float, ...] = ()
+    error: tuple[float, ...] = ()
     theory: float | None = None
     warns_from: float | None = None
     refuses_from: float | None = None
@@ -126,3 +126,21 @@ def binned(
         xs.append(float(np.exp(np.mean(np.log(here)))))
         es.append(float(worst(part)) if part and len(part) == len(here) else math.nan)
     return tuple(xs), tuple(es)
+
+
+def measured(
+    laws: Sequence[ErrorLaw], x: Sequence[float], rows: Iterable[Sequence[float]], samples: int | None = None
+) -> tuple[ErrorLaw, ...]:
+    """Laws as they were stated, with what was measured.
+
+    Parameters
+    ----------
+    x : distances, falling
+    rows : at each of them the error of every law
+    samples : how many neighbouring distances become one, with the largest error of them; None: each stands by itself
+    """
+    made = []
+    for law, error in zip(laws, zip(*rows, strict=True), strict=True):
+        xs, es = (tuple(x), tuple(error)) if samples is None else binned(x, error, samples)
+        made.append(replace(law, x=xs, error=es))
+    return tuple(made)
