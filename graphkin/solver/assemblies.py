@@ -186,7 +186,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     first = scene.drivers[0]
     wide = np.pi if isinstance(first, AngleDriver) else 2 * scene.size
 
-    def open_(offset: Array) -> Array:
+    def closes(offset: Array) -> Array:
         value = np.repeat(drive.value, len(offset), axis=0)
         value[:, 0] += wide * offset
         state = positions(structure, Drive.at(structure, value), {**forms, i: np.ones(1)}, i + 1, rates=False)
@@ -196,11 +196,11 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     if in_stages(structure.elements[:i]):
         return ""
     offset = np.linspace(-1, 1, 721)
-    good = np.flatnonzero(open_(offset))
+    good = np.flatnonzero(closes(offset))
     if not len(good):
         return Phrase("no value of the driver assembles them with")
     near = offset[good[np.argmin(np.abs(offset[good]))]]
-    limit = last_true(open_, float(near), float(near - np.copysign(1 / 360, near)))
+    limit = last_true(closes, float(near), float(near - np.copysign(1 / 360, near)))
     value = float(drive.value[0, 0] + wide * limit)
     return Phrase("the nearest position where they do is at", key=first.key, driver=driver_text(scene, first, value))
 
@@ -243,11 +243,11 @@ def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mappi
 
     place = _starts(structure, group, known)
     many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
-    missed = _descended(System(structure, group, known, many), place)
-    near = np.flatnonzero(missed < NEAR)
+    residual = _descended(System(structure, group, known, many), place)
+    near = np.flatnonzero(residual < NEAR)
     if not len(near):
         return np.zeros((0, len(group.members), 3))
-    found = _apart(place, near[np.argsort(missed[near] >= FOUND, kind="stable")], structure.scene.size)
+    found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size)
     solved = solve_cluster(structure, group, known, many[found], place[found], rates=False)
     return _distinct(structure, group, solved)
 
@@ -258,38 +258,38 @@ def _descended(system: System, place: Array) -> Array:
     Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).
     """
     active, damping = np.arange(len(place)), np.ones(len(place))
-    missed = np.full(len(place), np.inf)
+    residual = np.full(len(place), np.inf)
     all_ = system.at(place)
-    open_ = system.open_(all_)
+    residuals = system.residuals(all_)
     for _ in range(ROUNDS):
         matrix = system.matrix(all_)
         turned = np.swapaxes(matrix, 1, 2)
-        slope = (turned @ open_[..., None])[..., 0]
-        most = missed[active] = np.abs(open_).max(axis=1)
+        slope = (turned @ residuals[..., None])[..., 0]
+        most = residual[active] = np.abs(residuals).max(axis=1)
         on = (most > FOUND) & ~(np.abs(slope).max(axis=1) < np.where(most > NEAR, HOPELESS, FLAT) * most)
         if not on.all():
-            active, damping, matrix, turned, slope, open_ = (
-                x[on] for x in (active, damping, matrix, turned, slope, open_)
+            active, damping, matrix, turned, slope, residuals = (
+                x[on] for x in (active, damping, matrix, turned, slope, residuals)
             )
             all_, system = replace(all_, z=all_.z[on], u=all_.u[on]), system.part(on)
             if not len(active):
-                return missed
+                return residual
         normal = turned @ matrix
         diagonal = np.arange(matrix.shape[2])
         normal[:, diagonal, diagonal] += damping[:, None] * 1e-3
         trial = place[active] - system.scaled(solve_all(normal, slope))
         new = system.at(trial)
-        new_open = system.open_(new)
-        better = np.sum(new_open**2, axis=1) < np.sum(open_**2, axis=1)
+        new_residuals = system.residuals(new)
+        better = np.sum(new_residuals**2, axis=1) < np.sum(residuals**2, axis=1)
         place[active[better]] = trial[better]
         damping = np.clip(np.where(better, damping / 5, damping * 4), 1e-12, 1e8)
-        open_, z, u = (
+        residuals, z, u = (
             np.where(better[:, None], there, here)
-            for there, here in ((new_open, open_), (new.z, all_.z), (new.u, all_.u))
+            for there, here in ((new_residuals, residuals), (new.z, all_.z), (new.u, all_.u))
         )
         all_ = replace(all_, z=z, u=u)
-    missed[active] = np.abs(open_).max(axis=1)
-    return missed
+    residual[active] = np.abs(residuals).max(axis=1)
+    return residual
 
 
 def _apart(place: Array, rows: Array, size: float) -> Array:
@@ -342,7 +342,7 @@ def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Ar
     slides lies on the positive side."""
     from graphkin.solver.larger_groups import as_place
 
-    good = solved.missed < 1e-11
+    good = solved.residual < 1e-11
     size = structure.scene.size
     rows: list[int] = []
     names = group.members

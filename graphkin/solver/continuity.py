@@ -90,7 +90,7 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
         there, new_slope = at(t + step, guess)
         off = float(np.max(np.abs((there.place[0] - guess) / weight)))
         moved = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
-        found = there.missed[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
+        found = there.residual[0] < CLOSE and bool(np.all(np.isfinite(new_slope)))
         steady = _bend(slope / root, new_slope, weight) < BEND
         good = found and off < min(0.03, 0.003 + 0.3 * moved) and (steady or there.same_assembly(places[-1]))
         if good and np.sign(there.determinant[0]) != sense:
@@ -117,7 +117,7 @@ def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) ->
         # the end of the path may itself be singular, and roundings lead astray beside it: what stands there says so
         there, _ = at(end, places[-1])
         off = float(np.max(np.abs((there.place[0] - places[-1]) / weight)))
-        if end - t < AT_END or (there.missed[0] < CLOSE and off < BESIDE):
+        if end - t < AT_END or (there.residual[0] < CLOSE and off < BESIDE):
             t = end
     return _Walk(np.array(nodes), np.array(places), None if t >= end else t, tuple(flips))
 
@@ -156,7 +156,7 @@ def _passed(
         if (high - low) * step < NARROW / 8:
             break
         found, _ = at(t + middle * step, between(middle))
-        if not found.missed[0] < CLOSE:
+        if not found.residual[0] < CLOSE:
             # so close to the point, or in a gap: the sides decide
             break
         low, high = (middle, high) if np.sign(found.determinant[0]) == sign else (low, middle)
@@ -170,7 +170,7 @@ def _passed(
         off = np.max(np.abs((found.place[0] - between(s)) / weight))
         expected = sign if s < flip else -sign
         if (
-            not found.missed[0] < CLOSE
+            not found.residual[0] < CLOSE
             or off > 1e-3 * abs(s - flip) * step + 1e-7
             or (np.sign(found.determinant[0]) != expected)
         ):

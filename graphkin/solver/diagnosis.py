@@ -59,7 +59,7 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
         if isinstance(solved, DyadSolution):
             yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
         else:
-            refused = ~(solved.missed < OPEN) | ~(solved.certificate < CERTIFIED)
+            refused = ~(solved.residual < OPEN) | ~(solved.certificate < CERTIFIED)
             yield i, ~(solved.condition * SINGULAR <= 1) | refused
 
 
@@ -178,20 +178,20 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         else Phrase("links", links=", ".join(group.links))
     )
     if isinstance(solved, ClusterSolved):
-        if not solved.missed[0] < OPEN:
+        if not solved.residual[0] < OPEN:
             return Phrase("no position was found here", links=links)
         u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
-        branch = abs(float(u[:, -1] @ solved.load[0])) <= 1e-5 * float(np.linalg.norm(solved.load[0]))
+        branch = abs(float(u[:, -1] @ solved.right_side[0])) <= 1e-5 * float(np.linalg.norm(solved.right_side[0]))
         where = "" if branch else _fold_where(structure, solved, values)
         if not solved.certificate[0] < CERTIFIED and solved.condition[0] * SINGULAR <= 1:
             key = "so near to where two assemblies meet" if branch else "so near to their dead point"
             return Phrase(key, links=links, place=where)
         ending = Phrase("have a singular position")
     else:
-        e1, e2, load = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.load))
+        e1, e2, right_side = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.right_side))
         along = e1 if abs(e1) > abs(e2) or not np.isfinite(abs(e2)) else e2
-        across = abs((along.conjugate() * load).imag) / (abs(along) or 1.0)
-        branch = not across > 1e-5 * abs(load)
+        across = abs((along.conjugate() * right_side).imag) / (abs(along) or 1.0)
+        branch = not across > 1e-5 * abs(right_side)
         assert isinstance(group, Dyad)
         if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
             first, second = (getattr(p, "point", "") for p in group.outer)
@@ -215,7 +215,7 @@ def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> W
     way = ASIDE * solved.system.scaled(free[None, -1])
     ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
     bend = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
-    off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.load[0])))
+    off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.right_side[0])))
     return _lies_at(structure, float(values[0]) + off, abs(off), about=True)
 
 

@@ -53,7 +53,7 @@ class DyadSolution(NamedTuple, Generic[V, R]):
     discriminant : positive where the dyad can be assembled, zero where its two assemblies meet; no unit
     sine : of the angle at which the two loci cross, signed by assembly; small near a dead point
     e1, e2 : the two directions of the rate equations
-    load : right side of the velocity equation
+    right_side : right side of the velocity equation
     """
 
     first: Pose[V, R]
@@ -62,7 +62,7 @@ class DyadSolution(NamedTuple, Generic[V, R]):
     sine: R
     e1: V
     e2: V
-    load: V
+    right_side: V
 
 
 def solve_dyad(kind: DyadKind, joints: Joints[V, R], sign: R) -> DyadSolution[V, R]:
@@ -115,10 +115,10 @@ def _rrr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     to1 = line * (((long1 + long2) * (long1 - long2) * sign) * half + 0.5 + 1j * (area * half))
     to2 = to1 - line
     u1, u2 = _by(to1, r1, long1), _by(to2, r2, long2)
-    # w1 i to1 - w2 i to2 = load
+    # w1 i to1 - w2 i to2 = right_side
     over = (2.0 * sign) / area
-    load = j.known2.v - j.known1.v + _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
-    w1, w2 = dot(load, to2) * over, dot(load, to1) * over
+    right_side = j.known2.v - j.known1.v + _slip(u2, j.outer2, j.inner2) - _slip(u1, j.outer1, j.inner1)
+    w1, w2 = dot(right_side, to2) * over, dot(right_side, to1) * over
     bend = j.known2.a - j.known1.a + _bent(to2, u2, j.outer2, j.inner2, w2) - _bent(to1, u1, j.outer1, j.inner1, w1)
     al1, al2 = dot(bend, to2) * over, dot(bend, to1) * over
     whole = 1.0 / (2.0 * (long1 * long2))
@@ -129,7 +129,7 @@ def _rrr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         area * (sign * whole),
         1j * to1,
         -1j * to2,
-        load,
+        right_side,
     )
 
 
@@ -149,10 +149,10 @@ def _rrp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     u1 = _by(arm1, r1, radius)
     none = 0.0 * half
     moved = guide.along(t, none, none)
-    load = moved.v + 1j * w2 * arm2 + _slip(u2, j.outer2, j.inner2) - j.known1.v - _slip(u1, j.outer1, j.inner1)
-    # w1 (i arm1) - dt guide.u = load
+    right_side = moved.v + 1j * w2 * arm2 + _slip(u2, j.outer2, j.inner2) - j.known1.v - _slip(u1, j.outer1, j.inner1)
+    # w1 (i arm1) - dt guide.u = right_side
     over = 1.0 / half
-    w1, dt = cross(guide.u, load) * over, -dot(arm1, load) * over
+    w1, dt = cross(guide.u, right_side) * over, -dot(arm1, right_side) * over
     moved = guide.along(t, dt, none)
     bend = moved.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
     bend = bend - j.known1.a - _bent(arm1, u1, j.outer1, j.inner1, w1)
@@ -164,7 +164,7 @@ def _rrp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         half * (1.0 / radius),
         1j * arm1,
         -guide.u,
-        load,
+        right_side,
     )
 
 
@@ -179,10 +179,10 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     inside = (c - abs(q.imag)) * (c + abs(q.imag))
     leg = sign * root(inside)
     d = line * ((leg - 1j * q.imag) * (1.0 / square))
-    # ds d + w i line = load, where d leads line by an angle of cosine leg / c
+    # ds d + w i line = right_side, where d leads line by an angle of cosine leg / c
     over = 1.0 / leg
-    load = dline - d * dq
-    ds, w = dot(load, line) * over, cross(d, load) * over
+    right_side = dline - d * dq
+    ds, w = dot(right_side, line) * over, cross(d, right_side) * over
     bend = ddline + (w * w) * line - d * (ddq + 2j * w * (ds + dq))
     al = cross(d, bend) * over
     return DyadSolution(
@@ -192,7 +192,7 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         leg / _greater(c, j.size),
         d,
         1j * line,
-        load,
+        right_side,
     )
 
 
@@ -219,8 +219,8 @@ def _prp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
     none = 0.0 * sine
     t1, t2 = _two(e1, e2, over, g2.z + arm2 - g1.z - arm1)
     moved1, moved2 = g1.along(t1, none, none), g2.along(t2, none, none)
-    load = moved2.v + 1j * w2 * arm2 - moved1.v - 1j * w1 * arm1 + slip
-    dt1, dt2 = _two(e1, e2, over, load)
+    right_side = moved2.v + 1j * w2 * arm2 - moved1.v - 1j * w1 * arm1 + slip
+    dt1, dt2 = _two(e1, e2, over, right_side)
     moved1, moved2 = g1.along(t1, dt1, none), g2.along(t2, dt2, none)
     ends = moved2.a + 1j * al2 * arm2 + _bent(arm2, u2, j.outer2, j.inner2, w2)
     ends = ends - moved1.a - 1j * al1 * arm1 - _bent(arm1, u1, j.outer1, j.inner1, w1)
@@ -232,7 +232,7 @@ def _prp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         sine,
         e1,
         e2,
-        load,
+        right_side,
     )
 
 
@@ -254,10 +254,11 @@ def _rpp(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         return guide.along(t, dt, none).pinned(j.outer2, u2, w2, al2).of(j.inner2)
 
     t, s = _two(e1, e2, over, end1.z - inner_at(none, none).z)
-    load = end1.v - inner_at(t, none).v - 1j * w * s * d
-    dt, ds = _two(e1, e2, over, load)
+    right_side = end1.v - inner_at(t, none).v - 1j * w * s * d
+    dt, ds = _two(e1, e2, over, right_side)
     ddt, _ = _two(e1, e2, over, end1.a - inner_at(t, dt).a - (2j * w * ds + (1j * al - w * w) * s) * d)
-    return DyadSolution(first, guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2), sign * sine, sine, e1, e2, load)
+    second = guide.along(t, dt, ddt).pinned(j.outer2, u2, w2, al2)
+    return DyadSolution(first, second, sign * sine, sine, e1, e2, right_side)
 
 
 _SOLVERS: dict[DyadKind, Callable[[Joints[Values, Values], Values], DyadSolution[Values, Values]]] = {

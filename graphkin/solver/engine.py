@@ -281,7 +281,7 @@ class _Run:
         program = self.dimensioned.program
         names = [n for e in elements for n in links_of(e)]
         dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
-        parts = ("discriminant", "sine", *(("e1", "e2", "load") if self.rates else ()))
+        parts = ("discriminant", "sine", *(("e1", "e2", "right_side") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
         followed = self.sure and not self.clusters
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
@@ -317,8 +317,8 @@ class _Run:
         if sure and self.clusters:
             from graphkin.solver.group_errors import bounds as bounds_together
 
-            open_ = np.concatenate([self.clusters[i].rolling_open for i in sorted(self.clusters)], axis=1)
-            found = [*bounds_together(self.structure, poses, self.drive, self._known, open_)]
+            residuals = np.concatenate([self.clusters[i].rolling_residuals for i in sorted(self.clusters)], axis=1)
+            found = [*bounds_together(self.structure, poses, self.drive, self._known, residuals)]
             rough = _rough(found, size)
         bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
         count = len(self.structure.scene.drivers)

@@ -150,10 +150,10 @@ def _bounds(
         inverse = solve_all(matrix, np.broadcast_to(np.eye(matrix.shape[1]), matrix.shape))
         inverse = np.where(np.isnan(inverse), np.inf, inverse)
         sizes = _sizes(system, all_, matrix, inverse)
-        open_ = np.abs(system.constraints(all_))
+        residuals = np.abs(system.constraints(all_))
 
         def off(order: int, rows: Rows) -> Array:
-            return np.asarray(open_[order] + np.stack(_all(rows.off(order), n), axis=1))
+            return np.asarray(residuals[order] + np.stack(_all(rows.off(order), n), axis=1))
 
         first = Rows(system, every, {}, given, rolled, led, before)
         alone = [off(order, first) for order in range(3)]

@@ -288,7 +288,7 @@ class System:
         rows[len(self.group.members) :, :2] = 0.0
         return rows
 
-    def open_(self, all_: Pose) -> Array:
+    def residuals(self, all_: Pose) -> Array:
         """Each constraint, with lengths in the size, shape (n, rows)."""
         return np.asarray(self.constraints(all_, 0)[0])
 
@@ -373,26 +373,21 @@ class ClusterSolved:
     poses : its links
     place : the same as an array (n, members, 3) of x, y (m) and angle (rad, not reduced); where something rolls with
         more rows, see ``form_of``
-    open_ : largest constraint still open, no unit
+    residual : of the constraint that is most open, no unit; infinite where nothing is known
     matrix : derivative of the constraints by the scaled unknowns, shape (n, rows, columns)
-    load : rate of the constraints with the group held still, shape (n, rows)
+    right_side : rate of the constraints with the group held still, shape (n, rows)
     """
 
     system: System
     poses: Mapping[str, Pose]
     place: Array
-    open_: Array
+    residual: Array
     matrix: Array
-    load: Array
+    right_side: Array
 
     @cached_property
     def _whole(self) -> Array:
         return np.asarray(np.isfinite(self.matrix).all(axis=(1, 2)))
-
-    @cached_property
-    def missed(self) -> Array:
-        """Largest constraint still open, infinite where nothing is known."""
-        return np.asarray(np.where(self._whole, self.open_, np.inf))
 
     @cached_property
     def determinant(self) -> Array:
@@ -415,21 +410,21 @@ class ClusterSolved:
         return bool(self.condition[0] * _bending(self.system, self.poses)[0] * moved < 0.5)
 
     @cached_property
-    def rolling_open(self) -> Array:
+    def rolling_residuals(self) -> Array:
         """How far what rolls may be off: what is still open, and the rounding of its turns; shape (n, relations)."""
         system, layout = self.system, self.system._layout
         if not len(layout.rolling_rows):
-            return np.zeros((len(self.open_), 0))
+            return np.zeros((len(self.residual), 0))
         assert system.kept is not None
         angles = np.concatenate((self.place[:, : layout.members, 2], self.place[:, layout.relations_end :, 2]), axis=1)
         turned = np.abs(angles).max(axis=1, initial=1.0)[:, None] * np.abs(layout.rolled).sum(axis=1)
-        return np.asarray(self.open_[:, None] + TOLD * (np.abs(system.kept) + turned))
+        return np.asarray(self.residual[:, None] + TOLD * (np.abs(system.kept) + turned))
 
     @cached_property
     def certificate(self) -> Array:
         """Less than 1/2 where Newton's method has converged quadratically to a position."""
         with np.errstate(all="ignore"):
-            return certificate(self.system, self.poses, self.condition, self.missed)
+            return certificate(self.system, self.poses, self.condition, self.residual)
 
 
 def solve_cluster(
@@ -447,37 +442,38 @@ def solve_cluster(
     start = np.broadcast_to(start, (n, *start.shape[-2:]))
     system = system.rolling_from(start)
     place = np.array(start[:, : len(group.members)], dtype=float)
-    missed = np.full(n, np.inf)
+    residual = np.full(n, np.inf)
     left, part, now_at = np.arange(n), system, place.copy()
     for _ in range(ROUNDS):
         all_ = part.at(now_at)
-        open_ = part.open_(all_)
-        now, last = np.abs(open_).max(axis=1), missed[left]
+        residuals = part.residuals(all_)
+        now, last = np.abs(residuals).max(axis=1), residual[left]
         better = now < last
         place[left[better]] = now_at[better]
-        missed[left] = np.fmin(last, now)
+        residual[left] = np.fmin(last, now)
         gains = better & ((now > ROUGH) | (now < 0.5 * last))
         if not gains.any():
             break
-        step = part.scaled(solve_all(part.matrix(all_), open_))
+        step = part.scaled(solve_all(part.matrix(all_), residuals))
         # a position that gains nothing any more is left as it is, whatever others still do
-        on = gains | (missed[left] > ROUGH)
+        on = gains | (residual[left] > ROUGH)
         now_at = now_at - step if on.all() else now_at[on] - step[on]
         if not on.all():
             left, part = left[on], system.part(left[on])
     matrix = system.matrix(system.at(place))
+    residual[~np.isfinite(matrix).all(axis=(1, 2))] = np.inf
     rate: Array | None = None
     second: Array | None = None
     if rates:
         # the guiding, centripetal and Coriolis terms are the rates of the constraints with the unknown rates left out
-        load = system.constraints(system.at(place, np.zeros_like(place)), 1)[1]
-        rate = system.scaled(solve_all(matrix, -load))
+        right_side = system.constraints(system.at(place, np.zeros_like(place)), 1)[1]
+        rate = system.scaled(solve_all(matrix, -right_side))
         bent = system.constraints(system.at(place, rate))[2]
         second = system.scaled(solve_all(matrix, -bent))
     else:
-        load = np.zeros((n, matrix.shape[1]))
+        right_side = np.zeros((n, matrix.shape[1]))
     form = system.with_turns(place)
-    return ClusterSolved(system, system.poses(place, rate, second), form, missed, matrix, load)
+    return ClusterSolved(system, system.poses(place, rate, second), form, residual, matrix, right_side)
 
 
 def form_of(structure: Structure, group: Cluster, poses: Mapping[str, Pose]) -> Array:
@@ -495,13 +491,13 @@ def form_of(structure: Structure, group: Cluster, poses: Mapping[str, Pose]) -> 
     return np.asarray(replace(system, kept=kept).with_turns(place)[0])
 
 
-def certificate(system: System, members: Mapping[str, Pose], condition: Array, missed: Array) -> Array:
+def certificate(system: System, members: Mapping[str, Pose], condition: Array, residual: Array) -> Array:
     """Kantorovich's number: |J^-1| |step| times how fast the matrix J changes, with step <= |J^-1| |open|.
 
     Below 1/2 there is a position, the only one within twice the step, and Newton's method converges to it quadratically
     (Ortega and Rheinboldt, Iterative Solution of Nonlinear Equations in Several Variables, 12.6).
     """
-    step = condition * np.maximum(missed, ROUNDINGS) * (3 * len(system.group.members)) ** 0.5
+    step = condition * np.maximum(residual, ROUNDINGS) * (3 * len(system.group.members)) ** 0.5
     return np.asarray(condition * step * _bending(system, members))
 
 

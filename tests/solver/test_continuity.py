@@ -273,7 +273,7 @@ def stopping(way: str, alone_within: float) -> At:
         def same(before: Array) -> bool:
             return float(np.abs(found[0] - before).max()) < alone_within
 
-        told = SimpleNamespace(missed=[0.0], place=found, determinant=[1.0], same_assembly=same)
+        told = SimpleNamespace(residual=[0.0], place=found, determinant=[1.0], same_assembly=same)
         return told, np.array([[0.1 * rate(t - 1), 0.0, 0.0]])
 
     return at
@@ -293,7 +293,7 @@ def changing(beside: float) -> At:
 
     def at(t: float, _: Array) -> tuple[Any, Array]:
         x = 0.1 * t + (beside if 0.0 < t < 0.1 else 0.0)
-        found = SimpleNamespace(missed=[0.0], place=np.array([[[x, 0.0, 0.0]]]), determinant=[0.05 - t])
+        found = SimpleNamespace(residual=[0.0], place=np.array([[[x, 0.0, 0.0]]]), determinant=[0.05 - t])
         return found, np.array([[0.1, 0.0, 0.0]])
 
     return at
