@@ -34,10 +34,10 @@ from graphkin.construction.mechanism_acts import (
     TrialRow,
     TrialTable,
 )
+from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, links_of
 from graphkin.words import Phrase
@@ -384,12 +384,11 @@ def table_of_several(
         sizes = np.linalg.svd(slopes, compute_uv=False)
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
             break
-        shares = np.linalg.solve(slopes, -gaps[0])
-        found = at[0] + added_up(x * (v - at[0]) for x, v in zip(shares, at[1:], strict=True))
+        found = divide(at, gaps)
         open_there = missed(found)
         if open_there is None:
             break
-        parts = parts or tuple(float(x) for x in shares)
+        parts = parts or tuple(map(float, shares(gaps)))
         divided.append(columns.row(found, open_there))
         if columns.is_unseen(open_there):
             break

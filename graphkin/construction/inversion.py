@@ -14,10 +14,9 @@ from itertools import product
 
 from graphkin.construction.dyads import assembled, drive, meet
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Pose
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, travel
 from graphkin.construction.position import Branches, as_meant, branches_at, place, start_board
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
 from graphkin.words import Phrase
@@ -61,9 +60,7 @@ class Inversion:
         if isinstance(equivalent, AngleDriver):
             return cmath.phase(frame.poses[equivalent.link].axis / frame.poses[equivalent.relative_to].axis)
         assert isinstance(pair, Slide)
-        rail = frame.poses[pair.b]
-        start = rail.origin + rail.axis * pair.guide.through * frame.mm
-        return dot(rail.axis * pair.guide.direction, frame.poses[pair.a].origin - start) / frame.mm
+        return travel(pair, frame.poses, frame.mm) / frame.mm
 
 
 def opened_at_triangles(structure: Structure) -> Structure:
@@ -203,7 +200,4 @@ def _has_its_travel(frame: PlacedLinks, inversion: Inversion, poses: Mapping[str
     slide = inversion.structure.slide(inversion.triangle.driver.key)
     if slide.a not in poses or slide.b not in poses:
         return True
-    rail = poses[slide.b]
-    start = rail.origin + rail.axis * slide.guide.through * frame.mm
-    travel = dot(rail.axis * slide.guide.direction, poses[slide.a].origin - start)
-    return abs(travel - frame.values[slide.key] * frame.mm) < FITS
+    return abs(travel(slide, poses, frame.mm) - frame.values[slide.key] * frame.mm) < FITS

@@ -44,6 +44,7 @@ from graphkin.construction.net import (
 )
 from graphkin.construction.polygon_acts import FarPoint, SeenFrom, Superposed, TakenOff, TrialDrawn
 from graphkin.construction.polygons import RATE, Polygons, letter
+from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.remarks import Magnified
 from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
 from graphkin.construction.sheet import DrawnGroup, Rate
@@ -555,7 +556,7 @@ def _with_assumptions(plot: Polygons, order: Order, group: Cluster, plan: GroupP
         return plan
     once = _trial_rates(plot, order, plan)
     trials = [_trial_polygon(plot, order, group, plan, 1, assumed) for assumed in once]
-    true = _divided(once, [_gaps(plot, order, plan, trial) for trial in trials])
+    true = [float(rate) for rate in divide(once, [_gaps(plot, order, plan, trial) for trial in trials])]
     reach = _Reach([trial.drawn[order] for trial in trials], once)
     most = reach.at(true) + BEYOND * reach.size(true)
     # what hardly moves is tried by a part of the driver's rate
@@ -594,7 +595,9 @@ def _true_rates(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -
         steps = [step for step in trial.board.steps if step.diagram == order]
         strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
         plot.board.do(order, TrialDrawn(number, _as_symbols(plot, order, plan, assumed), far), *strokes)
-    plot.board.notice(order, Magnified(group.links, _magnified(ends, apart)))
+    shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
+    places = [[end[ref] for ref in shared] for end in ends]
+    plot.board.notice(order, Magnified(group.links, magnified(places, apart)))
     found = _as_noted(plot, plan, rates, apart)
     closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
     ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
@@ -611,7 +614,7 @@ def _as_noted(
     """The divided rates as they are written down: the way from the first that was assumed with the figures of the
     lengths that are divided, of several parts with as many as such have."""
     noted, made = plot.board.instrument.noted, []
-    for i, (unknown, rate) in enumerate(zip(plan.tried, _divided(rates, apart), strict=True)):
+    for i, (unknown, rate) in enumerate(zip(plan.tried, map(float, divide(rates, apart)), strict=True)):
         unit = 1.0 if isinstance(unknown, Turning) else plot.structure.scene.units.rates.metres
         low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
         if len(plan.tried) == 1:
@@ -644,24 +647,6 @@ def _left_open(edge: Edge, across: bool) -> Direction:
     """Along which direction a trial leaves an edge open."""
     names = (edge.start.point, edge.end.point) if edge.link else edge.direction.names
     return Direction("square" if across else "along", names)
-
-
-def _divided(rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
-    """The rates at which nothing is left open, from trials that each differ from the first in one rate: proportional
-    division."""
-    first = np.array(apart[0])
-    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
-    part = np.linalg.solve(slopes, -first)
-    return [float(rates[0][i] + x * (rates[i + 1][i] - rates[0][i])) for i, x in enumerate(part)]
-
-
-def _magnified(ends: Sequence[Mapping[PointRef, complex]], apart: Sequence[Sequence[float]]) -> float:
-    """How far an end point moves, at most, for what is left open in a trial."""
-    first = np.array(apart[0])
-    slopes = np.array([np.array(row) - first for row in apart[1:]]).T
-    inverse = np.linalg.inv(slopes)
-    moved = [[end[ref] - z for end in ends[1:]] for ref, z in ends[0].items() if all(ref in end for end in ends)]
-    return float(np.abs(np.array(moved) @ inverse).max(initial=0.0))
 
 
 class _Reach:

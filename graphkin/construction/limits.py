@@ -18,11 +18,10 @@ from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.group_position import nearest_assembly
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
 from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits, Scales
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Element, Slide, Structure, links_of
@@ -229,12 +228,12 @@ def _short(why: str, link: str, value: float) -> Problem:
 
 
 def _along(output: Slide | str, here: Turned, near: float) -> float:
-    """Travel of a slide (mm of paper of the mechanism's size), or a link's angle that lies nearest to a known one."""
+    """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle that lies nearest to a
+    known one."""
     if isinstance(output, str):
         angle = cmath.phase(here.poses[output].axis)
         return angle + math.tau * round((near - angle) / math.tau)
-    guide = here.poses[output.b]
-    return dot(here.poses[output.a].origin - guide.origin, guide.axis * output.guide.direction)
+    return travel(output, here.poses, 0.0)  # from wherever the guide has its origin: only differences are of interest
 
 
 def _travels(output: Slide | str, positions: Sequence[Turned]) -> list[float]:

@@ -7,13 +7,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.plane import added_up, direction, unit
+from graphkin.plane import added_up, direction, dot, unit
 from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
 from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
 __all__ = [
     "LinkMotion", "PlacedLinks", "Pose", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
-    "pushed_by_driver", "rail",
+    "pushed_by_driver", "rail", "travel",
 ]  # fmt: skip
 
 
@@ -150,6 +150,14 @@ class RigidBody:
         """Place the body by two of its points."""
         axis = unit((world[1] - world[0]) / (local[1] - local[0]))
         return self.placed(Pose(world[0] - axis * local[0], axis))
+
+
+def travel(slide: Slide, poses: Poses, mm: float) -> float:
+    """How far what slides has gone along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
+    """
+    guide = poses[slide.b]
+    start = guide.place(slide.guide.through * mm)
+    return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
 
 
 def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Pose:

@@ -11,13 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import Poses
+from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.zero_vectors import MOST_LOST
-from graphkin.plane import dot
 from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Slide
 from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
 
 __all__ = ["Measured", "measured"]
@@ -52,7 +50,7 @@ def measured(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
         slide = sliding_pair(sheet.structure, symbol)
         if not {slide.a, slide.b} <= set(sheet.poses):
             return None
-        return _length(sheet, instrument, _travel(slide, sheet.poses, 1.0 / sheet.scales.length))
+        return _length(sheet, instrument, travel(slide, sheet.poses, 1.0 / sheet.scales.length))
     names = [name for name in (symbol.link, symbol.other) if name]
     if any(name not in sheet.poses for name in names):
         return None
@@ -103,13 +101,6 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
     return _length(sheet, instrument, spots[0].real if symbol.kind == "x" else spots[0].imag)
 
 
-def _travel(slide: Slide, poses: Poses, mm: float) -> float:
-    """From the guide's origin to the sliding link's own, along the guide's sense (mm of paper)."""
-    guide = poses[slide.b]
-    start = guide.place(slide.guide.through * mm)
-    return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
-
-
 def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
     """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmission`)."""
 
@@ -132,7 +123,7 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
     low, high = limits.low.poses, limits.high.poses
     if symbol.kind == "stroke":
         slide = sliding_pair(sheet.structure, symbol)
-        return _length(sheet, instrument, abs(_travel(slide, high, mm) - _travel(slide, low, mm)))
+        return _length(sheet, instrument, abs(travel(slide, high, mm) - travel(slide, low, mm)))
     if symbol.kind == "swing":
         turned = high[symbol.link].axis / low[symbol.link].axis
         angle = phase(instrument.read_direction(turned))

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
@@ -110,10 +110,7 @@ class ReducedMechanism:
     def _value(self, driver: AnyDriver, poses: Mapping[str, Pose], mm: float) -> float:
         if isinstance(driver, AngleDriver):
             return phase(poses[driver.link].axis / poses[driver.relative_to].axis)
-        slide = self.structure.slide(driver.key)
-        rail = poses[slide.b]
-        start = rail.origin + rail.axis * slide.guide.through * mm
-        return dot(rail.axis * slide.guide.direction, poses[slide.a].origin - start) / mm
+        return travel(self.structure.slide(driver.key), poses, mm) / mm
 
 
 def clusters(structure: Structure) -> list[Cluster]:

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
 from graphkin.plane import dot, unit
 from graphkin.scene.cams import TURN, LawCam, Lift, SlidingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
@@ -204,8 +204,7 @@ def coordinate_on_paper(structure: Structure, frame: PlacedLinks, coordinate: Co
     if kind == "angle":
         return cmath.phase(frame.poses[name].axis)
     slide = structure.slide(name)
-    along = frame.poses[slide.b].axis * slide.guide.direction
-    return dot(frame.poses[slide.a].origin - frame.place(slide.b, slide.guide.through), along) / frame.mm
+    return travel(slide, frame.poses, frame.mm) / frame.mm
 
 
 # -- the outlines of cams ----------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ import numpy as np
 from graphkin.construction.centre_lines import CentreLine, PlanLine, PlanScales, PlanTrial, Spot, TrainPlan
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.polygon_acts import OnPlan, PlanDrawn, PlanTravel, PlanTried
+from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sizes import Order
 from graphkin.errors import Problem, Unsolvable
@@ -265,9 +266,8 @@ def _by_trial(
 ) -> tuple[_Drawing, PlanTrial]:
     """A plan in which some rates are found by proportion from trials."""
     trials = given.trials(names)
-    gaps = np.array([given.drawn(scales, hand, one).gaps for one in trials])
-    slopes = (gaps[1:] - gaps[0]) / given.fastest
-    found = tuple(map(float, np.linalg.lstsq(slopes.T, -gaps[0], rcond=None)[0]))
+    gaps = [given.drawn(scales, hand, one).gaps for one in trials]
+    found = tuple(map(float, divide([[*one.values()] for one in trials], gaps)))
     apart = tuple(tuple(map(float, row)) for row in gaps)
     told = PlanTrial(tuple(names), tuple(tuple(one.values()) for one in trials), apart, found)
     return given.drawn(scales, hand, dict(zip(names, found, strict=True))), told
