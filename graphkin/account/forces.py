@@ -87,7 +87,7 @@ def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[
             args = links, name, f"${letters.point(one.about)}$"
             lines.append(ForceSentence(Phrase("force two-force member", args), (), one.symbol, one.part))
             continue
-        name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(group, one) else '')}$"
+        name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(sheet, group, one) else '')}$"
         key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
             "force reason pin"
         )  # fmt: skip
@@ -103,9 +103,10 @@ def _links(names: Sequence[str]) -> object:
     return listed([name for name in names if "/" not in name] or names)
 
 
-def _parted(group: ForceGroup, one: MomentEquation) -> bool:
-    """Whether both parts of a force stand in the polygon."""
-    return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1
+def _parted(sheet: Sheet, group: ForceGroup, one: MomentEquation) -> bool:
+    """Whether what the moments give is a part of the force: both parts stand in the polygon, or this part is nought and
+    the force lies along the bar."""
+    return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1 or not balance(sheet, one).value
 
 
 def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:

@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -33,7 +34,7 @@ LABELLED = [
 SVG = "{http://www.w3.org/2000/svg}"
 
 
-def stages_of(name: str) -> tuple[ForceStage, ...]:
+def stages_of(name: Any) -> tuple[ForceStage, ...]:
     checked = graphkin.check(name)
     assert checked.forces is not None
     sheet = checked.sheet
@@ -152,3 +153,16 @@ def test_a_sum_of_moments_gives_in_figures_what_is_drawn(name: str) -> None:
             assert -total / float(arm or 1) == pytest.approx(float(value), rel=1e-12)
             found.append((amount(abs(one.value) / newtons, 5), amount(abs(float(value)), 5)))
     assert [drawn for drawn, _ in found] == [written for _, written in found]
+
+
+def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:
+    at_pin = graphkin.read("four-bar-coupler-point").to_dict()
+    links = list(at_pin["links"])
+    pin = at_pin["links"][links[-1]]["points"][-1]
+    scene = {**at_pin, "loads": {"Q": {"on": links[-1], "at": pin, "force": 400, "angle": 200}},
+             "balance": {"on": at_pin["driver"]["link"]}}  # fmt: skip
+    lines = [line for stage in stages_of(scene) for step in stage.steps for line in step.work]
+    nought = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = 0 k?N$", line))}
+    read = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = [\d.]+ mm × ", line))}
+    assert nought
+    assert set() == nought & read
