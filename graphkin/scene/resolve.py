@@ -15,7 +15,6 @@ from graphkin.scene.background import background_of, scans_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
 from graphkin.scene.contacts import PlacedDisc
-from graphkin.scene.drawn_position import DrawnPosition, find_position, starts_apart, starts_of, travel_of
 from graphkin.scene.driving import DriverEntry, drives
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
@@ -23,7 +22,16 @@ from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide,
 from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import islands, pins_in_slots, sliding_pairs, with_bars, with_carriages
-from graphkin.scene.placing import Placement, origins_of, place_of
+from graphkin.scene.placing import (
+    DrawnPosition,
+    Placement,
+    find_position,
+    origins_of,
+    place_of,
+    starts_apart,
+    starts_of,
+    travel_of,
+)
 from graphkin.scene.reading import path_name
 from graphkin.scene.rules import (
     disagreements,

@@ -9,9 +9,8 @@ import unicodedata
 
 from graphkin.errors import Problem
 from graphkin.plane import cross, degrees
-from graphkin.scene.drawn_position import DrawnPosition, running_points, travel_of
 from graphkin.scene.names import Flaws, Names
-from graphkin.scene.placing import Placement, circle_of_references, place_of
+from graphkin.scene.placing import DrawnPosition, Placement, circle_of_references, place_of, running_points, travel_of
 from graphkin.scene.tables import Compass, Polar, SceneTables
 from graphkin.words import Phrase, Wording
 
