@@ -33,11 +33,13 @@ def test_a_chain_of_24_dyads_is_drawn_and_agrees():
 
 
 def test_a_chain_of_33_dyads_is_drawn_and_what_is_not_known_to_agree_is_not_said_to():
-    # the drawing agrees to the last digits, but the bound on rounding exceeds a thousandth of the largest velocity
+    # the drawing agrees to the last digits, but from rod 27 on the bound on rounding exceeds a thousandth
     result = graphkin.check(chain(33))
-    assert {row.ok for row in result.report.rows if not row.by_drivers} == {None}
-    assert {"v_B0", "omega_L0", "an_B0/A0", "a_B0", "alpha_L0"} == {str(r.symbol) for r in result.report.rows if r.ok}
-    assert not result.ok
+    known = {str(row.symbol): row.ok for row in result.report.rows}
+    along = [known[f"v_B{k}"] for k in range(33)]
+    assert [True] == along[:1]
+    assert along == sorted(along, key=lambda ok: ok is None)  # the bounds grow along the chain
+    assert {True, None} == set(known.values())
     assert all(row.error <= 1e-9 * max(1.0, abs(row.exact)) for row in result.report.rows)
 
 
