@@ -40,11 +40,13 @@ __all__ = [
     "driver_values",
     "for_paper",
     "known_words",
+    "known_workers",
     "own_folder",
     "passed_words",
     "placed",
     "quantity_shown",
     "require_callable",
+    "unknown_words",
     "value_at",
     "whole_number",
     "write_files",
@@ -90,17 +92,33 @@ def known_words(
         )
         if word is not None
     ]
-    wrong = [
-        Problem(where, f'"{w!s:.60}"', did_you_mean(str(w)[:60], known))
-        for where, w, known in wishes
-        if not isinstance(w, str) or w not in known
-    ]
+    wrong = [problem for where, word, known in wishes for problem in unknown_words(where, [word], known)]
     if not formats:
         wrong.append(Problem("format", Phrase("none given"), Phrase("known here", names=', '.join(known_formats))))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
         wrong.append(Problem("format", '"dxf"', Phrase("it needs the extra cad pip install graphkin")))
     if wrong:
         raise CallError(*wrong)
+
+
+def unknown_words(where: str, words: Iterable[object], known: Iterable[str]) -> list[Problem]:
+    """What is wrong with each of some words that is none of those known, with the nearest right one or all of them."""
+    known = list(known)
+    return [
+        Problem(where, f'"{word!s:.60}"', did_you_mean(str(word)[:60], known))
+        for word in words
+        if not isinstance(word, str) or word not in known
+    ]
+
+
+def known_workers(executor: object, workers: int | None) -> int | None:
+    """The number of processes, where one is given.  Raises CallError for another than 1 to 1024, and for an executor
+    that takes no work."""
+    workers = None if workers is None else whole_number("workers", workers, 1, 1024)
+    if executor is not None and not hasattr(executor, "submit"):
+        found = Phrase("found value", value=f"{executor!r:.60}")
+        raise CallError(Problem("executor", found, Phrase("give one that has submit as those of")))
+    return workers
 
 
 def whole_number(where: str, value: object, least: int, most: int, what: str = "") -> int:

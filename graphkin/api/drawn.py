@@ -18,6 +18,7 @@ from graphkin.api.arguments import (
     for_paper,
     known_words,
     placed,
+    unknown_words,
 )
 from graphkin.api.cams import cam_table
 from graphkin.api.checked import Checked, asked_here, checked, drawn_symbols, hand_of, solved_here, with_elsewhere
@@ -29,7 +30,7 @@ from graphkin.construction.limits import Turned, TurnOfCrank
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import Shown
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list, did_you_mean
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list
 from graphkin.files import Json
 from graphkin.scene.model import AngleDriver, Mechanism
 from graphkin.scene.symbol import Symbol
@@ -232,12 +233,7 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
     if isinstance(names, str):
         raise CallError(Problem("figures", Phrase("found value", value=f'{names!r:.60}'), wanted))
     names = as_list("figures", names, wanted)
-    known = [isinstance(name, str) and name in figure_kinds() for name in names]
-    wrong = [
-        Problem("figure", f'"{name!s:.60}"', did_you_mean(str(name)[:60], figure_kinds()))
-        for name, right in zip(names, known, strict=True) if not right
-    ]  # fmt: skip
-    if wrong:
+    if wrong := unknown_words("figure", names, figure_kinds()):
         raise CallError(*wrong)
     return tuple(dict.fromkeys(names))
 

@@ -18,11 +18,12 @@ from graphkin.api.arguments import (
     known_words,
     placed,
     require_callable,
+    unknown_words,
     whole_number,
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
-from graphkin.errors import CallError, Problem, as_list, did_you_mean
+from graphkin.errors import CallError, Problem, as_list
 from graphkin.files import Json, path_of
 from graphkin.papers.answer_key import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
@@ -208,8 +209,6 @@ def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     if isinstance(exports, str):
         raise CallError(Problem("export", Phrase("is a text", formats=exports), Phrase("give a list", formats=exports)))
     named = as_list("export", exports, Phrase("give a list of", names=", ".join(PLATFORMS)))
-    wrong = [Problem("export", f'"{e!s:.60}"', did_you_mean(str(e)[:60], PLATFORMS))
-             for e in named if not isinstance(e, str) or e not in PLATFORMS]  # fmt: skip
-    if wrong:
+    if wrong := unknown_words("export", named, PLATFORMS):
         raise CallError(*wrong)
     return tuple(dict.fromkeys(named))

@@ -21,6 +21,7 @@ from graphkin.api.arguments import (
     as_scene,
     asked_symbols,
     known_words,
+    known_workers,
     require_callable,
     whole_number,
     write_files,
@@ -160,17 +161,9 @@ def problem_set(
     known_words(language=language, known_languages=ON_SHEETS)
     require_callable("render", render)
     require_callable("progress", progress)
-    workers = None if workers is None else whole_number("workers", workers, 1, 1024)
+    workers = known_workers(executor, workers)
     if spread is not None and not isinstance(spread, Spread):
         raise CallError(Problem("spread", Phrase("found value", value=f'{spread!r:.60}'), Phrase("give a spread")))
-    if executor is not None and not hasattr(executor, "submit"):
-        raise CallError(
-            Problem(
-                "executor",
-                Phrase("found value", value=f"{executor!r:.60}"),
-                Phrase("give one that has submit as those of"),
-            )
-        )
     source, name = _source(scene)
     if find is not None:
         source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
-from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, whole_number
+from graphkin.api.arguments import CHART_FORMATS, SceneLike, as_scene, known_words, unknown_words, whole_number
 from graphkin.api.results import Result, named
-from graphkin.errors import CallError, Problem, as_list, did_you_mean
+from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
 from graphkin.words import Phrase
 
@@ -181,11 +181,7 @@ def stability(
     from graphkin.study.stability import KINDS, run_singularities
 
     wanted = tuple(as_list("kinds", kinds, Phrase("give a list of", names='["dead point RRR"]')))
-    wrong = [
-        Problem("kind", f'"{kind!s:.60}"', did_you_mean(str(kind)[:60], KINDS))
-        for kind in wanted if not isinstance(kind, str) or kind not in KINDS
-    ]  # fmt: skip
-    if wrong:
+    if wrong := unknown_words("kind", wanted, KINDS):
         raise CallError(*wrong)
     samples = whole_number("samples", samples, 1, 100)
     known_words(language=language)

@@ -15,6 +15,7 @@ from graphkin.api.arguments import (
     asked_symbols,
     driver_values,
     known_words,
+    known_workers,
     require_callable,
     whole_number,
 )
@@ -114,17 +115,9 @@ def sweep(
     known_words(formats, language, text=text, known_formats=CHART_FORMATS)
     require_callable("progress", progress)
     positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
-    workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and scheduler is not None:
         raise CallError(Problem("executor", Phrase("is given beside a scheduler"), Phrase("give one of them")))
-    if executor is not None and not hasattr(executor, "submit"):
-        raise CallError(
-            Problem(
-                "executor",
-                Phrase("found value", value=f"{executor!r:.60}"),
-                Phrase("give one that has submit as those of"),
-            )
-        )
+    workers = known_workers(executor, workers)
     wishes = {
         name: [as_text(name, one) for one in as_list(name, names, Phrase("give names s_6 1"))]
         for name, names in (("differentiate", differentiate), ("integrate", integrate))
