@@ -20,7 +20,7 @@ from graphkin.scene import reading
 from graphkin.scene.design_file import KINDS
 from graphkin.scene.file_table import FileTable, keys_of
 from graphkin.scene.source import library_text
-from graphkin.words import Phrase, area, from_others, say
+from graphkin.words import Phrase, area, from_others, say, word
 from tests.command import run
 
 ROOMS = Path(graphkin.__file__).parent
@@ -46,7 +46,7 @@ def gaps(text: str) -> frozenset[str]:
 def test_every_phrase_is_made_with_the_gaps_of_its_table():
     made = [(where, key, filled) for where, key, filled in phrases_made() if filled or key in TABLE["problems"]]
     assert 1000 < len(made)
-    assert [] == [(where, key) for where, key, filled in made if filled != gaps(ENGLISH.get(key, "{unknown}"))]
+    assert [] == [(where, key) for where, key, filled in made if filled != gaps(word(key, otherwise="{unknown}"))]
 
 
 def test_every_phrase_of_a_problem_is_made_somewhere():
@@ -74,6 +74,7 @@ def test_what_a_key_is_about_has_chinese():
 @pytest.mark.parametrize(("chinese", "sentence"), [
     ("没有命令“drw”；是否指 'draw'？", "No such command 'drw'. Did you mean 'draw'?"),
     ("没有这个文件或文件夹", "No such file or directory"),
+    ("多出几个参数（a b）", "Got unexpected extra argument(s) (a b)"),
     ("a sentence that no table has", "a sentence that no table has"),
 ])  # fmt: skip
 def test_sentences_of_other_programs_are_known_by_their_words(chinese, sentence):

@@ -327,15 +327,16 @@ def quantity_shown(scene: Mechanism, name: str) -> SweepQuantity:
 
 
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
-    def missing(what: str, known: Collection[str]) -> Callable[[str], Problem | None]:
+    def missing(key: str, known: Collection[str]) -> Callable[[str], Problem | None]:
         def problem(name: str) -> Problem | None:
-            found = Phrase("there is no", what=what, name=name)
+            found = Phrase(key, name=name)
             return None if name in known else Problem(f"find {symbol}", found, did_you_mean(name, known))
 
         return problem
 
     points = [*scene.holders, *(c.name for c in scene.contacts)]
-    known = missing_names(symbol, missing("link", scene.by_name), missing("point", points), scene.by_name)
+    no_link, no_point = missing("there is no link", scene.by_name), missing("there is no point", points)
+    known = missing_names(symbol, no_link, no_point, scene.by_name)
     no_such = None if known else no_force(scene, f"find {symbol}", symbol)
     return known if no_such is None else [no_such]
 

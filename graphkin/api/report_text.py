@@ -17,7 +17,7 @@ from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, say, word
+from graphkin.words import Phrase, about, say, word
 from graphkin.words.rich_text import as_plain, rich_text
 from graphkin.words.written import MOST, amount
 
@@ -141,9 +141,9 @@ def verdict(checked: Checked, language: str) -> str:
         said.append(Phrase("not determined", (", ".join(map(str, report.undetermined)),)))
     if off:
         said.append(Phrase("check failed", (", ".join(off),)))
-    elif agree := sum(r.ok is True for r in report.rows):
+    elif agree := [r for r in report.rows if r.ok is True]:
         whole = not said
-        said.append(Phrase("check passed" if whole else "rest agrees", (agree,)))
+        said.append(Phrase(about("check passed" if whole else "rest agrees", agree), (len(agree),)))
     elif not report.rows and not checked.over_turn:
         said.append(Phrase("nothing checked"))
     return word("between sentences", language).join(say(phrase, language) for phrase in said)
@@ -157,6 +157,8 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
         pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
         return [say(Phrase("at pins", (", ".join(pins),)), language)] if pins else []
     ways = dict.fromkeys(n for n in other.sheet.remarks if isinstance(n, AtContact))
+    if not ways:  # nothing asked leads over a contact
+        return []
     names, curve = [n.contact for n in ways], any(n.on_curve for n in ways)
     first = {row.symbol: row for row in checked.report.rows}
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]

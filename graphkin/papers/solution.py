@@ -276,5 +276,6 @@ def _verdict(lesson: Lesson) -> Said:
     """Whether the readings of the table agree."""
     rows = [row for row in lesson.results if row.ok is not None]
     wrong = [row for row in rows if row.ok is False]
-    phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else Phrase("all agree", (len(rows),))
+    agree = Phrase(about("all agree", rows), (len(rows),))
+    phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else agree
     return tuple((each, lesson.account.sentence(phrase, each)) for each in languages(lesson.language))

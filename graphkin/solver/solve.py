@@ -20,7 +20,7 @@ from graphkin.solver.motion import Motion, goal_values, motion_of
 from graphkin.solver.pose import Array, Pose, rest
 from graphkin.solver.redundant import all_slides
 from graphkin.solver.rounding import ErrorBound
-from graphkin.structure import Structure
+from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
@@ -126,6 +126,8 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
 def as_drawn(motion: Motion, structure: Structure) -> Motion:
     """A motion at one position, with the blocks and points that a replacing mechanism has there; itself of a mechanism
     that nothing replaces."""
+    if len(motion.scene.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
+        structure = structure_of(part_of(structure, motion.scene.find))
     if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
         return motion
     poses = dict(motion.poses)

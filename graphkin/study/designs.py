@@ -92,7 +92,7 @@ def designs_of(
                 )
             )
         except ValueError as error:
-            problems.append(Problem(f"--set {key}", str(error), Phrase("write key 40 60 21 key 40 50")))
+            problems.append(Problem(f"--set {key}", error.args[0], Phrase("write key 40 60 21 key 40 50")))
     rows: tuple[tuple[Value, ...], ...] | None = None
     keys: tuple[str, ...] = ()
     if table is not None:
@@ -196,7 +196,7 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
         try:
             rows.append(tuple(_value(cell) for cell in line))
         except ValueError as error:
-            problems.append(Problem(Phrase("row", name=shown, number=number), str(error)))
+            problems.append(Problem(Phrase("row", name=shown, number=number), error.args[0]))
     if problems:
         raise CallError(*problems[:20])
     return keys, tuple(rows)

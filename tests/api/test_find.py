@@ -41,3 +41,26 @@ def test_everything_that_names_nothing_is_told() -> None:
     with pytest.raises(graphkin.CallError) as refusal:
         graphkin.solve(SIXBAR, find=["v_Q", "v_D", "omega_9"])
     assert 2 == len(refusal.value.problems)
+
+
+@pytest.mark.parametrize(
+    ("scene", "symbol"),
+    [("fourbar-150-500-300-400", "d_A/D"), ("loader-cylinder", "omega_2"), ("cam-swinging-roller", "d_A/C")],
+)
+def test_what_asks_for_not_every_driver_is_checked(scene: str, symbol: str) -> None:
+    done = run("check", scene, "--find", symbol)
+    assert (0, True) == (done.returncode, f" {symbol} " in done.stdout), done.stderr
+
+
+def test_one_reading_is_not_called_all_readings() -> None:
+    shown = run("check", "fourbar-150-500-300-400", "--find", "d_A/D").stdout
+    assert shown.rstrip().endswith("The reading agrees with the analytic solution.")
+
+
+def test_a_name_that_is_not_there_is_told_in_the_reader_s_language() -> None:
+    told = run("check", SIXBAR, "--find", "v_B@99", "--find", "v_Q", "--lang", "zh").stderr
+    assert ("没有构件“99”" in told, "没有点“Q”" in told) == (True, True), told
+
+
+def test_what_leads_over_no_contact_tells_of_none() -> None:
+    assert "at contact" not in run("check", "cam-swinging-roller", "--find", "d_A/C").stdout

@@ -45,7 +45,7 @@ from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, wi
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, set_lines, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.words import Phrase, languages, say, word
+from graphkin.words import Phrase, about, languages, say, word
 
 __all__ = ["FIGURES", "sheet_page"]
 
@@ -487,9 +487,9 @@ def title_block(sheet: Sheet, shown: Sequence[Compared], letters: Letters, langu
     words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
     answers: tuple[Primitive, ...] = ()
     if shown:
-        wrong = sum(row.ok is False for row in shown)
-        whole = sum(row.ok is not None for row in shown)
-        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase("all agree", (whole,))
+        judged = [row.ok for row in shown if row.ok is not None]
+        wrong, whole = judged.count(False), len(judged)
+        phrase = Phrase("not all agree", (wrong, whole)) if wrong else Phrase(about("all agree", judged), (whole,))
         answers = tuple(
             Text(complex(two + 2.0, box.top + 4.2 + 3.6 * i), fitted(say(phrase, each), 2.6, box.right - two - 4.0))
             for i, each in enumerate(languages(language))
