@@ -96,10 +96,13 @@ class CamMade:
         ):
             if most is None:
                 continue
-            said = Phrase(f"cam pressure {kind}", size=Neutral(f"{_degrees(most.value)}°"), place=_place(most))
+            said = Phrase("cam disc no pressure")  # under a flat face square to the line
+            if most.value:
+                said = Phrase(f"cam pressure {kind}", size=Neutral(f"{_degrees(most.value)}°"), place=_place(most))
             if kept is not None and allowed is not None:
                 said = Phrase("cam kept" if kept else "cam exceeded", (said, f"{math.degrees(allowed):.6g}°"))
-            made.append(said)
+            if said not in made:
+                made.append(said)
         if study.radius is not None:
             size = Neutral(f"{self._length(study.radius.value)} {unit}")
             made.append(Phrase("cam radius", size=size, place=_place(study.radius)))

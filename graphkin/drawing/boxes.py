@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.account.headings import facts, figure_title, term, titles
+from graphkin.account.headings import drivers, facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
@@ -299,6 +299,10 @@ class FigurePage:
 
     def term(self, key: str) -> str:
         return term(key, self.language)
+
+    def at_drivers(self, name: str) -> str:
+        """What a figure shows, and where the drivers stand: the line below its title."""
+        return f"{name}{punctuation('colon', self.language)}{drivers(self.sheet, self.letters)}"
 
     def said(self, key: str, *arguments: object) -> tuple[str, ...]:
         """A phrase in each language of the page, one line where its formulas can stand once."""

@@ -210,6 +210,11 @@ def test_the_command_writes_its_files_and_says_what_it_found(tmp_path):
     assert "greatest pressure angle of the rise: 28.8087°" in done.stdout
 
 
+def test_a_flat_face_has_no_greatest_pressure_angle_but_none_at_all():
+    said = [str(phrase) for phrase in graphkin.cam("cam-flat-face").made[0].phrases()]
+    assert ["the pressure angle is 0° all the time"] == [sentence for sentence in said if "pressure" in sentence]
+
+
 def test_the_command_s_json_has_each_cam(tmp_path):
     done = run("cam", "cam-flat-face", "--json", "-o", str(tmp_path))
     data = json.loads(done.stdout)

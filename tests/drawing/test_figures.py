@@ -12,6 +12,7 @@ from functools import lru_cache
 
 import pytest
 
+import graphkin
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
 from graphkin.drawing.font_widths import text_box
@@ -301,3 +302,12 @@ def test_nothing_runs_off_a_small_sheet_and_no_words_stand_on_each_other(name: s
     texts = [text_box(thing) for thing in walk(page.children) if isinstance(thing, Text)]
     assert all(Box(0.0, 0.0, page.width, page.height).grown(-5.0).holds(box) for box in texts)
     assert [] == [(a, b) for i, a in enumerate(texts) for b in texts[:i] if a.grown(-0.3).overlaps(b)]
+
+
+@pytest.mark.parametrize("figure", ["mechanism", "forces", "lever", "loops"])
+def test_the_line_below_a_title_has_the_colon_of_its_language(figure: str) -> None:
+    drawn = graphkin.draw("shaper-forces", figures=[figure], language="zh")
+    root = ET.fromstring(drawn.figures[figure].content("svg"))
+    lines = ["".join(text.itertext()) for text in root.iter("{http://www.w3.org/2000/svg}text")]
+    assert [] == [line for line in lines if "14.9006" in line and ": " in line]
+    assert any(re.match("[一-龥]+：φ", line) for line in lines), lines[:5]

@@ -34,7 +34,7 @@ def test_the_groups_of_both_drivers_are_taken_apart(shaper: ET.Element) -> None:
 
 
 def test_the_mobility_stands_there_in_numbers(shaper: ET.Element) -> None:
-    assert "n = 5 moving links, 7 lower pairs, 0 higher pairs" in words(shaper)
+    assert "moving links n = 5, lower pairs 7, higher pairs 0" in words(shaper)
 
 
 def test_each_group_tells_its_kind_class_and_joints(shaper: ET.Element) -> None:

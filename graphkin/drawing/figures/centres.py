@@ -15,7 +15,7 @@ from itertools import pairwise, permutations
 
 import numpy as np
 
-from graphkin.account.headings import describe, drivers, figure_title, punctuation, term
+from graphkin.account.headings import describe, figure_title, term
 from graphkin.account.notation import Letters, in_counting_order
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
 from graphkin.construction.room import Room, scales_for
@@ -181,7 +181,7 @@ def centres_figure(
     figure = panel(wide, high, drawn)
     report = _report(centres, turning, letters, spoken, page.width)
     made = page.drawing(
-        page.term("centres") + punctuation("colon", spoken) + drivers(sheet, letters),
+        page.at_drivers(page.term("centres")),
         column(row(figure, side, gap=BESIDE), report, gap=GAP), page.scale("mechanism"), title="centres",
         said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
     )  # fmt: skip

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.account.headings import drivers, punctuation
+from graphkin.account.headings import punctuation
 from graphkin.construction.centres import Centres
 from graphkin.construction.centres.pairs import LinkPair
 from graphkin.drawing.box import Box
@@ -216,7 +216,7 @@ def centrodes_figure(
     keys = [row(_sample(stroke), prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend]
     end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
     return page.drawing(
-        f"{page.term('centrodes')} {link}{punctuation('colon', page.language)}{drivers(sheet, letters)}",
+        page.at_drivers(f"{page.term('centrodes')} {link}"),
         column(page.panel(content.height + 2 * ROOM, curves), *keys), page.scale("mechanism"), title="centrodes",
         said="".join(said + end for said, _ in legend).strip(),
     )  # fmt: skip

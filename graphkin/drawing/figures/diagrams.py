@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, drivers, punctuation, remarks
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, remarks
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
@@ -63,7 +63,7 @@ def diagram_figure(
     title = FIGURE_WORDS[diagram]
     unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""
     return page.drawing(
-        page.term(title) + punctuation("colon", spoken) + drivers(sheet, letters),
+        page.at_drivers(page.term(title)),
         column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
         ",  ".join(filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
         note="" if diagram == "mechanism" else page.term("step number"),

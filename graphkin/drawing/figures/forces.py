@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from graphkin.account.forces import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
 from graphkin.account.given_loads import given_loads, spring_lines
-from graphkin.account.headings import drivers, figure_title, term
+from graphkin.account.headings import figure_title, term
 from graphkin.account.notation import Letters
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
@@ -56,7 +56,7 @@ def forces_figure(
         for state in forces.states for group in state.groups for _, vectors, inside in polygons_of(group)
     ]  # fmt: skip
     page = replace(page, width=max(width - 2 * MARGIN, *(box.width for box in boxes), 0.0))
-    below = f"{page.term('forces')}:  {drivers(sheet, page.letters)}"
+    below = page.at_drivers(page.term("forces"))
     spare = page.height_for(below, height)
     needed = max((box.height for box in boxes), default=0.0) + 2 * page.prose(("force",)).height
     room, height = max(spare, needed), height + max(0.0, needed - spare)  # a larger paper for a wished scale

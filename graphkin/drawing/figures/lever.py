@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from graphkin.account.forces import lever_sum
-from graphkin.account.headings import drivers, written
+from graphkin.account.headings import written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
@@ -64,7 +64,7 @@ def lever_figure(
         body += _lever(page, state, lever, str(number or ""))
     per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
     return page.drawing(
-        f"{page.term('lever')}:  {drivers(sheet, page.letters)}", column(*body, gap=3.0), "", title="lever",
+        page.at_drivers(page.term("lever")), column(*body, gap=3.0), "", title="lever",
         said=page.said("lever described")[0], metadata={"scales": {"velocity": float(f"{per:.12g}")}},
     )  # fmt: skip
 

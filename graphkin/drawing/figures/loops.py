@@ -7,7 +7,7 @@ import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
 
-from graphkin.account.headings import drivers, number
+from graphkin.account.headings import number
 from graphkin.account.loops import MatrixEquation, equation, matrices, projections, root, size_name
 from graphkin.account.notation import letters_of
 from graphkin.checking.loop_gaps import places_of_loops, stated_arrows
@@ -63,7 +63,7 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     scale = _scale(blocks)
     body = column(*(_loop(page, block, loop, scale) for block in blocks for loop in block.loops), gap=5.0)
     return page.drawing(
-        f"{page.term('loops')}:  {drivers(sheet, page.letters)}", body, page.scale("mechanism", scale), title="loops",
+        page.at_drivers(page.term("loops")), body, page.scale("mechanism", scale), title="loops",
         said=_described(page, blocks), metadata={"scales": {"length": scale / sheet.scene.units.metres}},
     )  # fmt: skip
 

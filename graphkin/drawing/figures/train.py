@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from graphkin.account.headings import drivers, number, written
+from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters
 from graphkin.construction.centre_lines import CentreLine, PlanLine, TrainPlan
 from graphkin.construction.sheet import Sheet
@@ -69,7 +69,7 @@ def _page(page: FigurePage, plan: TrainPlan) -> Drawing:
     size, speed = plan.scales.length / sheet.scene.units.metres, plan.scales.speed / sheet.scene.units.rates.metres
     scales = {"length": size, plan.order: speed, "omega" if velocity else "alpha": plan.scales.rate}
     return page.drawing(
-        f"{page.term(name)}:  {drivers(sheet, page.letters)}", body, ",  ".join(_scales(page, plan)), title=name,
+        page.at_drivers(page.term(name)), body, ",  ".join(_scales(page, plan)), title=name,
         said=page.said("plan described")[0],
         metadata={"scales": {key: float(f"{value:.12g}") for key, value in scales.items()}},
     )  # fmt: skip
