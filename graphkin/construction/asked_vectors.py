@@ -68,7 +68,7 @@ def _split(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) ->
     tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
     arm = plot.places[of.point] - plot.places[to.point]
     if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
-        arm = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses).rolling_centres(of.point)[1]
+        arm = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses).rolling_centres(of.point)[1]
     elif abs(arm) <= plot.tiny:
         raise CallError(
             Problem(

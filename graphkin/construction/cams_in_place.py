@@ -69,8 +69,8 @@ def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen
     """The angle of a cam that other links turn."""
     part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
     behind = bool(part.cams)
-    frame = _placed(analyse(_replaced(part, values, seen)), values) if behind else _moved_to(analyse(part), values)
-    return cmath.phase(frame.poses[cam.link].axis)
+    paper = _placed(analyse(_replaced(part, values, seen)), values) if behind else _moved_to(analyse(part), values)
+    return cmath.phase(paper.poses[cam.link].axis)
 
 
 def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
@@ -78,7 +78,7 @@ def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
     drivers = structure.scene.drivers
     kept, own = {d.key: values[d.key] for d in drivers}, {d.key: d.values[0] for d in drivers}
     branches = branches_at(structure, structure.elements, kept, own, None)
-    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).frame
+    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
 
 
 def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
@@ -90,26 +90,26 @@ def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     part = part_of(analyse(scene), [Symbol("theta", link=name) for name in sorted(names)])
     if part.cams:
         return dict(scene.starts)
-    frame = _moved_to(analyse(part), values)
-    found = {name: cmath.phase(frame.poses[name].axis) for name in names if name in frame.poses}
+    paper = _moved_to(analyse(part), values)
+    found = {name: cmath.phase(paper.poses[name].axis) for name in names if name in paper.poses}
     for pair in part.slidings:
         guide = part.by_name[pair.on].guides[pair.guide]
-        line = frame.poses[pair.on]
-        start = line.origin + line.axis * guide.through * frame.mm
-        found[pair.key] = dot(frame.poses[pair.link].origin - start, line.axis * guide.direction) / frame.mm
+        line = paper.poses[pair.on]
+        start = line.origin + line.axis * guide.through * paper.mm
+        found[pair.key] = dot(paper.poses[pair.link].origin - start, line.axis * guide.direction) / paper.mm
     return {**scene.starts, **found}
 
 
 def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
     kept = {d.key: values[d.key] for d in structure.scene.drivers}
     branches = branches_at(structure, structure.elements, kept, kept, None)
-    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).frame
+    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
 
 
 def _places(structure: Structure, values: Mapping[str, float]) -> dict[str, complex]:
     """Where the points of moving links lie (m)."""
-    frame = _placed(structure, values)
-    return {p: frame.point(link.name, p) / frame.mm for link in structure.scene.links for p in link.points}
+    paper = _placed(structure, values)
+    return {p: paper.point(link.name, p) / paper.mm for link in structure.scene.links for p in link.points}
 
 
 def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
@@ -137,8 +137,8 @@ def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mappi
         for lift in (cam.law.least, cam.law.greatest):
             value = cam.leaves(lift, -1 if driver.omega < 0.0 else 1)
             there = {**values, driver.key: value}
-            frame = _placed(cams_in_place(analyse(whole), there), there)
-            ends.append(LimitPosition(value, dict(frame.poses)))
+            paper = _placed(cams_in_place(analyse(whole), there), there)
+            ends.append(LimitPosition(value, dict(paper.poses)))
         backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
         low, high = ends[::-1] if backwards else ends
         swing = cam.law.greatest - cam.law.least

@@ -74,37 +74,37 @@ def _nothing(_: int) -> Story:
     return ()
 
 
-def drive(frame: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
+def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
-    value = frame.values[driver.key]
+    value = paper.values[driver.key]
     if isinstance(driver, AngleDriver) or (isinstance(driver, Rolled) and driver.turns):
         if isinstance(driver, AngleDriver):
             own = driver.link == name
             to = driver.relative_to if own else driver.link
-            base = frame.poses[to].axis
+            base = paper.poses[to].axis
         else:
             own, to, base = True, "", 1 + 0j
-        axis = unit(base * frame.instrument.angle(direction(math.degrees(value if own else -value))))
+        axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
         assert isinstance(pair, Turn)
-        hinge = frame.point(pair.b, pair.point)
-        pose = Pose(hinge - axis * (frame.links[name].points[pair.point] * frame.mm), axis)
+        hinge = paper.point(pair.b, pair.point)
+        pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
         return pose, ((LaidOffAngle(name, value if own else -value, pair.point, to), ()),)
     assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
-    pose = across(pair, name, frame.poses[known], frame.instrument.length(value * frame.mm), frame.mm)
-    start = frame.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
-    end = pose.origin if name == pair.a else frame.poses[known].origin
-    return pose, ((LaidOffTravel(pair.key, abs(value) * frame.mm), (Bar(start, end, name),)),)
+    pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
+    start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
+    end = pose.origin if name == pair.a else paper.poses[known].origin
+    return pose, ((LaidOffTravel(pair.key, abs(value) * paper.mm), (Bar(start, end, name),)),)
 
 
-def _rrr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, outer2 = dyad.outer_first, dyad.outer_second
     assert isinstance(outer1, Turn)
     assert isinstance(outer2, Turn)
-    (p1, local1), (p2, local2) = hinge(frame, one, outer1), hinge(frame, two, outer2)
-    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
-    r1, r2 = frame.instrument.compass(abs(inner1 - local1)), frame.instrument.compass(abs(inner2 - local2))
+    (p1, local1), (p2, local2) = hinge(paper, one, outer1), hinge(paper, two, outer2)
+    letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
+    r1, r2 = paper.instrument.compass(abs(inner1 - local1)), paper.instrument.compass(abs(inner2 - local2))
     if r1 == 0.0 or r2 == 0.0:
         return Meeting(0.0, 0.0, (), _nothing)  # an arc of no radius finds nothing
     lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
@@ -120,15 +120,15 @@ def _rrr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
 
-def _rrp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, slide = dyad.outer_first, dyad.outer_second
     assert isinstance(outer, Turn)
     assert isinstance(slide, Slide)
-    p, local = hinge(frame, one, outer)
-    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
-    start, step = rail(frame, two, slide)
+    p, local = hinge(paper, one, outer)
+    letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
+    start, step = rail(paper, two, slide)
     q0 = start.place(inner2)
-    radius = frame.instrument.compass(abs(inner1 - local))
+    radius = paper.instrument.compass(abs(inner1 - local))
     if radius == 0.0:
         return Meeting(0.0, 0.0, (), _nothing)
     off = abs(cross(p - q0, step))
@@ -147,22 +147,22 @@ def _rrp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
 
-def _rpr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, slide, outer2 = dyad.outer_first, dyad.inner, dyad.outer_second
     assert isinstance(outer1, Turn)
     assert isinstance(slide, Slide)
     assert isinstance(outer2, Turn)
-    (p1, local1), (p2, local2) = hinge(frame, one, outer1), hinge(frame, two, outer2)
+    (p1, local1), (p2, local2) = hinge(paper, one, outer1), hinge(paper, two, outer2)
     # the sliding body as seen from the guiding one, at travel 0
-    at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, frame.mm)
+    at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, paper.mm)
     turn = at_zero.axis * one.rel[slide.a].axis.conjugate()
     g = two.rel[slide.b].axis * slide.guide.direction
     c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
     offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
     if abs(offset) > 1e-9 * abs(c0):
-        offset = frame.instrument.compass(offset)
+        offset = paper.instrument.compass(offset)
     span = abs(p1 - p2)
-    size = max((abs(z) * frame.mm for link in frame.links.values() for z in link.points.values()), default=0.0) or 1.0
+    size = max((abs(z) * paper.mm for link in paper.links.values() for z in link.points.values()), default=0.0) or 1.0
     gap = (span - abs(offset)) * (span + abs(offset)) / size**2
     poses = []
     roots: tuple[float, ...] = ()
@@ -188,12 +188,12 @@ def _rpr(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell, angle)
 
 
-def _prp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     slide1, slide2 = dyad.outer_first, dyad.outer_second
     assert isinstance(slide1, Slide)
     assert isinstance(slide2, Slide)
-    letter, inner1, inner2 = inner_hinge(frame, dyad, one, two)
-    (start1, step1), (start2, step2) = rail(frame, one, slide1), rail(frame, two, slide2)
+    letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
+    (start1, step1), (start2, step2) = rail(paper, one, slide1), rail(paper, two, slide2)
     q1, q2 = start1.place(inner1), start2.place(inner2)
 
     def placed(q: complex) -> dict[str, Pose]:
@@ -204,17 +204,17 @@ def _prp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     return _two_lines((q1, step1), (q2, step2), placed, PathsCross(letter, (slide1.key, slide2.key)))
 
 
-def _rpp(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
     assert isinstance(outer, Turn)
     assert isinstance(inner, Slide)
     assert isinstance(slide, Slide)
-    p, local = hinge(frame, one, outer)
-    start, step = rail(frame, two, slide)
+    p, local = hinge(paper, one, outer)
+    start, step = rail(paper, two, slide)
     resting = two.placed(start)
     sliding_first = inner.a in one.rel
     mine, other = (inner.a, inner.b) if sliding_first else (inner.b, inner.a)
-    at_zero = across(inner, mine, resting[other], 0.0, frame.mm)
+    at_zero = across(inner, mine, resting[other], 0.0, paper.mm)
     axis = unit(at_zero.axis * one.rel[mine].axis.conjugate())
     pose1 = Pose(p - axis * local, axis)
     guiding = resting if sliding_first else one.placed(pose1)
@@ -260,9 +260,9 @@ _MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody],
 }
 
 
-def meet(frame: PlacedLinks, dyad: Dyad) -> Meeting:
+def meet(paper: PlacedLinks, dyad: Dyad) -> Meeting:
     """Draw the loci of a dyad and find where they meet."""
-    return _MEETINGS[dyad.kind](frame, dyad, RigidBody(frame, dyad.first), RigidBody(frame, dyad.second))
+    return _MEETINGS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
 
 
 Choose = Callable[[int, Dyad | Cluster], Poses | None]

@@ -99,7 +99,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
         raise Unsolvable(
             "not drawn", Problem(Phrase("links", links=names), Phrase("no point of the sliding link is drawn"))
         )
-    along = plot.frame.poses[slide.b].axis * slide.guide.direction
+    along = plot.paper.poses[slide.b].axis * slide.guide.direction
     slip = plot.end(order, node(plot.links, point, slide.a)) - plot.end(order, node(plot.links, point, slide.b))
     return dot(slip, along) * plot.scales.of(order)
 

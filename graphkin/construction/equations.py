@@ -499,7 +499,7 @@ def _slip_read(plot: Polygons, edge: Edge) -> tuple[complex, float]:
 
 
 def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Slide) -> list[Component]:
-    sense = plot.frame.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
+    sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
     given = _given(plot, slide.key, order)
     fixed = plot.fixed(edge.start)
     role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
@@ -534,7 +534,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     of Coriolis, and along the normal what the curvatures of both outlines give."""
     one, two = (ref.link for ref in edge.labels)
     contact, place, normal = plot.contact(edge.contact)
-    touching = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses)
+    touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
     plot.board.notice(order, AtContact(contact.name))
     tangent = -1j * normal
     fixed = plot.fixed(edge.start)
@@ -543,7 +543,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
         return [Component(symbol_of(plot, "v", edge), role, tangent, None, edge.direction)]
     centres = dict(zip((d.link for d in contact.round), touching.centres(contact), strict=True))
     # 1/m, positive where the centre of curvature lies on the side of the normal
-    bends = [plot.frame.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
+    bends = [plot.paper.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
     omega, other = (plot.rates["velocity"][n].value for n in (one, two))
     slip, speed = _slip_read(plot, edge)
     speed = speed if dot(slip, tangent) >= 0 else -speed
@@ -571,8 +571,8 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     if order == "velocity":
         return []
     one, two = (ref.link for ref in edge.labels)
-    mm = plot.frame.mm
-    place, normal, centres = Touching(plot.structure.scene, mm, plot.frame.poses).rolling_centres(edge.rolling)
+    mm = plot.paper.mm
+    place, normal, centres = Touching(plot.structure.scene, mm, plot.paper.poses).rolling_centres(edge.rolling)
     bends = [mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
     turning = plot.rates["velocity"][two].value - plot.rates["velocity"][one].value
     span = normal * (turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration)

@@ -175,26 +175,26 @@ def found_near(
     structure = choices.structure
     ground = structure.scene.frame.name
     values = structure.followed(values)
-    frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
+    paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
     from_there = guess if start is None else start
 
     def choose(_: int, element: Dyad | Cluster) -> Poses | None:
         if isinstance(element, Dyad):
-            return _nearest(frame, element, guess)
-        trial = _best(choices, element, frame, guess)
+            return _nearest(paper, element, guess)
+        trial = _best(choices, element, paper, guess)
         if trial is not None and element.rolling:
-            return fitted(choices.last[element].rolled_from(from_there, frame.mm), frame, guess)
-        return None if trial is None else _closed(trial, frame, guess)
+            return fitted(choices.last[element].rolled_from(from_there, paper.mm), paper, guess)
+        return None if trial is None else _closed(trial, paper, guess)
 
     def rolled(driver: Rolled) -> float:
-        return rolled_near(structure, frame, driver, from_there, guess)
+        return rolled_near(structure, paper, driver, from_there, guess)
 
-    return dict(frame.poses) if assembled(frame, elements, choose, rolled) else None
+    return dict(paper.poses) if assembled(paper, elements, choose, rolled) else None
 
 
-def _nearest(frame: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
+def _nearest(paper: PlacedLinks, dyad: Dyad, guess: Poses) -> Poses | None:
     """The assembly of a dyad that lies nearest to a guess."""
-    meeting = meet(frame, dyad)
+    meeting = meet(paper, dyad)
     branch = meeting.nearest(guess)
     return None if branch is None else meeting.poses[branch]
 
@@ -278,13 +278,13 @@ def drawn_near(
     reduced: ReducedMechanism, known: PlacedLinks, guess: Poses, values: Sequence[float] | np.ndarray
 ) -> PlacedLinks | None:
     """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
-    frame = reduced.opened(known, [float(v) for v in values])
+    paper = reduced.opened(known, [float(v) for v in values])
 
     def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
         assert isinstance(dyad, Dyad)
-        return _nearest(frame, dyad, guess)
+        return _nearest(paper, dyad, guess)
 
-    return frame if assembled(frame, reduced.elements, choose) else None
+    return paper if assembled(paper, reduced.elements, choose) else None
 
 
 def best_reduced(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:

@@ -67,12 +67,12 @@ class GroupTrial:
     poses: Poses
     given: bool = False
 
-    def on(self, frame: PlacedLinks) -> dict[str, Pose]:
+    def on(self, paper: PlacedLinks) -> dict[str, Pose]:
         """Where the links lie, at the scale of a sheet."""
-        mm = frame.mm * self.reduced.structure.scene.size
+        mm = paper.mm * self.reduced.structure.scene.size
         return {name: pose.scaled(mm) for name, pose in self.poses.items()}
 
-    def place(self, frame: PlacedLinks) -> None:
+    def place(self, paper: PlacedLinks) -> None:
         """Place a group among the links known already.
 
         Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else is
@@ -82,29 +82,29 @@ class GroupTrial:
         ------
         Unsolvable : "not assembled": what was left out fits nowhere near
         """
-        if frame.instrument.faultless:
-            exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
-            frame.poses.update(_fit(exact, self.reduced, self.on(frame)))
+        if paper.instrument.faultless:
+            exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
+            paper.poses.update(_fit(exact, self.reduced, self.on(paper)))
             return
         stops: list[Unsolvable] = []
-        for reduced in _to_hand(frame, self):
+        for reduced in _to_hand(paper, self):
             for _ in range(AGAIN):
                 try:
-                    _placed_by_hand(frame, reduced, self.on(frame))
+                    _placed_by_hand(paper, reduced, self.on(paper))
                 except Unsolvable as stop:
                     stops.append(stop)
                 else:
                     return
         raise stops[0]
 
-    def steps(self, frame: PlacedLinks, so_far: PlacedLinks) -> Story:
+    def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
         """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
         reduced = self.reduced
-        poses = {**so_far.poses, **{n: frame.poses[n] for n in reduced.cluster.members}}
-        values = np.array(reduced.values(poses, frame.mm))
+        poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.cluster.members}}
+        values = np.array(reduced.values(poses, paper.mm))
         story: list[tuple[OnMechanism, tuple[Stroke, ...]]] = []
         if self.given:
-            story += [(_started(frame, driver), ()) for driver in reduced.cluster.starts]
+            story += [(_started(paper, driver), ()) for driver in reduced.cluster.starts]
         if reduced.trial:
             driven = tuple(d.key for d in reduced.trial)
             strokes: tuple[Stroke, ...] = ()
@@ -141,7 +141,7 @@ class GroupTrial:
 
 
 def nearest_assembly(
-    choices: Choices, elements: Sequence[Element], frame: PlacedLinks, poses: Poses, starting: Choices | None = None
+    choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
 ) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
     """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
     placed, so that links lie where they are known to lie (``poses``).
@@ -154,29 +154,29 @@ def nearest_assembly(
     trials: dict[Cluster, GroupTrial] = {}
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
-            branches[i] = meet(frame, element).nearest(poses) or 0
+            branches[i] = meet(paper, element).nearest(poses) or 0
         elif isinstance(element, Cluster):
             if starting is not None and element.rolling:
-                reduced = standing(starting, element, frame, poses)
+                reduced = standing(starting, element, paper, poses)
             else:
-                reduced = best_reduced(choices, element, frame, poses)
+                reduced = best_reduced(choices, element, paper, poses)
             if reduced is None:
                 links = Phrase("links", links=", ".join(element.links))
                 raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
             given = starting is not None and bool(element.rolling)
-            trials[element] = GroupTrial(reduced.rolled_from(poses, frame.mm), poses, given)
+            trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
         for name in links_of(element):
-            frame.poses[name] = poses[name]
+            paper.poses[name] = poses[name]
     return branches, trials
 
 
-def _to_hand(frame: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:
+def _to_hand(paper: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:
     """The reduced mechanism of a trial, then others; links that roll stand as they are given in their own only."""
     yield trial.reduced
     if trial.given:
         return
-    guess = trial.on(frame)
-    known = replace(frame, instrument=EXACT, poses={name: guess.get(name, frame.poses[name]) for name in frame.poses})
+    guess = trial.on(paper)
+    known = replace(paper, instrument=EXACT, poses={name: guess.get(name, paper.poses[name]) for name in paper.poses})
     known.pricked = {}
     yield from best_first(trial.reduced.structure, trial.reduced.cluster, known, guess)
 
@@ -209,41 +209,41 @@ def _between(one: Pose, two: Pose, part: float) -> Pose:
     return Pose(one.origin + part * (two.origin - one.origin), axis / abs(axis))
 
 
-def _placed_by_hand(frame: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
+def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> None:
     """The last trial by hands that err, what it leaves open, and the drawing that this asks for."""
-    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked=dict(frame.pricked))
-    poses = {**frame.poses, **_fit(exact, reduced, guess)}
-    values = np.array(reduced.values(poses, frame.mm))
+    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
+    poses = {**paper.poses, **_fit(exact, reduced, guess)}
+    values = np.array(reduced.values(poses, paper.mm))
     if reduced.trial:
-        at, slopes = _by_hand(frame, reduced, poses, values)
+        at, slopes = _by_hand(paper, reduced, poses, values)
         values = values - np.linalg.solve(slopes, at)
-    last = drawn_near(reduced, frame, poses, values)
+    last = drawn_near(reduced, paper, poses, values)
     if last is None:
         names = ", ".join(reduced.cluster.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("the last trial drawing does not close"))
         )
-    frame.pricked.update(last.pricked)
-    frame.poses.update(reduced.put_back(last))
-    frame.settle([r.left_out for r in reduced.removed if r.left_out])
+    paper.pricked.update(last.pricked)
+    paper.poses.update(reduced.put_back(last))
+    paper.settle([r.left_out for r in reduced.removed if r.left_out])
 
 
 def _by_hand(
-    frame: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
+    paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """What a trial drawing leaves open as hands find and read it, and how that changes with the trial values."""
-    drawn = drawn_near(reduced, frame, poses, values)
+    drawn = drawn_near(reduced, paper, poses, values)
     if drawn is None:
         names = ", ".join(reduced.cluster.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("a trial drawing does not close"))
         )
-    size = frame.mm * reduced.structure.scene.size
+    size = paper.mm * reduced.structure.scene.size
     gaps = np.array([
-        gap if one.is_angle else frame.instrument.read(gap * size) / size
+        gap if one.is_angle else paper.instrument.read(gap * size) / size
         for gap, one in zip(reduced.gaps(drawn), reduced.removed, strict=True)
     ])  # fmt: skip
-    exact = replace(frame, instrument=EXACT, poses=dict(frame.poses), pricked={})
+    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked={})
     step = 1e-6
     rows = []
     for i in range(len(values)):
@@ -254,11 +254,11 @@ def _by_hand(
     return gaps, np.array(rows).T
 
 
-def _started(frame: PlacedLinks, driver: AnyDriver) -> RollingStarts:
+def _started(paper: PlacedLinks, driver: AnyDriver) -> RollingStarts:
     """What is given of a link, or of a pair, at the position from which rolling starts."""
     if isinstance(driver, AngleDriver):
-        return RollingStarts(driver.link, "angle", cmath.phase(frame.poses[driver.link].axis))
-    return RollingStarts(driver.key, "travel", driver.values[0] * frame.mm)
+        return RollingStarts(driver.link, "angle", cmath.phase(paper.poses[driver.link].axis))
+    return RollingStarts(driver.key, "travel", driver.values[0] * paper.mm)
 
 
 def _trial_drawings(
@@ -307,18 +307,18 @@ def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> compl
     return lies.place((free - was.origin) / was.axis)
 
 
-def _at(frame: PlacedLinks, poses: Poses, point: str, link: str) -> complex:
+def _at(paper: PlacedLinks, poses: Poses, point: str, link: str) -> complex:
     pose = poses[link]
-    return pose.origin + pose.axis * frame.links[link].points[point] * frame.mm
+    return pose.origin + pose.axis * paper.links[link].points[point] * paper.mm
 
 
-def _goal(frame: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> tuple[Stroke, ...]:
-    free = _at(frame, poses, *removed.ends[0])
+def _goal(paper: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> tuple[Stroke, ...]:
+    free = _at(paper, poses, *removed.ends[0])
     if removed.slide is None:
-        centre = _at(frame, poses, *removed.ends[1])
+        centre = _at(paper, poses, *removed.ends[1])
         return (CompassArc(centre, abs(free - centre), free),)
     along = removed.along(poses)
-    reach = 0.2 * frame.mm * max((abs(z) for link in frame.links.values() for z in link.points.values()), default=0.0)
+    reach = 0.2 * paper.mm * max((abs(z) for link in paper.links.values() for z in link.points.values()), default=0.0)
     return (Bar(free - along * reach, free + along * reach, ""),)
 
 
@@ -450,12 +450,12 @@ class _Columns:
 
     def _moved(self, driver: AnyDriver) -> tuple[Moved, float]:
         """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
-        frame = self.reduced.structure.scene.frame.name
+        ground = self.reduced.structure.scene.frame.name
         if not isinstance(driver, AngleDriver):
             return Moved(driver.key, "", False), 0.0
         if driver.relative_to in self.known.poses:  # a link that stands already: its angle is taken to the x axis
             return Moved(driver.link, "", True), cmath.phase(self.known.poses[driver.relative_to].axis)
-        return Moved(driver.link, "" if driver.relative_to == frame else driver.relative_to, True), 0.0
+        return Moved(driver.link, "" if driver.relative_to == ground else driver.relative_to, True), 0.0
 
 
 def _missed(reduced: ReducedMechanism, removed: RemovedConstraint, mm: float) -> Missed:

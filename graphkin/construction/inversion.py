@@ -47,20 +47,20 @@ class Inversion:
     def value(self, values: Mapping[str, float], branch: int) -> float:
         """The stand-in's value (rad, m) as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
         mm = 1.0 / self.structure.scene.size
-        return self.read(place(self.structure, self.structure.elements, mm, values, {0: branch}).frame)
+        return self.read(place(self.structure, self.structure.elements, mm, values, {0: branch}).paper)
 
     def near(self, before: float, value: float) -> float:
         """A value of the stand-in nearest to another: angles but for whole turns."""
         turns = isinstance(self.triangle.equivalent, AngleDriver)
         return before + math.remainder(value - before, math.tau) if turns else value
 
-    def read(self, frame: PlacedLinks) -> float:
+    def read(self, paper: PlacedLinks) -> float:
         """The stand-in's value (rad, m) off the links as they lie."""
         pair, equivalent = self.triangle.pair, self.triangle.equivalent
         if isinstance(equivalent, AngleDriver):
-            return cmath.phase(frame.poses[equivalent.link].axis / frame.poses[equivalent.relative_to].axis)
+            return cmath.phase(paper.poses[equivalent.link].axis / paper.poses[equivalent.relative_to].axis)
         assert isinstance(pair, Slide)
-        return travel(pair, frame.poses, frame.mm) / frame.mm
+        return travel(pair, paper.poses, paper.mm) / paper.mm
 
 
 def opened_at_triangles(structure: Structure) -> Structure:
@@ -132,72 +132,72 @@ def own_assembly(
     Unsolvable : "not assembled"
     SceneError : a group has several assemblies and no sketch says which is meant
     """
-    frame = start_board(opened, 1.0 / structure.scene.size, own)
+    paper = start_board(opened, 1.0 / structure.scene.size, own)
     taken: dict[str, int] = {}
     chosen: dict[int, int] = {}
     i = 0
     while i < len(elements):
         group = next((e for e in structure.elements if isinstance(e, Cluster) and elements[i] in e.parts), None)
         if group is None:
-            meant = as_meant(opened, frame, chosen)
-            assembled(frame, elements[i : i + 1], lambda _, dyad, i=i, meant=meant: meant(i, dyad))  # type: ignore[misc]
+            meant = as_meant(opened, paper, chosen)
+            assembled(paper, elements[i : i + 1], lambda _, dyad, i=i, meant=meant: meant(i, dyad))  # type: ignore[misc]
             i += 1
             continue
         run = [j for j in range(i, len(elements)) if elements[j] in group.parts]
         mine = [v for v in inversions if v.triangle in group.triangles]
-        found = list(_ways(frame, elements, run, mine))
+        found = list(_ways(paper, elements, run, mine))
         if not found:
             names = ", ".join(group.links)
             raise Unsolvable(
                 "not assembled",
                 Problem(Phrase("links", links=names), Phrase("no assembly of the group fits together here")),
             )
-        index = pick(structure.scene, group.links, [frame.fresh(way.poses) for way in found], None).index
+        index = pick(structure.scene, group.links, [paper.fresh(way.poses) for way in found], None).index
         way = found[index]
         taken.update({v.key: branch for v, branch in zip(mine, way.triangles, strict=True)})
-        frame.values = way.values
+        paper.values = way.values
         chosen.update(way.branches)
-        frame.poses.update(way.poses)
+        paper.poses.update(way.poses)
         i = run[-1] + 1
-    return taken, dict(frame.values), chosen
+    return taken, dict(paper.values), chosen
 
 
 def _ways(
-    frame: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int], inversions: Sequence[Inversion]
+    paper: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int], inversions: Sequence[Inversion]
 ) -> Iterator[_Way]:
     """Every assembly of the dyads of a group and of its triangles."""
     for branches in product((0, 1), repeat=len(inversions)):
         try:
-            given = {v.key: v.value(frame.values, branch) for v, branch in zip(inversions, branches, strict=True)}
+            given = {v.key: v.value(paper.values, branch) for v, branch in zip(inversions, branches, strict=True)}
         except Unsolvable:
             continue
-        values = {**frame.values, **given}
-        begun = PlacedLinks(frame.links, frame.mm, values, dict(frame.poses), EXACT)
+        values = {**paper.values, **given}
+        begun = PlacedLinks(paper.links, paper.mm, values, dict(paper.poses), EXACT)
         for chosen, poses in _assembled(begun, elements, run):
             if all(_has_its_travel(begun, v, poses) for v in inversions):
                 yield _Way(branches, values, chosen, poses)
 
 
 def _assembled(
-    frame: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int]
+    paper: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int]
 ) -> Iterator[tuple[dict[int, int], dict[str, Pose]]]:
     if not run:
         yield {}, {}
         return
     first, element = run[0], elements[run[0]]
     if isinstance(element, Driven):
-        several: Sequence[Mapping[str, Pose]] = ({element.link: drive(frame, element)[0]},)
+        several: Sequence[Mapping[str, Pose]] = ({element.link: drive(paper, element)[0]},)
     else:
-        several = meet(frame, element).poses
+        several = meet(paper, element).poses
     for branch, poses in enumerate(several):
-        further = PlacedLinks(frame.links, frame.mm, frame.values, {**frame.poses, **poses})
+        further = PlacedLinks(paper.links, paper.mm, paper.values, {**paper.poses, **poses})
         for chosen, rest in _assembled(further, elements, run[1:]):
             yield ({first: branch, **chosen} if isinstance(element, Dyad) else chosen), {**poses, **rest}
 
 
-def _has_its_travel(frame: PlacedLinks, inversion: Inversion, poses: Mapping[str, Pose]) -> bool:
+def _has_its_travel(paper: PlacedLinks, inversion: Inversion, poses: Mapping[str, Pose]) -> bool:
     """Whether the driven slide itself stands as it is given: drawn last, it may also point the other way."""
     slide = inversion.structure.slide(inversion.triangle.driver.key)
     if slide.a not in poses or slide.b not in poses:
         return True
-    return abs(travel(slide, poses, frame.mm) - frame.values[slide.key] * frame.mm) < FITS
+    return abs(travel(slide, poses, paper.mm) - paper.values[slide.key] * paper.mm) < FITS

@@ -232,8 +232,8 @@ def _mark_special(plot: Polygons, move: Special) -> None:
     plot.special.add(move.letter)
     plot.places[move.letter] = at
     if not move.base:
-        pose = plot.frame.poses[move.link]
-        points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.frame.mm}
+        pose = plot.paper.poses[move.link]
+        points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.paper.mm}
         plot.links[move.link] = replace(plot.links[move.link], points=points)
     joints = tuple(leg[-1].end.point for leg in move.legs)
     driven = any(not e.unknown and (e.slide or e.weld) for leg in move.legs for e in leg)
@@ -292,7 +292,7 @@ def _rolling_points(plot: Polygons, group: Cluster) -> list[RollingPoint]:
 
 def _mark_pitch_point(plot: Polygons, name: str) -> str:
     letter = plot.pitch_points[name] = next(iter(_free_letters(plot)))
-    touching = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses)
+    touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
     at = plot.board.instrument.point(touching.rolling_centres(name)[0])
     plot.special.add(letter)
     plot.places[letter] = at
@@ -303,10 +303,10 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
 
 def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> complex:
     if edge.rolling:
-        touching = Touching(plot.structure.scene, plot.frame.mm, plot.frame.poses)
+        touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
         return 1j * touching.rolling_centres(edge.rolling)[1]
     if edge.slide is not None:
-        return plot.frame.poses[edge.slide.b].axis * edge.slide.guide.direction
+        return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
     if edge.contact:
         return -1j * plot.contact(edge.contact)[2]
     if edge.weld is not None and isinstance(edge.weld.pair, Turn):  # both ends lie at one place, off the hinge
@@ -354,8 +354,8 @@ def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
         if not {pair.a, pair.b} <= inside:
             continue
         if isinstance(pair, Slide):
-            along = plot.frame.poses[pair.b].axis * pair.guide.direction
-            at = plot.places[pair.pin] if pair.pin else plot.frame.poses[pair.a].origin
+            along = plot.paper.poses[pair.b].axis * pair.guide.direction
+            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
             joints.append(Joint((pair.a, pair.b), at, along, pair.key in keys))
         else:
             driven = frozenset((pair.a, pair.b)) in hinged

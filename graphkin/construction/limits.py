@@ -214,9 +214,9 @@ def _drawn_again(
 
     def drawn(limit: LimitPosition) -> LimitPosition:
         there = {**values, key: limit.value}
-        frame = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
-        branches, trials = nearest_assembly(Choices(structure, elements), elements, frame, limit.poses)
-        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand, trials).frame.poses)
+        paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
+        branches, trials = nearest_assembly(Choices(structure, elements), elements, paper, limit.poses)
+        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand, trials).paper.poses)
 
     return Limits(drawn(limits.low), drawn(limits.high), limits.swing)
 

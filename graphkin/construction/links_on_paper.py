@@ -115,12 +115,12 @@ class PlacedLinks:
 class RigidBody:
     """A body as one piece: its points in mm in the axes of its base link."""
 
-    def __init__(self, frame: PlacedLinks, body: Body) -> None:
-        self.frame = frame
+    def __init__(self, paper: PlacedLinks, body: Body) -> None:
+        self.paper = paper
         self.body = body
         self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
         for weld in body.welds:
-            value = frame.values[weld.driver.key]
+            value = paper.values[weld.driver.key]
             base = self.rel[weld.a]
             if isinstance(weld.pair, Turn):
                 turned = (weld.driver.link == weld.b) if isinstance(weld.driver, AngleDriver) else True
@@ -128,10 +128,10 @@ class RigidBody:
                 hinge = base.place(self._local(weld.a, weld.pair.point))
                 self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
             else:
-                self.rel[weld.b] = across(weld.pair, weld.b, base, value * frame.mm, frame.mm)
+                self.rel[weld.b] = across(weld.pair, weld.b, base, value * paper.mm, paper.mm)
 
     def _local(self, link: str, point: str) -> complex:
-        return self.frame.links[link].points[point] * self.frame.mm
+        return self.paper.links[link].points[point] * self.paper.mm
 
     def point(self, link: str, point: str) -> complex:
         pose = self.rel[link]
@@ -169,35 +169,35 @@ def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Po
     return Pose(other.origin - axis * (start + travel * g), axis)
 
 
-def hinge(frame: PlacedLinks, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
+def hinge(paper: PlacedLinks, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
     """An outer turning pair: its place on paper and in the body's axes."""
-    return frame.point(pair.b, pair.point), shape.point(pair.a, pair.point)
+    return paper.point(pair.b, pair.point), shape.point(pair.a, pair.point)
 
 
-def _holder(body: Body, frame: PlacedLinks, point: str) -> str:
-    return next(name for name in body.links if point in frame.links[name].points)
+def _holder(body: Body, paper: PlacedLinks, point: str) -> str:
+    return next(name for name in body.links if point in paper.links[name].points)
 
 
-def inner_hinge(frame: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
+def inner_hinge(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
     """The inner turning pair: its letter and its place in each body's axes."""
     point = dyad.inner.point  # type: ignore[union-attr]
     return (
         point,
-        one.point(_holder(dyad.first, frame, point), point),
-        two.point(_holder(dyad.second, frame, point), point),
+        one.point(_holder(dyad.first, paper, point), point),
+        two.point(_holder(dyad.second, paper, point), point),
     )
 
 
-def rail(frame: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
+def rail(paper: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
     """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
     mine = slide.a if slide.a in shape.rel else slide.b
     known = slide.b if mine == slide.a else slide.a
-    at_zero = across(slide, mine, frame.poses[known], 0.0, frame.mm)
+    at_zero = across(slide, mine, paper.poses[known], 0.0, paper.mm)
     rel = shape.rel[mine]
     axis = unit(at_zero.axis * rel.axis.conjugate())
     # a block on a known guide goes along it; a guide on a known block goes against its own sense
-    along = frame.poses[known].axis if mine == slide.a else -at_zero.axis
-    step = frame.instrument.direction(unit(along * slide.guide.direction))
+    along = paper.poses[known].axis if mine == slide.a else -at_zero.axis
+    step = paper.instrument.direction(unit(along * slide.guide.direction))
     return Pose(at_zero.origin - axis * rel.origin, axis), step
 
 

@@ -156,7 +156,7 @@ def positioned(
     if with_steps:
         assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
     board.causes[:] = [*before, *position.causes]
-    polygons = Polygons(board, task.opened, position.frame, scales, slip)
+    polygons = Polygons(board, task.opened, position.paper, scales, slip)
     polygons.given.update(rates)
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
@@ -193,7 +193,7 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         instrument=board.instrument.name,
         drivers={d.key: task.values[d.key] for d in task.structure.scene.drivers},
         scales=polygons.scales,
-        poses=dict(polygons.frame.poses),
+        poses=dict(polygons.paper.poses),
         points={PointRef(p): z for p, z in polygons.places.items()},
         ends={order: dict(ends) for order, ends in polygons.ends.items()},
         omega=dict(polygons.rates["velocity"]),
@@ -375,10 +375,10 @@ def _drawn_apart(
     position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
     draw_position(board, inversion.structure, elements, position, {0: branch})
     board.causes[:] = position.causes
-    polygons = Polygons(board, inversion.structure, position.frame, scales)
+    polygons = Polygons(board, inversion.structure, position.paper, scales)
     for order in ORDERS:
         draw_element(polygons, order, elements[0])
-    value, rates = inversion.read(position.frame), _rates_apart(inversion, polygons)
+    value, rates = inversion.read(position.paper), _rates_apart(inversion, polygons)
     return TriangleDrawn(inversion.triangle, value, *rates, tuple(board.causes), board.steps)
 
 
@@ -387,7 +387,7 @@ def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float
     if not isinstance(pair, Slide):
         return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
     # the other link cannot turn on the held one: all its points move alike
-    along = polygons.frame.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+    along = polygons.paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
     points = [PointRef(p) for p in inversion.structure.links[other].points]
     end = next(ref for ref in points if ref in polygons.ends["velocity"])
     speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
@@ -527,10 +527,10 @@ def _by_trial(
     there = choices.at_start if at_start else choices
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     placed = structure.followed(values) | starts
-    frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
-    branches, trials = nearest_assembly(choices, elements, frame, poses, there if at_start else None)
+    paper = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
+    branches, trials = nearest_assembly(choices, elements, paper, poses, there if at_start else None)
     rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
-    rolled = {r.key: coordinate_on_paper(structure, frame, r.coordinate) for r in rolling}
+    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
     return branches, trials, starts | rolled
 
 
@@ -544,7 +544,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
     made = carried_out(task, NATURAL)
     polygons = made.polygons
     size = NATURAL.length / task.structure.scene.size
-    poses = {name: pose.scaled(size) for name, pose in polygons.frame.poses.items()}
+    poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
     exact = finished(task, made)
     asked = task.asked
     if exact.has_forces:
@@ -563,9 +563,9 @@ def _planned(task: Task, room: Room | None) -> Plan:
         task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
         exact = replace(exact, acting=task.acting, growing=task.growing)
     places = [z for p, z in polygons.places.items() if p not in polygons.special]
-    for profile in outlines_on_paper(task.structure.scene, polygons.frame.poses, 1.0 / NATURAL.length).values():
+    for profile in outlines_on_paper(task.structure.scene, polygons.paper.poses, 1.0 / NATURAL.length).values():
         places += profile
-    places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.frame.poses).outermost()
+    places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.paper.poses).outermost()
     extents = extents_around(places, lambda order: (*polygons.shown_of(order), *leading_on(exact, order)), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
     scales = chosen_scales(task.structure.scene, extents, room)

@@ -41,9 +41,9 @@ class Polygons:
     """What stands in the velocity and the acceleration polygon of one position."""
 
     def __init__(
-        self, board: Board, structure: Structure, frame: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
+        self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
-        self.board, self.structure, self.frame, self.scales, self.slip = board, structure, frame, scales, slip
+        self.board, self.structure, self.paper, self.scales, self.slip = board, structure, paper, scales, slip
         self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = dict(structure.links)  # with the special points that larger groups get
@@ -58,7 +58,7 @@ class Polygons:
         self.chains: dict[Dyad, TwoUnknowns] = {}
         self.plans: dict[Cluster, GroupPlan] = {}
         self.contours: dict[Cluster, tuple[tuple[str, Cluster], ...]] = {}  # the link held still, the rest on it
-        self.places = {point: frame.point(name, point) for name in frame.poses for point in self.links[name].points}
+        self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
         self.touching = {c.name for c in structure.scene.contacts}
@@ -117,8 +117,8 @@ class Polygons:
 
     def guide_names(self, slide: Slide) -> tuple[str, ...]:
         """How the direction of a guide is written: by two letters on it, else by its name."""
-        start = self.frame.place(slide.b, slide.guide.through)
-        along = self.frame.poses[slide.b].axis * slide.guide.direction
+        start = self.paper.place(slide.b, slide.guide.through)
+        along = self.paper.poses[slide.b].axis * slide.guide.direction
         on = [
             (dot(z - start, along), p)
             for p, z in self.places.items()
@@ -152,7 +152,7 @@ class Polygons:
     def contact(self, name: str) -> tuple[PlacedContact, complex, complex]:
         """A contact, where it is made (mm), and the direction of its normal."""
         found = next(c for c in self.structure.scene.contacts if c.name == name)
-        return found, *Touching(self.structure.scene, self.frame.mm, self.frame.poses).contact(found)
+        return found, *Touching(self.structure.scene, self.paper.mm, self.paper.poses).contact(found)
 
     def length(self, arm: complex, between: Sequence[str]) -> float:
         """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
@@ -165,7 +165,7 @@ class Polygons:
         given = self._given_arm(*between)
         if given is not None:
             return abs(given)
-        pushed = pushed_by_driver(self.structure, self.frame.values, between)
+        pushed = pushed_by_driver(self.structure, self.paper.values, between)
         if pushed is not None:
             return pushed[1]
         read = self.board.read_arm(between, abs(arm))

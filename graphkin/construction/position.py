@@ -58,11 +58,11 @@ Placed = dict[float, tuple[int, dict[str, Pose]]]
 class TrialPlacing(Protocol):
     """By which trial positions a larger group is placed."""
 
-    def place(self, frame: PlacedLinks) -> None:
+    def place(self, paper: PlacedLinks) -> None:
         """Place the group among the links known already."""
         ...
 
-    def steps(self, frame: PlacedLinks, so_far: PlacedLinks) -> Story:
+    def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
         """What is drawn to place it."""
         ...
 
@@ -71,7 +71,7 @@ class TrialPlacing(Protocol):
 class Position:
     """The links placed, and how each dyad was found."""
 
-    frame: PlacedLinks
+    paper: PlacedLinks
     meetings: Mapping[int, Meeting]
     causes: Sequence[tuple[int, Cause]] = ()  # acts of the hand up to which each link reaches
 
@@ -100,21 +100,21 @@ def place(
     Unsolvable
         the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
     """
-    frame = start_board(structure, mm, values, instrument)
+    paper = start_board(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
     causes: list[tuple[int, Cause]] = [(instrument.acts, Placing((structure.scene.frame.name,)))]
 
     def chosen(i: int, element: Dyad | Cluster) -> Poses:
         if isinstance(element, Cluster):
-            (trials or {})[element].place(frame)
+            (trials or {})[element].place(paper)
             return {}
-        meeting = meetings[i] = meet(frame, element)
+        meeting = meetings[i] = meet(paper, element)
         _refuse(structure, element, meeting)
         return meeting.poses[branches.get(i, 0) % len(meeting.poses)]
 
-    for element in assemble(frame, elements, chosen):
+    for element in assemble(paper, elements, chosen):
         causes.append((instrument.acts, Placing((element.link,) if isinstance(element, Driven) else element.links)))
-    return Position(frame, meetings, causes)
+    return Position(paper, meetings, causes)
 
 
 def start_board(
@@ -122,10 +122,10 @@ def start_board(
 ) -> PlacedLinks:
     """The empty sheet with the fixed points pricked."""
     ground = structure.scene.frame.name
-    frame = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
+    paper = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
     if not instrument.faultless:
-        frame.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
-    return frame
+        paper.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
+    return paper
 
 
 def _refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
@@ -171,8 +171,8 @@ def branches_at(
         own = {d.key: d.values[0] for d in structure.scene.drivers}
     if chosen is None:
         chosen = dict[int, int]()
-        frame = start_board(structure, 1.0 / structure.scene.size, own)
-        assembled(frame, elements, as_meant(structure, frame, chosen))
+        paper = start_board(structure, 1.0 / structure.scene.size, own)
+        assembled(paper, elements, as_meant(structure, paper, chosen))
     chosen = dict(chosen)
     if all(values[k] == v for k, v in own.items()):
         return chosen
@@ -186,14 +186,14 @@ def branches_at(
     raise Unsolvable("not assembled", out_of_reach(structure.scene, values, limits))
 
 
-def as_meant(structure: Structure, frame: PlacedLinks, chosen: dict[int, int]) -> Choose:
+def as_meant(structure: Structure, paper: PlacedLinks, chosen: dict[int, int]) -> Choose:
     """Each dyad in the assembly that the scene means at its own position, noted in ``chosen``."""
 
     def choose(i: int, element: Dyad | Cluster) -> Poses:
         assert isinstance(element, Dyad)
-        meeting = meet(frame, element)
+        meeting = meet(paper, element)
         _refuse(structure, element, meeting)
-        candidates = [frame.fresh(poses) for poses in meeting.poses]
+        candidates = [paper.fresh(poses) for poses in meeting.poses]
         chosen[i] = pick(structure.scene, element.links, candidates, 0).index
         return meeting.poses[chosen[i]]
 
@@ -250,9 +250,9 @@ def _gap(
 
     ``placed`` keeps how many elements stand at a place of the path, and their links, for those that come after.
     """
-    frame = start_board(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
+    paper = start_board(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
     first, poses = placed.get(t, (0, {}))
-    frame.poses.update(poses)
+    paper.poses.update(poses)
     gap = -1.0
 
     def choose(place: int, element: Dyad | Cluster) -> Poses | None:
@@ -260,13 +260,13 @@ def _gap(
         assert isinstance(element, Dyad)
         i = first + place
         if i == len(elements) - 1:
-            placed[t] = i, dict(frame.poses)
-        meeting = meet(frame, element)
+            placed[t] = i, dict(paper.poses)
+        meeting = meet(paper, element)
         gap = meeting.gap
         flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
         return meeting.poses[(chosen[i] + flipped) % len(meeting.poses)] if meeting.poses else None
 
-    assembled(frame, elements[first:], choose)
+    assembled(paper, elements[first:], choose)
     return gap
 
 
@@ -279,22 +279,22 @@ def draw_position(
     trials: Mapping[Cluster, TrialPlacing] | None = None,
 ) -> dict[str, Phrase]:
     """Record how each link was placed; returns the words for each assembly, by the group's links."""
-    frame = position.frame
+    paper = position.paper
     ground = structure.scene.frame
-    fixed = tuple(Mark(PointRef(p), frame.point(ground.name, p)) for p in ground.points)
+    fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
     board.do("mechanism", FixedPoints(ground.name, tuple(ground.points)), *fixed)
     named = set(ground.points)
     assembly: dict[str, Phrase] = {}
-    so_far = PlacedLinks(frame.links, frame.mm, frame.values, {ground.name: frame.poses[ground.name]})
+    so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
         elif isinstance(element, Cluster):
-            story = (trials or {})[element].steps(frame, so_far)
+            story = (trials or {})[element].steps(paper, so_far)
         else:
             meeting = position.meetings[i]
             board.notice("mechanism", SharpCrossing(_inner_name(element), meeting.sharpness))
-            _remark_arm(board, element, frame)
+            _remark_arm(board, element, paper)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.tell(index)
             key = ", ".join(element.links)
@@ -316,31 +316,31 @@ def draw_position(
                 laid = act.link if isinstance(act, LaidOffAngle) else ""
                 for name in [n for n in left if n == laid or known(n) > 1]:
                     left.remove(name)
-                    _mark_points(board, structure, frame, name, named)
+                    _mark_points(board, structure, paper, name, named)
         while left:  # first the links that stand already: two of their points are known
             name = max(left, key=known)
             left.remove(name)
-            _mark_points(board, structure, frame, name, named)
+            _mark_points(board, structure, paper, name, named)
         for name in links_of(element):
-            so_far.poses[name] = frame.poses[name]
+            so_far.poses[name] = paper.poses[name]
     return assembly
 
 
-def _mark_points(board: Board, structure: Structure, frame: PlacedLinks, name: str, named: set[str]) -> None:
+def _mark_points(board: Board, structure: Structure, paper: PlacedLinks, name: str, named: set[str]) -> None:
     """The points of a placed link that do not stand on the paper yet."""
     points = structure.links[name].points
     fresh = tuple(p for p in points if p not in named)
     named.update(fresh)
     if fresh:
-        marks = tuple(Mark(PointRef(p), frame.point(name, p)) for p in fresh)
+        marks = tuple(Mark(PointRef(p), paper.point(name, p)) for p in fresh)
         board.do("mechanism", LinkPoints(name, fresh, len(points) > 2), *marks)
 
 
-def _remark_arm(board: Board, dyad: Dyad, frame: PlacedLinks) -> None:
+def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
     """How far the two points are apart that direct a guide."""
     one, two = dyad.outer_first, dyad.outer_second
     if not isinstance(dyad.inner, Turn) and isinstance(one, Turn) and isinstance(two, Turn):
-        apart = abs(frame.point(one.b, one.point) - frame.point(two.b, two.point))
+        apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
         board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
 
 
@@ -380,14 +380,14 @@ def rolled_position(
                 "not drawn", Problem(Phrase("links", links=names), Phrase("a larger group beside what rolls is not"))
             )
     mm = 1.0 / structure.scene.size
-    frame, chosen = start_board(structure, mm, own), dict[int, int]()
+    paper, chosen = start_board(structure, mm, own), dict[int, int]()
     start: dict[Coordinate, float] = {}
 
     def begun(driver: Rolled) -> float:
-        start.update((c, coordinate_on_paper(structure, frame, c)) for c, _ in driver.factors)
+        start.update((c, coordinate_on_paper(structure, paper, c)) for c, _ in driver.factors)
         return driver.start
 
-    assembled(frame, elements, as_meant(structure, frame, chosen), begun)
+    assembled(paper, elements, as_meant(structure, paper, chosen), begun)
     near = dict(start)
     drivers = structure.scene.drivers
     long = max(abs(values[d.key] - own[d.key]) / (ROLL_STEP if isinstance(d, AngleDriver) else SLIDE_STEP / mm)
@@ -395,19 +395,19 @@ def rolled_position(
     count = max(1, math.ceil(long))
     for k in range(1, count + 1):
         here = {key: own[key] + (values[key] - own[key]) * k / count for key in own} if k < count else dict(values)
-        frame = _rolled_on(structure, elements, start_board(structure, mm, here), frame.poses, start, near, chosen)
-    return {**values, **{key: v for key, v in frame.values.items() if key not in values}}, chosen
+        paper = _rolled_on(structure, elements, start_board(structure, mm, here), paper.poses, start, near, chosen)
+    return {**values, **{key: v for key, v in paper.values.items() if key not in values}}, chosen
 
 
 def _rolled_on(
-    structure: Structure, elements: Sequence[Element], frame: PlacedLinks, before: Poses,
+    structure: Structure, elements: Sequence[Element], paper: PlacedLinks, before: Poses,
     start: Mapping[Coordinate, float], near: dict[Coordinate, float], chosen: dict[int, int],
 ) -> PlacedLinks:  # fmt: skip
     """All links a step further; ``near`` and ``chosen`` go on with them."""
 
     def choose(i: int, element: Dyad | Cluster) -> Poses:
         assert isinstance(element, Dyad)
-        meeting = meet(frame, element)
+        meeting = meet(paper, element)
         branch = meeting.nearest(before)
         if branch is None:
             wanted = Phrase("choose a driver value that the motion reaches")
@@ -419,12 +419,12 @@ def _rolled_on(
     def gone(driver: Rolled) -> float:
         value = driver.start
         for coordinate, factor in driver.factors:
-            read = coordinate_on_paper(structure, frame, coordinate)
+            read = coordinate_on_paper(structure, paper, coordinate)
             if coordinate[0] == "angle":
                 read += math.tau * round((near[coordinate] - read) / math.tau)
             near[coordinate] = read
             value += factor * (read - start[coordinate])
         return value
 
-    assembled(frame, elements, choose, gone)
-    return frame
+    assembled(paper, elements, choose, gone)
+    return paper

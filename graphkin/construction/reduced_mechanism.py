@@ -74,20 +74,20 @@ class ReducedMechanism:
         since = {name: value for r in self.removed for name, value in r.coordinates(poses, mm).items()}
         return replace(self, since=since) if since else self
 
-    def gaps(self, frame: PlacedLinks) -> list[float]:
+    def gaps(self, paper: PlacedLinks) -> list[float]:
         """By how much each of what was left out does not fit: in the mechanism's size, or rad."""
-        size = frame.mm * self.structure.scene.size
+        size = paper.mm * self.structure.scene.size
         found = []
         for r in self.removed:
-            gap = r.gap(frame.links, frame.poses, frame.mm, self.since if r.rolling else frame.values)
+            gap = r.gap(paper.links, paper.poses, paper.mm, self.since if r.rolling else paper.values)
             found.append(gap if r.is_angle else gap / size)
         return found
 
-    def put_back(self, frame: PlacedLinks) -> dict[str, Pose]:
+    def put_back(self, paper: PlacedLinks) -> dict[str, Pose]:
         """The group's links where they lie, those left out among them."""
-        group = {name: pose for name, pose in frame.poses.items() if name in self.cluster.members}
+        group = {name: pose for name, pose in paper.poses.items() if name in self.cluster.members}
         for r in self.removed:
-            back = r.placed(frame.links, frame.poses, frame.mm)
+            back = r.placed(paper.links, paper.poses, paper.mm)
             if back is not None:
                 group[r.left_out] = back
         return group

@@ -178,13 +178,13 @@ TURNS = 3
 """Turns that what something rolls on may have made since the position from which it is followed."""
 
 
-def rolled_near(structure: Structure, frame: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
+def rolled_near(structure: Structure, paper: PlacedLinks, driver: Rolled, start: Poses, guess: Poses) -> float:
     """The value of what rolls (rad, m) in a position that is being placed, by how far what it rolls on has gone since
     a position ``start`` within some turns; nearest to where it is expected."""
-    before, near = (replace(frame, poses=dict(poses)) for poses in (start, guess))
+    before, near = (replace(paper, poses=dict(poses)) for poses in (start, guess))
     value, turns = coordinate_on_paper(structure, before, driver.coordinate), [0.0]
     for coordinate, factor in driver.factors:
-        here, there = (coordinate_on_paper(structure, placed, coordinate) for placed in (frame, before))
+        here, there = (coordinate_on_paper(structure, placed, coordinate) for placed in (paper, before))
         value += factor * (here - there)
         if coordinate[0] == "angle":
             turns = [more + k * math.tau * factor for more in turns for k in range(-TURNS, TURNS + 1)]
@@ -198,13 +198,13 @@ def rolled_near(structure: Structure, frame: PlacedLinks, driver: Rolled, start:
     return value + min(turns, key=lambda whole: (round(off(whole), 9), abs(whole)))
 
 
-def coordinate_on_paper(structure: Structure, frame: PlacedLinks, coordinate: Coordinate) -> float:
+def coordinate_on_paper(structure: Structure, paper: PlacedLinks, coordinate: Coordinate) -> float:
     """An angle within a turn (rad), or a travel (m)."""
     kind, name = coordinate
     if kind == "angle":
-        return cmath.phase(frame.poses[name].axis)
+        return cmath.phase(paper.poses[name].axis)
     slide = structure.slide(name)
-    return travel(slide, frame.poses, frame.mm) / frame.mm
+    return travel(slide, paper.poses, paper.mm) / paper.mm
 
 
 # -- the outlines of cams ----------------------------------------------------------------------------------------------

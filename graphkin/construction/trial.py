@@ -79,28 +79,28 @@ def _own_position(choices: Choices, elements: Sequence[Element]) -> dict[str, Po
     wanted = {n for element in elements for n in links_of(element)}
     elements = [element for element in structure.elements if wanted.intersection(links_of(element))]
     placed = structure.followed(own)
-    frame = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
+    paper = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
 
     def choose(_: int, element: Dyad | Cluster) -> Poses:
-        return _dyad_by_sketch(scene, frame, element) if isinstance(element, Dyad) else (
-            _cluster_by_sketch(choices, frame, element)
+        return _dyad_by_sketch(scene, paper, element) if isinstance(element, Dyad) else (
+            _cluster_by_sketch(choices, paper, element)
         )
 
-    assembled(frame, elements, choose, lambda driver: driver.start)
-    return dict(frame.poses)
+    assembled(paper, elements, choose, lambda driver: driver.start)
+    return dict(paper.poses)
 
 
-def _dyad_by_sketch(scene: Mechanism, frame: PlacedLinks, dyad: Dyad) -> Poses:
-    meeting = meet(frame, dyad)
+def _dyad_by_sketch(scene: Mechanism, paper: PlacedLinks, dyad: Dyad) -> Poses:
+    meeting = meet(paper, dyad)
     if not meeting.poses:
         raise Unsolvable(
             "not assembled",
             Problem(Phrase("links", links=", ".join(dyad.links)), Phrase("their loci do not meet here")),
         )
-    return meeting.poses[pick(scene, dyad.links, [frame.fresh(poses) for poses in meeting.poses], 0).index]
+    return meeting.poses[pick(scene, dyad.links, [paper.fresh(poses) for poses in meeting.poses], 0).index]
 
 
-def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -> Poses:
+def _cluster_by_sketch(choices: Choices, paper: PlacedLinks, cluster: Cluster) -> Poses:
     found: list[dict[str, Pose]] = []
     # by several trial drivers: what one passes over at its dead point another sees
     by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
@@ -108,64 +108,64 @@ def _cluster_by_sketch(choices: Choices, frame: PlacedLinks, cluster: Cluster) -
         by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
     structure = choices.structure
     # where a sketch tells where to look, it is looked there
-    ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, frame) is None)
+    ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, paper) is None)
     # the positions that are sketched, improved until everything fits
     near = (
-        fit for rough in as_sketched(structure, cluster, frame) for reduced in choices.of[cluster]
-        if (fit := fitted(reduced, frame, rough)) is not None
+        fit for rough in as_sketched(structure, cluster, paper) for reduced in choices.of[cluster]
+        if (fit := fitted(reduced, paper, rough)) is not None
     )  # fmt: skip
     if len(ways[0].trial) > 1:
         # a grid of several trial values is coarse: the sketch comes first, by whichever trial drivers it leads to a fit
-        found += _as_told(structure, frame, near)
+        found += _as_told(structure, paper, near)
     for reduced in () if found else ways[:TRIALS]:
-        for fit in _nearest_fits(reduced, frame, found):  # a fit at a value of the grid is met from both sides
+        for fit in _nearest_fits(reduced, paper, found):  # a fit at a value of the grid is met from both sides
             if not any(_near(fit, other) for other in found):
                 found.append(fit)
-    if not any(_is_told(structure, frame, fit) for fit in found):
+    if not any(_is_told(structure, paper, fit) for fit in found):
         # between two values of the grid a fit and a place where nothing can be drawn may lie side by side
-        found += [fit for fit in _as_told(structure, frame, near) if not any(_near(fit, other) for other in found)]
+        found += [fit for fit in _as_told(structure, paper, near) if not any(_near(fit, other) for other in found)]
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
         )
-    found = _without_twins(structure, frame, cluster, found)
-    candidates = [frame.fresh(poses) for poses in found]
+    found = _without_twins(structure, paper, cluster, found)
+    candidates = [paper.fresh(poses) for poses in found]
     return found[pick(structure.scene, cluster.links, candidates, None).index]
 
 
-def _as_told(structure: Structure, frame: PlacedLinks, fits: Iterator[dict[str, Pose]]) -> list[dict[str, Pose]]:
+def _as_told(structure: Structure, paper: PlacedLinks, fits: Iterator[dict[str, Pose]]) -> list[dict[str, Pose]]:
     """The first fit that has its points about where they are sketched; where none has, all that there are."""
     found: list[dict[str, Pose]] = []
     for poses in fits:
-        if _is_told(structure, frame, poses):
+        if _is_told(structure, paper, poses):
             return [poses]
         if not any(_near(poses, other) for other in found):
             found.append(poses)
     return found
 
 
-def _is_told(structure: Structure, frame: PlacedLinks, poses: Poses) -> bool:
+def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
     """Whether all points lie about where they are sketched."""
     told = {**structure.scene.sketch, **structure.scene.drawn}
-    off = (abs(z - told[p]) for p, z in frame.fresh(poses).items() if p in told)
+    off = (abs(z - told[p]) for p, z in paper.fresh(poses).items() if p in told)
     return max(off, default=0.0) <= ROUGHLY * structure.scene.size
 
 
 def _without_twins(
-    structure: Structure, frame: PlacedLinks, cluster: Cluster, found: Sequence[dict[str, Pose]]
+    structure: Structure, paper: PlacedLinks, cluster: Cluster, found: Sequence[dict[str, Pose]]
 ) -> list[dict[str, Pose]]:
     """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
     one where what slides lies on the positive side."""
     slides = [p for p in cluster.pairs if isinstance(p, Slide) and p.a in cluster.members and p.b in cluster.members]
 
     def positive(poses: Poses) -> float:
-        ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - frame.mm * s.guide.through for s in slides)
+        ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - paper.mm * s.guide.through for s in slides)
         return added_up(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
 
     kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
     for poses in sorted(found, key=positive, reverse=True):
-        places = frame.fresh(poses)
+        places = paper.fresh(poses)
         twins = (max((abs(z - other[p]) for p, z in places.items()), default=math.inf) for _, other in kept)
         if all(apart > TWINS * structure.scene.size for apart in twins):
             kept.append((poses, places))
@@ -259,10 +259,10 @@ def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[s
             trials.append((max(abs(g) for g in gaps), values, branches))
     trials.sort(key=lambda one: one[0])
     for _, values, branches in trials[:200]:
-        frame = _drawn(reduced, known, values, branches)
-        if frame is None:
+        paper = _drawn(reduced, known, values, branches)
+        if paper is None:
             continue
-        near = fitted(reduced, known, frame.poses, values)
+        near = fitted(reduced, known, paper.poses, values)
         if near is not None:
             yield near
 
@@ -290,9 +290,9 @@ def fits_between(
             # nan compares false; a gap that leaps has passed half a turn, not zero
             if not one * two <= 0.0 or abs(one - two) > 1.0:
                 continue
-            frame = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
-            if frame is not None and abs(reduced.gaps(frame)[0]) < 1e-9:
-                yield reduced.put_back(frame)
+            paper = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
+            if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
+                yield reduced.put_back(paper)
 
 
 def _gaps(
@@ -303,23 +303,23 @@ def _gaps(
 
     A dyad is drawn once for all assemblies of those after it.
     """
-    frame = reduced.opened(known, values)
+    paper = reduced.opened(known, values)
     found: dict[Branches, list[float]] = {}
     rooms: dict[Branches, float] = {}
 
     def draw(elements: Sequence[Driven | Dyad], branches: Branches) -> None:
         if not elements:
-            found[branches] = reduced.gaps(frame)
+            found[branches] = reduced.gaps(paper)
             return
         element = elements[0]
         if isinstance(element, Driven):
-            frame.poses[element.link], _ = drive(frame, element)
+            paper.poses[element.link], _ = drive(paper, element)
             draw(elements[1:], branches)
             return
-        meeting = meet(frame, element)
+        meeting = meet(paper, element)
         rooms[branches] = meeting.gap
         for branch, poses in enumerate(meeting.poses):
-            frame.poses.update(poses)
+            paper.poses.update(poses)
             draw(elements[1:], (*branches, branch))
 
     draw(reduced.elements, ())
@@ -330,14 +330,14 @@ def _drawn(
     reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branches
 ) -> PlacedLinks | None:
     """A trial drawing of the group; None where two loci do not meet."""
-    frame, wanted = reduced.opened(known, values), iter(branches)
+    paper, wanted = reduced.opened(known, values), iter(branches)
 
     def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
         assert isinstance(dyad, Dyad)
-        meeting, branch = meet(frame, dyad), next(wanted)
+        meeting, branch = meet(paper, dyad), next(wanted)
         return meeting.poses[branch] if branch < len(meeting.poses) else None
 
-    return frame if assembled(frame, reduced.elements, choose) else None
+    return paper if assembled(paper, reduced.elements, choose) else None
 
 
 def _inside(
