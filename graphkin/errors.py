@@ -42,6 +42,15 @@ class Problem:
         return self.text()
 
     @property
+    def data(self) -> dict[str, str | None]:
+        """The problem for a program: its clauses in English, ``id`` the key of what was found, the same in every
+        language; None where that is a sentence of no table."""
+        return {
+            "where": str(self.where), "found": str(self.found), "wanted": str(self.wanted),
+            "id": self.found.key if isinstance(self.found, Phrase) else None,
+        }  # fmt: skip
+
+    @property
     def sentence(self) -> Phrase:
         """The problem as a sentence to be."""
         sentence = Phrase("where and what", where=self.where, found=self.found)

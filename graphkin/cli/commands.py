@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 import typer
 
 from graphkin import __version__
-from graphkin.cli.output import asked_languages, complain
-from graphkin.errors import GraphkinError
+from graphkin.cli.output import asked_languages, complain, print_json
+from graphkin.errors import CallError, GraphkinError, SceneError
 from graphkin.words import Phrase, from_others
 
 if TYPE_CHECKING:
@@ -180,6 +180,9 @@ def _run(interrupted: Callable[[int, FrameType | None], object] | None) -> str |
         return end.code
     except GraphkinError as error:
         complain(*error.problems)
+        if "--json" in sys.argv[1:] and isinstance(error, SceneError | CallError):
+            status = "scene" if isinstance(error, SceneError) else "call"
+            print_json({"ok": False, "status": status, "problems": [problem.data for problem in error.problems]})
         return error.exit_code
     except typer.Abort:
         return 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -98,13 +98,13 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
 
 
 @contextmanager
-def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], object]) -> Iterator[None]:
+def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], Mapping[str, object]]) -> Iterator[None]:
     """Print the answer to a program also where the mechanism cannot be solved, before that ends the command."""
     try:
         yield
     except Unsolvable as error:
         if wanted:
-            print_json(answer(error))
+            print_json({**answer(error), "problems": [problem.data for problem in error.problems]})
         raise
 
 

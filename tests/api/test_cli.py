@@ -320,3 +320,32 @@ def test_a_larger_group_is_drawn_and_how_is_said():
 )
 def test_zero_has_no_sign_in_what_programs_read(call):
     assert [] == re.findall(r"-0\.0(?![0-9e])", run(*call, "--json").stdout)
+
+
+@pytest.mark.parametrize(
+    ("call", "status", "problem"),
+    [
+        (("check", "broken.toml"), "scene", ("links.1.length", "found -3, a negative length", "found a negative")),
+        (("check", "slider-crank-offset", "--find", "v_Q"), "call",
+         ("find v_Q", 'there is no point "Q"', "there is no point")),
+        (("solve", "shaper-scheme-2", "--at", "x"), "call", ("--at x", '"x" is no number', "is no number")),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_a_program_reads_what_is_wrong(tmp_path, call, status, problem, language):
+    links = 'points = ["A", "B"]\nlength = -3\n'
+    (tmp_path / "broken.toml").write_text(f"[frame]\npoints = {{ A = [0, 0] }}\n[links.1]\n{links}")
+    call = [str(tmp_path / word) if word.endswith(".toml") else word for word in call]
+    done = run(*call, "--json", "--lang", language)
+    data = json.loads(done.stdout)
+    told = data["problems"][0]
+    assert (2, False, status) == (done.returncode, data["ok"], data["status"])
+    assert problem == (told["where"], told["found"], told["id"])
+    assert done.stderr.startswith("graphkin: ")
+
+
+def test_a_program_reads_the_problems_of_what_cannot_be_assembled():
+    done = run("check", "hydraulic-cylinder", "--at", "5000", "--json")
+    data = json.loads(done.stdout)
+    assert (3, "not assembled") == (done.returncode, data["status"])
+    assert [["where", "found", "wanted", "id"]] == [list(problem) for problem in data["problems"]]
