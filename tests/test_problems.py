@@ -177,3 +177,12 @@ def test_what_cannot_be_solved_is_told_in_chinese_beside_the_results_too(tmp_pat
     assert "\n不能装配：构件 4, 5" in solved.stdout
     assert "2 个方案：1 不能装配, 1 可解\n" in swept.stdout
     assert [None, None] == [ENGLISH_WORDS.search(one.stdout.replace(str(tmp_path), "")) for one in (solved, swept)]
+
+
+@pytest.mark.parametrize(
+    ("language", "told"), [("en", "0, a zero count; a count must be positive"), ("zh", "0，个数为零；个数应为正")]
+)
+def test_a_number_of_positions_is_no_length(tmp_path, language, told):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(library_text("slider-crank-offset") + "\n[positions]\ncount = 0\n")
+    assert told in run("check", str(scene), "--lang", language).stderr

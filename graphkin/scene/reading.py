@@ -172,7 +172,7 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
 
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_NOUNS = {"g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
+_NOUNS = {"count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
 """What must be positive, where it is no length."""
 _KINDS = {
     "string_type": Phrase("a text is wanted"),
