@@ -30,7 +30,7 @@ from graphkin.cli.options import (
     driver_values,
     split_words,
 )
-from graphkin.cli.output import print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
+from graphkin.cli.output import complain, print_json, print_paths, print_table, tell, tell_unused, unsolvable_as_json
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.words import Phrase, languages
 
@@ -153,6 +153,9 @@ def draw(
             figure or None, driver, beside or (),
         )  # fmt: skip
         paths = drawn.write(out, wanted, text)
+    made = {name.split("-")[0] for name in drawn.figures}
+    missing = [name for name in figure or () if name not in made]
+    complain(*(Problem(f"figure {name}", Phrase("the scene has nothing of it")) for name in missing))
     if not as_json and not quiet:
         print_paths(paths)
     print_check(drawn.checked, languages(lang or drawn.checked.mechanism.sheet.language)[0], as_json, quiet)

@@ -349,3 +349,10 @@ def test_a_program_reads_the_problems_of_what_cannot_be_assembled():
     data = json.loads(done.stdout)
     assert (3, "not assembled") == (done.returncode, data["status"])
     assert [["where", "found", "wanted", "id"]] == [list(problem) for problem in data["problems"]]
+
+
+@pytest.mark.parametrize(("scene", "missing"), [("slider-crank-offset", "forces"), ("cam-flat-face", "")])
+def test_a_figure_that_is_asked_for_and_cannot_be_drawn_is_told(tmp_path, scene, missing):
+    done = run("draw", scene, "--figure", missing or "cam", "-o", str(tmp_path))
+    told = f"graphkin: figure {missing}: the scene has nothing of it to draw\n" if missing else ""
+    assert (0, told) == (done.returncode, done.stderr)
