@@ -135,6 +135,9 @@ def test_in_both_languages_the_english_lines_stand_first(broken):
 @pytest.mark.parametrize(("status", "said", "call"), [
     (3, "原动件 1/4 位于 270 mm：不能装配：构件 2, 3 在 1/4 = 200 mm 处到达运动的尽头；运动范围从 -200 mm 到 200 mm",
      ("check", "elliptic-trammel", "--at", "270")),
+    (3, "原动件 1 位于 170°：不能装配：构件 4, 5 在 1 = 58.99728087° 处到达运动的尽头；"
+        "运动范围从 -58.99728087° 到 58.99728087°",
+     ("check", "sixbar-AE70", "--at", "170")),
     (2, "缺少参数“SCENE”", ("draw",)),
     (2, "没有命令“drw”；是否指 'draw'？", ("drw",)),
     (2, "没有选项 --positionz；是否指 --positions？", ("sweep", "shaper-scheme-2", "--positionz", "3")),

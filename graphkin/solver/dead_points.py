@@ -21,7 +21,7 @@ from graphkin.solver.engine import positions
 from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.pose import Array
 from graphkin.structure import Cluster, Dyad, Structure, analyse, in_stages
-from graphkin.words import Phrase, clauses, listed
+from graphkin.words import Phrase, Wording, clauses, listed
 
 __all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
 
@@ -197,15 +197,15 @@ def from_dead_point(structure: Structure) -> Structure:
                 known.append((point, way))
                 found += [(point, here)] if way == side else []
     what = Phrase("driver of key", key=driver.key)
-    listed = _listed(scene, known)
+    others = _listed(scene, known)
     if not found:
         key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
-        wanted = [Phrase("change the sign of the distance or give"), *listed]
+        wanted = [Phrase("change the sign of the distance or give"), *others]
         if missing := not_searched(structure):
             wanted.append(Phrase("links were not looked at", links=", ".join(missing), most=MOST_GROUPS))
         raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
     if dead.near is None and len(found) > 1:
-        names = ", ".join(driver_text(scene, driver, float(p.value)) for p, _ in found)
+        names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
         raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
                                                Phrase("write near to tell which one")))
     turn = float(2 * PI) if isinstance(driver, AngleDriver) else math.inf
@@ -220,13 +220,13 @@ def from_dead_point(structure: Structure) -> Structure:
         wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
         key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
         raise Unsolvable("dead point", Problem(
-            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *listed])))
+            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *others])))
     return taken[1]
 
 
 def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
     """The dead points of a scene in words, and what the motion does there."""
-    ends: dict[str, list[int]] = {}
+    ends: dict[Wording, list[int]] = {}
     for point, way in known:
         ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
     said = [

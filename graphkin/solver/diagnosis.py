@@ -234,13 +234,10 @@ def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
 
 def _lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:
     scene, driver = structure.scene, structure.scene.drivers[0]
-    unit = (
-        ("deg", np.degrees(away))
-        if isinstance(driver, AngleDriver)
-        else (scene.units.length, away / scene.units.metres)
-    )
     key, figures = ("it lies at about", 2) if about else ("it lies at", 3)
-    distance = f"{unit[1]:.{figures}g} {unit[0]}"
+    distance: Wording = f"{away / scene.units.metres:.{figures}g} {scene.units.length}"
+    if isinstance(driver, AngleDriver):
+        distance = Phrase("so many degrees", value=f"{np.degrees(away):.{figures}g}")
     return Phrase(key, driver=driver.key, value=driver_text(scene, driver, value), distance=distance)
 
 

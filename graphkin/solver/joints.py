@@ -14,6 +14,7 @@ from graphkin.solver.dyads import Joints
 from graphkin.solver.expressions import PoseFormula, Real, Vec
 from graphkin.solver.pose import Array
 from graphkin.structure import Body, Driven, Dyad, Pair, Rolled, Structure, Turn
+from graphkin.words import Phrase, Wording
 
 __all__ = ["Drive", "Frames", "body_shape", "driven", "driver_text", "dyad_joints", "joint_place", "members", "turned"]
 
@@ -60,10 +61,10 @@ def turned(angle: Array) -> Array:
     return u
 
 
-def driver_text(scene: Mechanism, driver: AnyDriver, value: float) -> str:
+def driver_text(scene: Mechanism, driver: AnyDriver, value: float) -> Wording:
     """A driver value in its own unit."""
     if isinstance(driver, AngleDriver):
-        return f"{np.degrees(value):.10g} deg"
+        return Phrase("so many degrees", value=f"{np.degrees(value):.10g}")
     return f"{value / scene.units.metres:.10g} {scene.units.length}"
 
 

@@ -22,7 +22,7 @@ from graphkin.errors import Problem, SceneError
 from graphkin.plane import added_up
 from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
 from graphkin.search import last_true, least_value
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording, listed
 
 __all__ = ["MOST_TURNS", "TOUCH", "ChangePoint", "Choice", "Passage", "follow", "out_of_reach", "pick", "ways"]
 
@@ -115,14 +115,14 @@ FOLD = 12 * 2 * math.pi
 def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence[Mapping[str, float]]) -> Problem:
     """What is said of driver values that the motion does not reach: it ends at the limits."""
 
-    def shown(key: str, value: float) -> str:
-        driver = next(d for d in scene.drivers if d.key == key)
-        unit = scene.unit_of(driver)
-        return f"{unit.of(value):.6f} {unit.text}"
+    def shown(key: str, value: float) -> Wording:
+        unit = scene.unit_of(next(d for d in scene.drivers if d.key == key))
+        number = f"{unit.of(value):.6f}"
+        return Phrase("so many degrees", value=number) if unit.text == "deg" else f"{number} {unit.text}"
 
     key = scene.drivers[0].key
     ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
-    asked = ", ".join(f"{k} at {shown(k, v)}" for k, v in values.items())
+    asked = listed([Phrase("driver at value", driver=k, value=shown(k, v)) for k, v in values.items()])
     reach = (
         shown(key, ends[0])
         if len(ends) == 1
