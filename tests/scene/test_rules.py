@@ -119,7 +119,7 @@ BROKEN = {
     "angle_on alone": ((LINK2, "length = 500\nangle_on = 3"), ["links.2.angle_on", "without on"]),
     "angle_on count": (
         ("[driver]", '[links.9]\npoints = ["C"]\non = ["4", "1"]\nangle_on = 90\n[driver]'),
-        ["links.9.angle_on", "1 for 2 guides", "one number for each"]),
+        ["links.9.angle_on", "numbers found: 1, guides: 2", "one number for each"]),
     "held by nothing": (
         ("[driver]", '[links.9]\npoints = ["X", "Y"]\nlength = 5\n[driver]'), ["links.9", "nothing holds"]),
     "held by one another only": (
