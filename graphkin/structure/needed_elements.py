@@ -133,8 +133,15 @@ def _ends(scene: Mechanism, driver: AnyDriver) -> set[str]:
     return {pin.of, pin.on} if pin else set(driver.key.split("/"))
 
 
-def links_for(structure: Structure, symbol: Symbol) -> set[str]:
+def links_for(structure: Structure, symbol: Symbol) -> frozenset[str]:
     """The links that a quantity names, and those that hold its points.  Raises CallError where there are none."""
+    known: dict[Symbol, frozenset[str]] = structure.kept.setdefault("links for", {})
+    if symbol not in known:
+        known[symbol] = frozenset(_links_for(structure, symbol))
+    return known[symbol]
+
+
+def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
     if symbol.link:
         # of a pin in a slot the block that stands for it
         return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
