@@ -12,7 +12,7 @@ from graphkin.account.notation import Letters, force_letters
 from graphkin.construction.forces.force_sheet import ForceSheet
 from graphkin.construction.sheet import Sheet
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase
 from graphkin.words.written import FINER, MOST, amount
@@ -70,7 +70,7 @@ def _phase(scene: Mechanism, phase: Phase) -> Phrase:
         key = "given on stroke" if phase.sense > 0 else "given on stroke back"
         return Phrase(key, (phase.stroke, number(phase.start), number(phase.end)))
     driver = scene.drivers[0]
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         ends = (number(math.degrees(phase.start)) + "°", number(math.degrees(phase.end)) + "°")
     else:
         metres, unit = scene.units.metres, scene.units.length
@@ -85,7 +85,7 @@ def _balance(scene: Mechanism, letters: Letters) -> Phrase:
         found.append(Symbol("M" if said.kind == "moment" else "F", link=said.link))
     else:
         for driver in scene.drivers:
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 found.append(Symbol("M", link=driver.link))
             else:
                 of = next((p.of for p in scene.pins if p.key == driver.key), driver.key.partition("/")[0])

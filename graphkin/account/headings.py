@@ -15,7 +15,7 @@ from graphkin.account.notation import Letters
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, plain_in
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
@@ -134,7 +134,7 @@ def drivers(sheet: Sheet, letters: Letters) -> str:
     for driver in scene.drivers:
         value = sheet.drivers[driver.key]
         _, rate, second = driver.values
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             index = driver.link if driver.relative_to == scene.frame.name else driver.link + driver.relative_to
             parts.append(f"$φ_{{{index}}}$ = {number(math.degrees(value))}°")
             if driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, rate):
@@ -160,15 +160,15 @@ def rolling_starts(sheet: Sheet) -> list[str]:
     for group in sheet.structure.elements:
         for driver in group.starts if isinstance(group, Cluster) else ():
             value = driver.values[0]
-            if isinstance(driver, AngleDriver):  # from what never turns
+            if driver.turns:  # from what never turns
                 value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))
                 driver = replace(driver, relative_to=scene.frame.name)
             parts.append(f"{_stands(sheet, driver, value)} ({', '.join(own)})")
     return parts
 
 
-def _stands(sheet: Sheet, driver: AnyDriver, value: float) -> str:
-    if isinstance(driver, AngleDriver):
+def _stands(sheet: Sheet, driver: Driver, value: float) -> str:
+    if driver.turns:
         index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
         return f"$φ_{{{index}}}$ = {number(math.degrees(value))}°"
     unit = sheet.scene.units
@@ -186,7 +186,7 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     scene = sheet.scene
     metres = scene.units.metres
     at = {
-        d.key: round(value if not isinstance(d, AngleDriver) else math.degrees(sheet.drivers[d.key]), 9)
+        d.key: round(value if not d.turns else math.degrees(sheet.drivers[d.key]), 9)
         for d in scene.drivers
         for value in (sheet.drivers[d.key] / metres,)
     }

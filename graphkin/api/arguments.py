@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, get_args
 
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.sheet_tables import Convention
 from graphkin.scene.source import SceneLike, mechanism_of
 from graphkin.scene.symbol import Symbol, missing_names
@@ -149,11 +149,11 @@ def as_scene(scene: SceneLike) -> Mechanism:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
     given from a dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
-    if any(isinstance(d, AngleDriver) and d.position for d in given.drivers):
+    if any(d.turns and d.position for d in given.drivers):
         from graphkin.solver.named_positions import standing
 
         given = standing(given)
-    if any((d.dead_point and not d.dead_point.exact) or (isinstance(d, AngleDriver) and d.given_speed)
+    if any((d.dead_point and not d.dead_point.exact) or (d.turns and d.given_speed)
            for d in given.drivers):  # fmt: skip
         from graphkin.solver import structure_of
 
@@ -208,7 +208,7 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
         if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
             said = Phrase("is no driver value of value", value=f'{value!r:.60}')
             raise CallError(Problem(f"at {name}", said, Phrase("give a finite number below 1e9")))
-        values[driver.key] = math.radians(value) if isinstance(driver, AngleDriver) else value * scene.units.metres
+        values[driver.key] = math.radians(value) if driver.turns else value * scene.units.metres
     return values
 
 
@@ -272,7 +272,7 @@ def value_at(scene: Mechanism, name: str) -> float:
     return places.values[name]
 
 
-def _driver(scene: Mechanism, name: str) -> AnyDriver:
+def _driver(scene: Mechanism, name: str) -> Driver:
     for driver in scene.drivers:
         if name == driver.key or name == driver.key.split("/")[0]:
             return driver

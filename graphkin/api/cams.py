@@ -18,7 +18,7 @@ from graphkin.construction.cam_sheet import CamSheet
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.words import Neutral, Phrase, say
 from graphkin.words.written import true_minus
 
@@ -70,11 +70,11 @@ class CamMade:
     @property
     def _rate(self) -> float:
         """How fast the degree of the law grows (rad/s), where the cam is driven steadily about the frame; else 0."""
-        own = (d for d in self.mechanism.drivers if isinstance(d, AngleDriver) and d.link == self.cam.link)
+        own = (d for d in self.mechanism.drivers if d.turns and d.link == self.cam.link)
         driver = next(own, None)
-        if driver is None or driver.relative_to != self.mechanism.frame.name or driver.alpha or driver.law is not None:
+        if driver is None or driver.relative_to != self.mechanism.frame.name or driver.second or driver.law is not None:
             return 0.0
-        return self.cam.sense * driver.omega
+        return self.cam.sense * driver.rate
 
     def _length(self, metres: float) -> str:
         return f"{metres / self.mechanism.units.metres:.6g}"

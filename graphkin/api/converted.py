@@ -15,7 +15,7 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
 from graphkin.scene.mapping import toml_text
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.written import Scene, safe_name
 from graphkin.table import Table
 from graphkin.words import Phrase
@@ -175,8 +175,8 @@ def _bodies(scene: Mechanism) -> Bodies:
     made.lost += [f"load {load.name}" for load in scene.loading.loads]
     made.lost += [f"spring {spring.name}" for spring in scene.loading.springs]
     for driver in scene.drivers:
-        if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
-            made.drives.append(BodyDrive(driver.link, driver.omega))
+        if driver.turns and driver.relative_to == scene.frame.name:
+            made.drives.append(BodyDrive(driver.link, driver.rate))
         else:
             made.lost.append(f"driver {driver.key}")
     return made

@@ -20,7 +20,7 @@ from graphkin.files import Tables
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
 from graphkin.scene.file_keys import path_of_key, value_at
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.solver.joints import turned
 from graphkin.study.designs import applied
 from graphkin.words import Phrase
@@ -81,7 +81,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
     Parameters
     ----------
     source : the tables and keys of the scene's file
-    keys : with dots: "links.1.length", "frame.points.D.x", "driver.omega"
+    keys : with dots: "links.1.length", "frame.points.D.x", "driver.rate"
 
     Raises
     ------
@@ -91,9 +91,9 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
     written = mechanism_of(source)
     for driver in written.drivers:
         found = "the driver is given from a dead point, which moves with each" if driver.dead_point else ""
-        if isinstance(driver, AngleDriver) and driver.given_speed:
+        if driver.turns and driver.given_speed:
             found = "the driver's rate is given by the speed of a point, and is another with each"
-        elif isinstance(driver, AngleDriver) and driver.position:
+        elif driver.turns and driver.position:
             found = "the driver is given by a position, which moves with each"
         if found:
             raise CallError(Problem("designs", found, Phrase("give its value instead")))

@@ -32,7 +32,7 @@ from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import Shown
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list
 from graphkin.files import Json
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure, Turn
 from graphkin.structure.analysis import driven_by
@@ -363,7 +363,7 @@ def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
 def _turn(structure: Structure, own: Sheet) -> TurnOfCrank | None:
     size = own.scales.length / structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in own.poses.items()}
-    if not set(structure.links) <= set(poses) or not isinstance(structure.scene.drivers[0], AngleDriver):
+    if not set(structure.links) <= set(poses) or not structure.scene.drivers[0].turns:
         return None
     try:
         return TurnOfCrank.of(structure, structure.elements, own.drivers, poses, "positions")

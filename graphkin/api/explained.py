@@ -17,7 +17,7 @@ from graphkin.construction import EXACT, execute, plan
 from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure import Cluster, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, class_of, word
@@ -252,12 +252,12 @@ def _drivers(scene: Mechanism) -> Iterator[Sentence]:
         yield "explained drivers", _driver(scene, driver)
 
 
-def _driver(scene: Mechanism, driver: AnyDriver) -> Phrase:
+def _driver(scene: Mechanism, driver: Driver) -> Phrase:
     at = scene.unit_of(driver).said(driver.values[0])
     rate = driver.values[1]
     if driver.law is not None:
         at = f"{at} ({_number(driver.law.time)} / {_number(driver.law.duration)} s)"
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         sense = "at rest" if not rate else "counter-clockwise" if rate > 0 else "clockwise"
         said = Phrase(f"explained {sense}", (_number(abs(rate)), _number(abs(rate) * 30 / math.pi)))
         return Phrase("explained turns", (driver.link, driver.relative_to, at, said))

@@ -21,7 +21,7 @@ from graphkin.checking.slips import NOTHING, Evidence, ValuesElsewhere
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import plan
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver import Motion, forces_of, listed_points, senses_along, value_of
@@ -167,7 +167,7 @@ def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsew
     @cache
     def motions() -> tuple[Motion, ...]:
         first = scene.drivers[0]
-        if not isinstance(first, AngleDriver):
+        if not first.turns:
             return ()
         from_zero = {**(values or {}), first.key: 0.0}
         return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
@@ -244,7 +244,7 @@ def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, 
     speed = np.max([none, *(np.abs(p.v) + none for p in motions)], axis=0)
     acceleration = np.max([none, *(np.abs(p.a) + none for p in motions)], axis=0)
     reach = np.max([none, *(np.abs(p.z) + none for p in motions)], axis=0)
-    rate = max((_rounded_off(d.omega) for d in motion.scene.drivers if isinstance(d, AngleDriver) and d.rpm), default=0)
+    rate = max((_rounded_off(d.rate) for d in motion.scene.drivers if d.turns and d.rpm), default=0)
     first, second = COMPUTED_SHARE + rate, COMPUTED_SHARE + 2 * rate
     found = {}
     for symbol in symbols:

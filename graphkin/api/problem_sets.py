@@ -40,7 +40,7 @@ from graphkin.papers.variants import Answer, Variant, asked_of
 from graphkin.papers.vary_rules import rules_checked
 from graphkin.scene.file_keys import KeyPath, value_at
 from graphkin.scene.mapping import as_mapping, toml_text
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.source import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.written import safe_name
@@ -247,7 +247,7 @@ def _reach(scene: Mechanism) -> tuple[float, float] | None:
     from graphkin.solver import driver_range, structure_of
 
     structure = structure_of(scene)
-    if not isinstance(structure.scene.drivers[0], AngleDriver):
+    if not structure.scene.drivers[0].turns:
         return None
     found = driver_range(structure)
     low, high = sorted(np.degrees(found.value(np.array(found.ends))).tolist())

@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
-from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
@@ -206,7 +206,7 @@ def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
     given, found = placed(given, at)
     values = found or {}
     driver = {
-        d.key: values.get(d.key, d.values[0]) / (given.units.metres if isinstance(d, SlideDriver) else 1.0)
+        d.key: values.get(d.key, d.values[0]) / (given.units.metres if not d.turns else 1.0)
         for d in given.drivers
     }
     return {

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
-from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver import Motion
 from graphkin.words import Phrase
 
@@ -43,14 +43,14 @@ def movable(scene: Mechanism) -> dict[str, str]:
     return found
 
 
-def _driven(scene: Mechanism, driver: object) -> list[str]:
+def _driven(scene: Mechanism, driver: Driver) -> list[str]:
     """The points with which a driver is turned or shifted by hand: those of a link about a pivot of the frame, and of
     a link on a guide of the frame."""
-    if isinstance(driver, AngleDriver) and driver.relative_to == scene.frame.name:
+    if driver.turns and driver.relative_to == scene.frame.name:
         link = scene.by_name[driver.link]
         if any(p in scene.frame.points for p in link.points):
             return [p for p in link.points if p not in scene.frame.points]
-    if isinstance(driver, SlideDriver):
+    if not driver.turns:
         slide = next((s for s in scene.slidings if s.key == driver.key), None)
         if slide is not None and slide.on == scene.frame.name:
             return list(scene.by_name[slide.link].points)
@@ -117,7 +117,7 @@ def _driver(motion: Motion, point: str, to: complex) -> dict[str, float]:
         if point not in _driven(scene, driver):
             continue
         now = complex(motion.position(point)[0])
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             pivot = next(p for p in scene.by_name[driver.link].points if p in scene.frame.points)
             centre = scene.frame.points[pivot]
             if abs(to - centre) == 0.0:

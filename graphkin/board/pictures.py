@@ -26,7 +26,7 @@ from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.source import parsed
 from graphkin.scene.written import resolved
 from graphkin.solver import Motion
@@ -119,7 +119,7 @@ def reach(scene: Mechanism) -> Reach:
     """How far the first driver of a scene moves.  Raises GraphkinError where that cannot be found."""
     over = _range_of(scene)
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
-    unit = np.pi / 180 if isinstance(over.driver, AngleDriver) else scene.units.metres
+    unit = np.pi / 180 if over.driver.turns else scene.units.metres
     low, high = (0.0, 360.0) if over.full else (v / unit for v in values)
     return Reach(low, high, over.full, over.limit_why)
 
@@ -266,7 +266,7 @@ def _is_fast(what: Plan) -> bool:
     """Whether something moves so fast for the drivers that the position may be a dead point or beyond one."""
     scene, sheet = what.structure.scene, what.exact
     fastest = max((abs(z) for z in sheet.ends["velocity"].values()), default=0.0) * sheet.scales.velocity
-    rates = (abs(d.values[1]) * (scene.size if isinstance(d, AngleDriver) else 1.0) for d in scene.drivers)
+    rates = (abs(d.values[1]) * (scene.size if d.turns else 1.0) for d in scene.drivers)
     return not fastest <= FAST * max(rates, default=0.0)
 
 
@@ -279,7 +279,7 @@ def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
     found = reach(scene)
     key, wanted = next(iter(at.items()))
     inside = NEAR_END * (found.high - found.low)
-    if isinstance(scene.drivers[0], AngleDriver) and not found.low <= wanted <= found.high:
+    if scene.drivers[0].turns and not found.low <= wanted <= found.high:
         middle = (found.low + found.high) / 2
         wanted = middle + (wanted - middle + 180.0) % 360.0 - 180.0
     return {key: min(max(wanted, found.low + inside), found.high - inside)}
@@ -334,7 +334,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
         "steps": steps + _force_steps(drawn, account.letters, spoken),
         "range": limits,
         "drivers": [
-            {"key": d.key, "angle": isinstance(d, AngleDriver), "now": scene.unit_of(d).said(drawn.motion.values[0][i]),
+            {"key": d.key, "angle": d.turns, "now": scene.unit_of(d).said(drawn.motion.values[0][i]),
              "sense": -1 if d.values[1] < 0 else 1}
             for i, d in enumerate(scene.drivers)
         ],

@@ -24,7 +24,7 @@ from graphkin.errors import GraphkinError
 from graphkin.plane import unit
 from graphkin.scene.contacts import PlacedGear
 from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of, solve, value_of
 from graphkin.structure import Slide
@@ -249,7 +249,7 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
             yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
-    by_rpm = any(isinstance(d, AngleDriver) and d.rpm for d in case.plan.structure.scene.drivers)
+    by_rpm = any(d.turns and d.rpm for d in case.plan.structure.scene.drivers)
     for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
         yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
     for factor in _other_lengths(case, symbol):
@@ -491,8 +491,7 @@ def _standing_here(motion: Motion) -> Mechanism:
     scene = motion.scene
     places = (float(value) for value in motion.values[0])
     drivers = tuple(
-        replace(d, angle=value) if isinstance(d, AngleDriver) else replace(d, travel=value)
-        for d, value in zip(scene.drivers, places, strict=True)
+        replace(d, value=value) for d, value in zip(scene.drivers, places, strict=True)
     )
     angles = {name: float(np.angle(motion.poses[name].u[0])) for name in scene.by_name if name in motion.poses}
     starts = {**scene.starts, **{wheel: angles[wheel] for g in scene.gears for wheel in g.wheels if wheel in angles}}

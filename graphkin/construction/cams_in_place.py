@@ -14,7 +14,7 @@ from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Cluster, Driven, Structure, analyse, part_of
 from graphkin.structure.assembly import ways
@@ -41,7 +41,7 @@ def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool 
         return analyse(_replaced(scene, values, {}, bars))
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     way = next(iter(ways(scene.drivers, first, goal)), goal)
-    far = max((abs(b - a) / (1.0 if isinstance(d, AngleDriver) else scene.size)
+    far = max((abs(b - a) / (1.0 if d.turns else scene.size)
                for d, a, b in zip(scene.drivers, first, way, strict=True)), default=0.0)  # fmt: skip
     count = math.ceil(far / STEP)
     seen: Mapping[str, complex] = {}
@@ -57,7 +57,7 @@ def _replaced(
     """The scene with all cams replaced; their angles come from the drivers, or are drawn."""
     turns: dict[str, float] = {}
     for cam in scene.cams:
-        driver = next((d for d in scene.drivers if isinstance(d, AngleDriver) and d.link == cam.link), None)
+        driver = next((d for d in scene.drivers if d.turns and d.link == cam.link), None)
         if driver is not None and driver.relative_to == scene.frame.name:
             turns[cam.link] = values[driver.key]
         else:
@@ -128,14 +128,14 @@ def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mappi
             continue
         cam = next((c for c in whole.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
         driver = whole.drivers[0]
-        if cam is None or not isinstance(driver, AngleDriver) or (driver.link, driver.relative_to) != (
+        if cam is None or not driver.turns or (driver.link, driver.relative_to) != (
             cam.link, whole.frame.name
         ):  # fmt: skip
             said = Phrase("is drawn of followers of the driven cam"), Phrase("ask for s_ theta_ or d_ at single")
             raise Unsolvable("no whole turn", Problem(str(symbol), *said))
         ends = []
         for lift in (cam.law.least, cam.law.greatest):
-            value = cam.leaves(lift, -1 if driver.omega < 0.0 else 1)
+            value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             there = {**values, driver.key: value}
             paper = _placed(cams_in_place(analyse(whole), there), there)
             ends.append(LimitPosition(value, dict(paper.poses)))

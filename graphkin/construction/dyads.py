@@ -35,7 +35,7 @@ from graphkin.construction.mechanism_acts import (
 )
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import Driver
 from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled, Slide, Turn
 
 __all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meet"]
@@ -78,13 +78,12 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
     """Place a driven link: the angle or the travel is laid off."""
     name, driver, pair = element.link, element.driver, element.pair
     value = paper.values[driver.key]
-    if isinstance(driver, AngleDriver) or (isinstance(driver, Rolled) and driver.turns):
-        if isinstance(driver, AngleDriver):
+    if driver.turns:
+        own, to, base = True, "", 1 + 0j
+        if isinstance(driver, Driver):
             own = driver.link == name
             to = driver.relative_to if own else driver.link
             base = paper.poses[to].axis
-        else:
-            own, to, base = True, "", 1 + 0j
         axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
         assert isinstance(pair, Turn)
         hinge = paper.point(pair.b, pair.point)

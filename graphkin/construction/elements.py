@@ -16,7 +16,8 @@ from graphkin.construction.sheet import Rate
 from graphkin.construction.sizes import Direction, Order
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
-from graphkin.scene.model import AngleDriver, Follower, SlideDriver, SlideFollower
+from graphkin.scene.cams import LawCam
+from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, Dyad, Rolled, Slide, Turn, links_of
 from graphkin.words import Phrase
@@ -39,9 +40,9 @@ def draw_element(plot: Polygons, order: Order, element: Driven | Dyad) -> None:
 
 def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     name, driver, pair = element.link, element.driver, element.pair
-    mm = _roll(plot, order, driver) if isinstance(driver, Rolled | Follower) else 0.0
+    mm = _roll(plot, order, driver) if driver.rolls else 0.0
     rate = plot.given[driver.key][0 if order == "velocity" else 1]
-    if isinstance(driver, AngleDriver):
+    if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
         base = plot.rates[order][other].value
         plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
@@ -62,15 +63,13 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         draw_equation(plot, order, element, ClosingVector((edge if name == pair.a else edge.reversed(),)))
 
 
-def _roll(plot: Polygons, order: Order, driver: Follower | Rolled) -> float:
+def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> float:
     """The rate of what rolls, read off a velocity plan, as the driver's; and the length read for it (mm)."""
-    coordinate = driver.coordinate if isinstance(driver, Rolled) else ("angle", driver.key)
-    if isinstance(driver, SlideFollower):
-        coordinate = "travel", driver.key
+    coordinate = "angle" if driver.turns else "travel", driver.key
     which = 0 if order == "velocity" else 1
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
     turns += [(d.link, d.relative_to, d.values[1 + which]) for d in plot.structure.scene.drivers
-              if isinstance(d, AngleDriver)]  # fmt: skip
+              if d.turns]  # fmt: skip
     known = {name: rate.value for name, rate in plot.rates[order].items()}
     before = plot.wheels
     plot.wheels, value, mm = before.found(
@@ -87,7 +86,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     """How fast a sliding link goes along its guide (m/s, m/s2), where that is known: given, or read off the polygon
     as the part along it of its motion relative to the coincident point; that of Coriolis is square to it."""
     which = 0 if order == "velocity" else 1
-    given = next((d for d in plot.structure.scene.drivers if d.key == key and isinstance(d, SlideDriver)), None)
+    given = next((d for d in plot.structure.scene.drivers if d.key == key and not d.turns), None)
     if given is not None:
         return given.values[1 + which]
     slide = plot.structure.slide(key)

@@ -47,7 +47,6 @@ from graphkin.construction.sizes import (
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Turn, Weld, links_of
 
@@ -107,7 +106,7 @@ def _turned_alike(
         slides = [p for p in group.pairs if isinstance(p, Slide)]
         given = [
             (d.relative_to, d.link, rates[d.key][which] if rates else 0.0)
-            for d in group.drivers if isinstance(d, AngleDriver)
+            for d in group.drivers if d.turns
         ]  # fmt: skip
         return [*((s.a, s.b, 0.0) for s in slides), *given]
     slides = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Slide)]
@@ -671,5 +670,4 @@ def _given_size(span: complex | None) -> Given | None:
 
 def _turn_sign(weld: Weld) -> int:
     """+1 where the driver's angle is that of b from a."""
-    assert isinstance(weld.driver, AngleDriver)
     return 1 if weld.driver.link == weld.b else -1

@@ -16,7 +16,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, clusters, reduced_mechanisms
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
 from graphkin.structure.assembly import out_of_reach, ways
 
@@ -99,7 +99,7 @@ def _walk(
     """The last position that the motion reaches on its way, and at what part of this it lies."""
     scene = choices.structure.scene
     length = max(
-        abs(target[d.key] - own[d.key]) / (1.0 if isinstance(d, AngleDriver) else scene.size) for d in scene.drivers
+        abs(target[d.key] - own[d.key]) / (1.0 if d.turns else scene.size) for d in scene.drivers
     )
     longest = 1.0 / max(1, math.ceil(length / STEP))
     # nothing says yet where the links go: the first step is small
@@ -338,7 +338,7 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
     """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
     that drivers hold there: without its rolling.  None where all are at dead points."""
     removed: list[RemovedConstraint] = []
-    trial: list[AnyDriver] = []
+    trial: list[Driver] = []
     drawn: list[Driven | Dyad] = []
     held: dict[str, tuple[str, float]] = {}
     before = replace(known, poses=dict(known.poses))

@@ -38,7 +38,7 @@ from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.structure import Cluster, Driven, Dyad, Element, links_of
 from graphkin.words import Phrase
 
@@ -254,9 +254,9 @@ def _by_hand(
     return gaps, np.array(rows).T
 
 
-def _started(paper: PlacedLinks, driver: AnyDriver) -> RollingStarts:
+def _started(paper: PlacedLinks, driver: Driver) -> RollingStarts:
     """What is given of a link, or of a pair, at the position from which rolling starts."""
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         return RollingStarts(driver.link, "angle", cmath.phase(paper.poses[driver.link].axis))
     return RollingStarts(driver.key, "travel", driver.values[0] * paper.mm)
 
@@ -448,10 +448,10 @@ class _Columns:
     def _size(self) -> float:
         return self.known.mm * self.reduced.structure.scene.size
 
-    def _moved(self, driver: AnyDriver) -> tuple[Moved, float]:
+    def _moved(self, driver: Driver) -> tuple[Moved, float]:
         """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
         ground = self.reduced.structure.scene.frame.name
-        if not isinstance(driver, AngleDriver):
+        if not driver.turns:
             return Moved(driver.key, "", False), 0.0
         if driver.relative_to in self.known.poses:  # a link that stands already: its angle is taken to the x axis
             return Moved(driver.link, "", True), cmath.phase(self.known.poses[driver.relative_to].axis)
@@ -462,7 +462,7 @@ def _missed(reduced: ReducedMechanism, removed: RemovedConstraint, mm: float) ->
     """What is measured of what was left out."""
     if removed.rolling is not None:
         return Missed("rolled", (removed.name,), 0.0, removed.is_angle)
-    if isinstance(removed.driver, AngleDriver):
+    if removed.driver is not None and removed.driver.turns:
         return Missed("turn", (removed.driver.relative_to, removed.driver.link), 0.0, removed.is_angle)
     if removed.driver is not None:
         return Missed("travel", (removed.driver.key,), 0.0, removed.is_angle)

@@ -17,7 +17,7 @@ from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, travel
 from graphkin.construction.position import Branches, as_meant, branches_at, place, start_board
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
 from graphkin.words import Phrase
 
@@ -51,13 +51,13 @@ class Inversion:
 
     def near(self, before: float, value: float) -> float:
         """A value of the stand-in nearest to another: angles but for whole turns."""
-        turns = isinstance(self.triangle.equivalent, AngleDriver)
+        turns = self.triangle.equivalent.turns
         return before + math.remainder(value - before, math.tau) if turns else value
 
     def read(self, paper: PlacedLinks) -> float:
         """The stand-in's value (rad, m) off the links as they lie."""
         pair, equivalent = self.triangle.pair, self.triangle.equivalent
-        if isinstance(equivalent, AngleDriver):
+        if equivalent.turns:
             return cmath.phase(paper.poses[equivalent.link].axis / paper.poses[equivalent.relative_to].axis)
         assert isinstance(pair, Slide)
         return travel(pair, paper.poses, paper.mm) / paper.mm
@@ -66,7 +66,7 @@ class Inversion:
 def opened_at_triangles(structure: Structure) -> Structure:
     """A structure with groups that driven triangles turn into dyads in their parts; itself where there are none."""
     elements: list[Element] = []
-    instead: dict[AnyDriver, AnyDriver] = {}
+    instead: dict[Driver, Driver] = {}
     for e in structure.elements:
         if isinstance(e, Cluster) and e.parts:
             elements += e.parts

@@ -53,7 +53,6 @@ from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
-from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Slide, Turn, Weld, driver_pair, links_of
 from graphkin.words import Phrase
@@ -265,9 +264,9 @@ def _net_of(plot: Polygons, group: Cluster, wide: bool) -> Net:
     welds = []
     for driver in group.drivers:
         pair = driver_pair(driver, plot.links, plot.structure.slides)
-        if pair is not None and isinstance(driver, AngleDriver):
+        if pair is not None and driver.turns:
             welds.append(Weld(pair, driver, pair.b, pair.a))
-    driven = frozenset(d.key for d in group.drivers if isinstance(d, SlideDriver))
+    driven = frozenset(d.key for d in group.drivers if not d.turns)
     rolling = _rolling_points(plot, group)
     seen = [(held, n) for held, rest in plot.contours.get(group, ()) for n in rest.links]
     whole = Joined(group.members, group.pairs, welds, driven, near=True, rolling=rolling, contours=seen, wide=wide)
@@ -346,7 +345,7 @@ def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
     if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
         return []
     inside = set(group.members)
-    keys = {d.key for d in group.drivers if isinstance(d, SlideDriver)}
+    keys = {d.key for d in group.drivers if not d.turns}
     held = [driver_pair(d, plot.links, plot.structure.slides) for d in group.drivers]
     hinged = {frozenset((p.a, p.b)) for p in held if isinstance(p, Turn)}
     joints = []
@@ -430,8 +429,8 @@ def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Slid
     joined = {s.key: {s.a, s.b} for s in slides}
     drivers = tuple(
         d for d in group.drivers
-        if (isinstance(d, AngleDriver) and {d.link, d.relative_to} <= within)
-        or (isinstance(d, SlideDriver) and joined[d.key] <= within)
+        if (d.turns and {d.link, d.relative_to} <= within)
+        or (not d.turns and joined[d.key] <= within)
     )  # fmt: skip
     pairs = tuple(p for p in group.pairs if {p.a, p.b} <= within)
     return Cluster(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
@@ -469,7 +468,7 @@ def _trial_polygon(
 def _trial_rates(plot: Polygons, order: Order, plan: GroupPlan) -> list[list[float]]:
     """The assumptions of each trial polygon: none moves in the first, then each in turn."""
     drivers = plot.structure.scene.drivers
-    fastest = max((abs(d.values[1]) for d in drivers if isinstance(d, AngleDriver)), default=0.0)
+    fastest = max((abs(d.values[1]) for d in drivers if d.turns), default=0.0)
     if not fastest:
         travel = max((abs(d.values[1]) for d in drivers), default=0.0)
         fastest = travel / plot.structure.scene.size or 1.0

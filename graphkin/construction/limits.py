@@ -22,7 +22,6 @@ from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
 from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits, Scales
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Element, Slide, Structure, links_of
 from graphkin.structure.transmission import sliding_pair
@@ -79,7 +78,7 @@ class TurnOfCrank:
         Unsolvable : the first driver is no crank, or does not turn fully, or the motion does not repeat after one turn
         """
         driver = structure.scene.drivers[0]
-        if not isinstance(driver, AngleDriver):
+        if not driver.turns:
             raise Unsolvable("no whole turn", Problem(why, Phrase("belongs to a whole turn but the driver"),
                                                       Phrase("ask for s_ theta_ or d_ at single")))  # fmt: skip
         choices = Choices(structure, elements)

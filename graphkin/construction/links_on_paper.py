@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.plane import added_up, direction, dot, unit
-from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, PlacedLink
 from graphkin.structure import Body, Dyad, Slide, Structure, Turn
 
 __all__ = [
@@ -123,7 +123,7 @@ class RigidBody:
             value = paper.values[weld.driver.key]
             base = self.rel[weld.a]
             if isinstance(weld.pair, Turn):
-                turned = (weld.driver.link == weld.b) if isinstance(weld.driver, AngleDriver) else True
+                turned = (weld.driver.link == weld.b) if weld.driver.turns else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
                 hinge = base.place(self._local(weld.a, weld.pair.point))
                 self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
@@ -203,7 +203,7 @@ def rail(paper: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, comp
 
 def pushed_by_driver(
     structure: Structure, values: Mapping[str, float], between: Iterable[str]
-) -> tuple[AnyDriver, float] | None:
+) -> tuple[Driver, float] | None:
     """The driver whose travel gives the distance of two points, and that (m), at values of the drivers; None for any
     other two."""
     ends = set(between)
@@ -211,11 +211,11 @@ def pushed_by_driver(
     return None if driver is None else (driver, abs(values[driver.key]))
 
 
-def _ends_of_travel(structure: Structure, driver: AnyDriver) -> set[str]:
+def _ends_of_travel(structure: Structure, driver: Driver) -> set[str]:
     """The two points between which the travel of a driver counts: that of its guide's origin, and what slides; none
     where the guide does not begin in a point."""
     slide = next((s for s in structure.slides if s.key == driver.key), None)
-    if not isinstance(driver, SlideDriver) or slide is None or slide.pin is None:
+    if driver.turns or slide is None or slide.pin is None:
         return set()
     on = structure.scene.by_name[slide.b].points
     least = 1e-9 * structure.scene.size

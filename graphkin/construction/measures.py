@@ -14,7 +14,6 @@ from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.zero_vectors import MOST_LOST
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
 
@@ -129,7 +128,6 @@ def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured |
         angle = phase(instrument.read_direction(turned))
         return Measured(None, abs(angle + math.tau * round((limits.swing - angle) / math.tau)))
     driver = sheet.scene.drivers[0]
-    assert isinstance(driver, AngleDriver)
     one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
     between = phase(instrument.read_direction(two / one))
     lag = math.pi - abs(between)

@@ -26,7 +26,6 @@ from graphkin.construction.sheet import Board, Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
     Cluster,
@@ -390,7 +389,7 @@ def rolled_position(
     assembled(paper, elements, as_meant(structure, paper, chosen), begun)
     near = dict(start)
     drivers = structure.scene.drivers
-    long = max(abs(values[d.key] - own[d.key]) / (ROLL_STEP if isinstance(d, AngleDriver) else SLIDE_STEP / mm)
+    long = max(abs(values[d.key] - own[d.key]) / (ROLL_STEP if d.turns else SLIDE_STEP / mm)
                for d in drivers)  # fmt: skip
     count = max(1, math.ceil(long))
     for k in range(1, count + 1):

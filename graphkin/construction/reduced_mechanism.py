@@ -17,7 +17,7 @@ from itertools import combinations
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure import (
     Cluster,
     Driven,
@@ -51,7 +51,7 @@ class ReducedMechanism:
 
     structure: Structure
     removed: tuple[RemovedConstraint, ...]
-    trial: tuple[AnyDriver, ...]
+    trial: tuple[Driver, ...]
     cluster: Cluster
     elements: tuple[Driven | Dyad, ...]
     since: Mapping[str, float] = field(default_factory=dict)
@@ -64,7 +64,7 @@ class ReducedMechanism:
 
     def driven_instead(self) -> Iterator[tuple[str, str, float]]:
         """Driven blocks left out, each with the link driven in its stead and by how much it is turned from it (rad)."""
-        angles = [d for d in self.structure.scene.drivers if isinstance(d, AngleDriver)]
+        angles = [d for d in self.structure.scene.drivers if d.turns]
         for one in self.removed:
             if one.left_out and one.slide is not None and any(one.left_out in (d.link, d.relative_to) for d in angles):
                 yield one.left_out, one.other_side, one.turned
@@ -104,11 +104,11 @@ class ReducedMechanism:
         """The trial drivers' values in a position (rad, or travel in the mechanism's size)."""
         return [self._value(d, poses, mm) / self._unit(d) for d in self.trial]
 
-    def _unit(self, driver: AnyDriver) -> float:
-        return 1.0 if isinstance(driver, AngleDriver) else self.structure.scene.size
+    def _unit(self, driver: Driver) -> float:
+        return 1.0 if driver.turns else self.structure.scene.size
 
-    def _value(self, driver: AnyDriver, poses: Mapping[str, Pose], mm: float) -> float:
-        if isinstance(driver, AngleDriver):
+    def _value(self, driver: Driver, poses: Mapping[str, Pose], mm: float) -> float:
+        if driver.turns:
             return phase(poses[driver.link].axis / poses[driver.relative_to].axis)
         return travel(self.structure.slide(driver.key), poses, mm) / mm
 
@@ -143,7 +143,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:
     rolling = tuple(_rolling(structure, cluster))
     own = {d.key: d for d in structure.scene.drivers}
-    driven = {n for d in structure.scene.drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
+    driven = {n for d in structure.scene.drivers if d.turns for n in (d.link, d.relative_to)}
     # what the driver moves is rather left in its place
     removable = sorted(_removable(structure, cluster, driven), key=lambda r: r.left_out in driven)
     for others in combinations(removable, count - len(rolling)):
@@ -198,7 +198,7 @@ def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iter
         elif not hinges and len(slides) == 2:
             yield RemovedConstraint(name, (), slides[0], slides[1])
     for driver in cluster.drivers:
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             yield RemovedConstraint("", driver=driver)
         else:
             yield RemovedConstraint("", slide=structure.slide(driver.key), driver=driver)
@@ -211,27 +211,27 @@ def _within(structure: Structure, cluster: Cluster, point: str, name: str) -> st
     return next((n for n in structure.hinges[point] if n in others), "")
 
 
-def _instead(drivers: Sequence[AnyDriver], removed: Sequence[RemovedConstraint]) -> dict[str, AnyDriver]:
+def _instead(drivers: Sequence[Driver], removed: Sequence[RemovedConstraint]) -> dict[str, Driver]:
     """The drivers that are not removed, by their keys: an angle of a block left out is that of what it slides on, or of
     what slides on it, and a constant."""
     blocks = {r.left_out: r for r in removed if r.left_out and r.slide is not None}
-    left: dict[str, AnyDriver] = {}
+    left: dict[str, Driver] = {}
     for driver in drivers:
         if any(driver == r.driver for r in removed):
             continue
         new = driver
-        if isinstance(new, AngleDriver) and new.link in blocks:
+        if new.turns and new.link in blocks:
             block = blocks[new.link]
-            new = replace(new, link=block.other_side, angle=new.angle - block.turned)
-        if isinstance(new, AngleDriver) and new.relative_to in blocks:
+            new = replace(new, link=block.other_side, value=new.value - block.turned)
+        if new.turns and new.relative_to in blocks:
             block = blocks[new.relative_to]
-            new = replace(new, relative_to=block.other_side, angle=new.angle + block.turned)
+            new = replace(new, relative_to=block.other_side, value=new.value + block.turned)
         left[driver.key] = new
     return left
 
 
 def _opened(
-    scene: Mechanism, removed: Sequence[RemovedConstraint], drivers: Mapping[str, AnyDriver]
+    scene: Mechanism, removed: Sequence[RemovedConstraint], drivers: Mapping[str, Driver]
 ) -> Mechanism:
     """The scene without some constraints of a group, driven as given."""
     gone = {r.left_out for r in removed if r.left_out}
@@ -256,20 +256,20 @@ def _on_faces(structure: Structure, cluster: Cluster) -> Iterator[tuple[str, str
             yield contact.round[0].link, contact.block
 
 
-def _trials(structure: Structure, cluster: Cluster, gone: set[str], known: set[str]) -> Iterator[AnyDriver]:
+def _trials(structure: Structure, cluster: Cluster, gone: set[str], known: set[str]) -> Iterator[Driver]:
     """Drivers that can take its place: at a pair of the group that is not driven and not left out; those at known links
     first, for their links are laid off."""
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
     for wheel, block in _on_faces(structure, cluster):
-        yield AngleDriver(wheel, block, 0.0, 0.0, 0.0)
+        yield Driver(wheel, block, 0.0, 0.0, 0.0)
     pairs = [p for p in cluster.pairs if not gone & {p.a, p.b}]
     for pair in sorted(pairs, key=lambda p: not known & {p.a, p.b}):
         if isinstance(pair, Turn):
             if pair.a not in driven and not {pair.a, pair.b} & blocks:
-                yield AngleDriver(pair.a, pair.b, 0.0, 0.0, 0.0)
+                yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0)
         elif pair.key not in driven:
-            yield SlideDriver(pair.key, 0.0, 0.0, 0.0)
+            yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0, pair.key)
 
 
 # -- what is left out --------------------------------------------------------------------------------------------------
@@ -288,7 +288,7 @@ class RemovedConstraint:
     ends: tuple[tuple[str, str], ...] = ()
     slide: Slide | None = None
     second: Slide | None = None
-    driver: AnyDriver | None = None
+    driver: Driver | None = None
     rolling: RollingRelation | None = None
 
     @property
@@ -305,8 +305,8 @@ class RemovedConstraint:
         for slide in (self.slide, self.second):
             if slide is not None:
                 names += [n for n in (slide.a, slide.b) if n != self.left_out]
-        if isinstance(self.driver, AngleDriver):
-            names += [self.driver.link, self.driver.relative_to]
+        if self.driver is not None and self.driver.turns:
+            names += self.driver.links
         if self.rolling is not None:
             names += self.rolling.links
         return tuple(dict.fromkeys(names))
@@ -316,17 +316,17 @@ class RemovedConstraint:
         """Whether its gap is an angle (rad), not a length (mm)."""
         if self.rolling is not None:
             return not self.rolling.in_lengths
-        return isinstance(self.driver, AngleDriver) or self.second is not None
+        return self.second is not None if self.driver is None else self.driver.turns
 
     def gap(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float, values: Mapping[str, float]) -> float:
         """By how much it does not fit: mm of paper, or rad for a driven angle; ``values`` are those of the drivers, and
         of what rolls those at a position within half a turn (rad, m), by the name of the coordinate."""
         if self.rolling is not None:
             return self._rolled_off(poses, mm, values)
-        if isinstance(self.driver, AngleDriver):
+        if self.driver is not None and self.driver.turns:
             turn = poses[self.driver.link].axis / poses[self.driver.relative_to].axis
             return cmath.phase(turn * cmath.rect(1.0, -values[self.driver.key]))
-        if isinstance(self.driver, SlideDriver):
+        if self.driver is not None:
             start, along, origin = self._rail(poses, mm)
             return dot(along, origin - start) - values[self.driver.key] * mm
         if self.second is not None:

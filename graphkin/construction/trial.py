@@ -23,7 +23,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, links_of, pick
 from graphkin.words import Phrase
 
@@ -204,7 +204,7 @@ def _sketched(
     scene, structure = reduced.structure.scene, reduced.structure
     places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
     driver = reduced.trial[0]
-    if len(reduced.trial) > 1 or not isinstance(driver, AngleDriver) or not places:
+    if len(reduced.trial) > 1 or not driver.turns or not places:
         return None
     held, link = known.poses.get(driver.relative_to), structure.links[driver.link]
     hinge = next((p for p in link.points if p in structure.links[driver.relative_to].points), "")
@@ -244,7 +244,7 @@ def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str
 
 def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
     """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
-    return (-math.pi, math.pi) if isinstance(reduced.trial[i], AngleDriver) else (-2.0, 2.0)
+    return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
 
 
 def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
@@ -425,7 +425,7 @@ class _Sketch:
         self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
         self.joined += [
             (d.relative_to, d.link, cmath.rect(1.0, known.values[d.key]))
-            for d in cluster.drivers if isinstance(d, AngleDriver)
+            for d in cluster.drivers if d.turns
         ]  # fmt: skip
 
     def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:

@@ -48,7 +48,7 @@ from graphkin.papers.pictures import (
     workspace,
 )
 from graphkin.plane import added_up
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide
+from graphkin.scene.model import Mechanism, PlacedGuide
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.written import in_markup
 
@@ -279,21 +279,21 @@ def reach(lesson: Lesson) -> Iterator[Paragraph]:
 def _speeds(scene: Mechanism) -> Iterator[str]:
     """Speeds of drivers in r/min, where these are the round ones."""
     for driver in scene.drivers:
-        if isinstance(driver, AngleDriver) and driver.omega and driver.rpm is None:  # a given one stands there already
-            rpm = float(f"{driver.omega * RPM:.9g}")
-            if len(number(rpm)) < len(number(driver.omega)):
+        if driver.turns and driver.rate and driver.rpm is None:  # a given one stands there already
+            rpm = float(f"{driver.rate * RPM:.9g}")
+            if len(number(rpm)) < len(number(driver.rate)):
                 yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
 
 
 def _senses(scene: Mechanism) -> Iterator[Phrase]:
     """Which way drivers turn, and whether that is ever faster."""
     for driver in scene.drivers:
-        if isinstance(driver, AngleDriver) and driver.omega:
-            sense = "clockwise" if driver.omega < 0 else "counter-clockwise"
+        if driver.turns and driver.rate:
+            sense = "clockwise" if driver.rate < 0 else "counter-clockwise"
             on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", (driver.relative_to,))
             even = "" if driver.law is not None else Phrase("at constant speed")
-            faster = Phrase("ever faster" if driver.alpha * driver.omega > 0 else "ever slower")
-            yield Phrase(f"driver turns {sense}", (driver.link, on, faster if driver.alpha else even))
+            faster = Phrase("ever faster" if driver.second * driver.rate > 0 else "ever slower")
+            yield Phrase(f"driver turns {sense}", (driver.link, on, faster if driver.second else even))
 
 
 def _labelled(lesson: Lesson, key: str, items: Sequence[str], between: str) -> Said:

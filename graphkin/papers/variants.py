@@ -18,7 +18,7 @@ from graphkin.papers.paper import paper_plan
 from graphkin.papers.vary_rules import LEVELS, Bounds, round_step
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import Follower, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
@@ -75,7 +75,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     if last is not None:
         names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in _joints(last)]
         known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
-        rolled = {e.link for e in structure.elements if isinstance(e, Driven) and isinstance(e.driver, Follower)}
+        rolled = {e.link for e in structure.elements if isinstance(e, Driven) and e.driver.rolls}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}
         moving = next((n for n in names if n and n not in known), None)
         found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []

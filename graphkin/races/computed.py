@@ -13,7 +13,6 @@ import numpy as np
 from graphkin import solver
 from graphkin.races.timing import Entry, best_time
 from graphkin.races.work import Work
-from graphkin.scene.model import AngleDriver
 from graphkin.solver import PreparedMechanism
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code
@@ -229,7 +228,7 @@ def differences(work: Work, repeats: int) -> Iterator[Entry]:
     def pushes(values: Array, t: float) -> Array:
         return np.asarray((places(values, t) - 2 * places(values, 0.0) + places(values, -t)) / t**2)
 
-    own = 1.0 if isinstance(work.scene.drivers[0], AngleDriver) else work.scene.size
+    own = 1.0 if work.scene.drivers[0].turns else work.scene.size
     here = work.values[:, 0]
     quick = best_time(lambda: speeds(many, 1e-4), repeats) / work.count
     whole = quick + best_time(lambda: pushes(many, 1e-4), repeats) / work.count

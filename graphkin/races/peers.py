@@ -16,7 +16,7 @@ import numpy as np
 from graphkin.races.computed import Numeric
 from graphkin.races.timing import Entry, Skipped, best_time
 from graphkin.races.work import FINE, Work
-from graphkin.scene.model import AngleDriver
+from graphkin.scene.model import Driver
 from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, Slide, Turn
 
@@ -120,7 +120,7 @@ class _Model:
         from pylinkage.actuators import Crank
 
         driver, frame = element.driver, self.work.scene.frame
-        turns = isinstance(driver, AngleDriver) and driver.relative_to == frame.name
+        turns = isinstance(driver, Driver) and driver.turns and driver.relative_to == frame.name
         if not turns or not isinstance(element.pair, Turn):
             raise Skipped("one crank")
         points = self.structure.links[element.link].points

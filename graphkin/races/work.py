@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
@@ -157,7 +157,7 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
         raise CallError(Problem(scene.name or "scene", nothing, Phrase("give the driver a rate")))
     fine = solver.solve(structure.scene, sweep=FINE).require()
     good = np.flatnonzero(fine.ok)
-    full = len(good) == FINE and isinstance(scene.drivers[0], AngleDriver)
+    full = len(good) == FINE and scene.drivers[0].turns
     margin = 0 if full else len(good) // 24  # ends of a motion are dead points, which are another study
     inner = good[margin : len(good) - margin] if margin else good
     picked = inner[np.linspace(0, len(inner), min(PLACES, len(inner)), endpoint=False).astype(int)]

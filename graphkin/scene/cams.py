@@ -15,7 +15,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import ModuleType
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 from graphkin.plane import Values
 
@@ -274,11 +274,25 @@ class LawCam:
     flat: bool
     motion: SlidingFollower | SwingingFollower
     allowed: tuple[float | None, float | None] = (None, None)
+    # asked of whatever moves a link: it neither rolls, nor does the scene give its value
+    rolls: ClassVar[bool] = False
+    given: ClassVar[bool] = False
+    through: ClassVar[tuple[str, ...]] = ()
 
     @property
     def key(self) -> str:
         """What it is told from drivers by."""
         return f"cam {self.link}"
+
+    @property
+    def turns(self) -> bool:
+        """Whether its follower swings, so that the lift is an angle."""
+        return isinstance(self.motion, SwingingFollower)
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links that give its follower's motion."""
+        return (self.link,)
 
     @property
     def base_of_profile(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 
 __all__ = ["Dimension", "changed_beside", "dimensions", "same_but_for_dimensions", "with_dimensions"]
 
@@ -42,15 +42,12 @@ def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) 
         }
         return replace(old, points=points, guides=guides)
 
-    def driver(k: int, old: AnyDriver) -> AnyDriver:
+    def driver(k: int, old: Driver) -> Driver:
         value, rate, second = (
             changed.get((what, k), complex(x)).real
             for what, x in zip(("value", "rate", "second"), old.values, strict=True)
         )
-        if isinstance(old, AngleDriver):
-            rpm = None if ("rate", k) in changed else old.rpm
-            return replace(old, angle=value, omega=rate, alpha=second, rpm=rpm)
-        return replace(old, travel=value, velocity=rate, acceleration=second)
+        return replace(old, value=value, rate=rate, second=second, rpm=None if ("rate", k) in changed else old.rpm)
 
     return replace(
         mechanism,

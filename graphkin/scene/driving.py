@@ -9,38 +9,18 @@ travel) tells which one is meant where there are several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.model import FromDeadPoint, PinInSlot, SlidingPair
+from graphkin.scene.model import Driver, FromDeadPoint, PinInSlot, SlidingPair
 from graphkin.scene.motion_law import MotionLaw, law_of
 from graphkin.scene.names import Flaws, Names
-from graphkin.scene.tables import SMALLEST, DrivenSlide, Driver, SceneTables
+from graphkin.scene.tables import SMALLEST, DrivenSlide, SceneTables
+from graphkin.scene.tables import Driver as DrivenAngle
 from graphkin.words import Phrase, alternatives
 
-__all__ = ["DriverEntry", "drives"]
-
-
-@dataclass(frozen=True)
-class DriverEntry:
-    """A driver whose names are known to exist; ``value`` is None where it is to be taken from the drawn points.
-
-    ``key`` is the driven link, or the sliding pair; ``base`` is the link that an angle is measured from, "" for a
-    sliding pair.  ``value``, ``rate`` and ``second`` are in SI.
-    """
-
-    where: str
-    key: str
-    base: str
-    value: float | None
-    rate: float
-    second: float
-    dead_point: FromDeadPoint | None = None
-    position: str = ""
-    rpm: float | None = None
-    given_speed: tuple[str, float] | None = None
-    law: MotionLaw | None = None
+__all__ = ["drives"]
 
 
 def drives(
@@ -51,14 +31,18 @@ def drives(
     pins: tuple[PinInSlot, ...],
     metres: float,
     problems: list[Problem],
-) -> tuple[DriverEntry, ...]:
-    """The drivers of the file; what is wrong with them is added to ``problems``."""
-    found: list[DriverEntry] = []
+) -> dict[str, Driver]:
+    """The drivers of the file by their places in it; what is wrong with them is added to ``problems``.
+
+    The value of one that is to be taken from the drawn points, or from a named position, is not a number.
+    """
+    found: dict[str, Driver] = {}
     several = isinstance(file.driver, list)
+    ends = [*((s.key, s.on) for s in slidings), *((p.key, p.on) for p in pins)]
     for i, table in enumerate(file.drivers):
         where = f"driver.{i + 1}" if several else "driver"
         lost = {str(p[-1]) for p in flaws.paths if p[0] == "driver" and (not several or p[1:2] == (i,))}
-        if isinstance(table, Driver):
+        if isinstance(table, DrivenAngle):
             reasons = [*_angle_problems(where, table, file, names, lost), *_position_problems(where, i, table, file)]
             key, base = table.link, table.relative_to or names.frame
         else:
@@ -72,7 +56,7 @@ def drives(
         problems += reasons
         if reasons or lost & {"angle", "travel", "law", "time"}:
             continue
-        if isinstance(table, Driver):
+        if isinstance(table, DrivenAngle):
             sign = -1.0 if table.sense == "clockwise" else 1.0
             omega = sign * (table.omega if table.omega is not None else (table.rpm or 0.0) * math.pi / 30)
             angle = None if table.angle is None else math.radians(table.angle)
@@ -86,7 +70,8 @@ def drives(
                 speed = table.of, sign * table.speed * file.units.rates.metres
             if law is not None and table.time is not None:
                 angle = law.at(law.time).lift
-            found.append(DriverEntry(where, key, base, angle, omega + 0.0, alpha, dead, named, rpm, speed, law))
+            value = math.nan if angle is None else angle
+            found[where] = Driver(key, base, value, omega + 0.0, alpha, "", dead, named, rpm, speed, law)
         else:
             travel = None if table.travel is None else table.travel * metres
             dead = _from_dead_point(table, travel, metres)
@@ -94,11 +79,14 @@ def drives(
             rate, second = (table.velocity or 0.0) * fast, table.acceleration * fast
             if law is not None and table.time is not None:
                 travel = law.at(law.time).lift
-            found.append(DriverEntry(where, key, base, travel, rate, second, dead, law=law))
-    return tuple(found)
+            value = math.nan if travel is None else travel
+            on = next((on for pair, on in ends if pair == key), "")
+            sliding = next((s.link for s in slidings if s.key == key), key)  # or the block of a pin in a slot
+            found[where] = Driver(sliding, on, value, rate, second, key, dead, law=law)
+    return found
 
 
-def _law(where: str, table: Driver | DrivenSlide, metres: float) -> tuple[MotionLaw | None, list[Problem]]:
+def _law(where: str, table: DrivenAngle | DrivenSlide, metres: float) -> tuple[MotionLaw | None, list[Problem]]:
     """How a driver moves over the time, at the moment that the file asks; and what is wrong with it."""
     problems: list[Problem] = []
     given = {key: getattr(table, key, None) for key in ("angle", "travel", "omega", "rpm", "speed", "velocity")}
@@ -108,7 +96,7 @@ def _law(where: str, table: Driver | DrivenSlide, metres: float) -> tuple[Motion
         if table.time is not None:
             problems.append(Problem(f"{where}.time", Phrase("tells the moment of a law"), Phrase("write law with it")))
         return None, problems
-    value = "angle" if isinstance(table, Driver) else "travel"
+    value = "angle" if isinstance(table, DrivenAngle) else "travel"
     for key, there in given.items():
         if there is not None and key != value:
             problems.append(
@@ -128,7 +116,7 @@ def _law(where: str, table: Driver | DrivenSlide, metres: float) -> tuple[Motion
     return law, problems
 
 
-def _too_slow(where: str, table: Driver | DrivenSlide) -> Iterator[Problem]:
+def _too_slow(where: str, table: DrivenAngle | DrivenSlide) -> Iterator[Problem]:
     for key in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
         rate = getattr(table, key, None)
         if rate and abs(rate) < SMALLEST:
@@ -140,7 +128,7 @@ def _too_slow(where: str, table: Driver | DrivenSlide) -> Iterator[Problem]:
 
 
 def _from_dead_point(
-    table: Driver | DrivenSlide, value: float | None, unit: float
+    table: DrivenAngle | DrivenSlide, value: float | None, unit: float
 ) -> FromDeadPoint | None:
     if table.origin is None or value is None:
         return None
@@ -148,10 +136,10 @@ def _from_dead_point(
 
 
 def _origin_problems(
-    where: str, table: Driver | DrivenSlide, file: SceneTables
+    where: str, table: DrivenAngle | DrivenSlide, file: SceneTables
 ) -> Iterator[Problem]:
-    value = table.angle if isinstance(table, Driver) else table.travel
-    what = "angle" if isinstance(table, Driver) else "travel"
+    value = table.angle if isinstance(table, DrivenAngle) else table.travel
+    what = "angle" if isinstance(table, DrivenAngle) else "travel"
     if table.origin is None:
         if table.near is not None:
             yield Problem(f"{where}.near", Phrase("tells which dead point"), Phrase("write from dead point with it"))
@@ -170,7 +158,7 @@ def _origin_problems(
 
 
 def _angle_problems(
-    where: str, table: Driver, file: SceneTables, names: Names, lost: set[str]
+    where: str, table: DrivenAngle, file: SceneTables, names: Names, lost: set[str]
 ) -> Iterator[Problem]:
     moving = ", ".join(list(file.links)[:12])
     for key, name in (("link", table.link), ("relative_to", table.relative_to)):
@@ -223,7 +211,7 @@ def _angle_problems(
         yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
 
 
-def _position_problems(where: str, i: int, table: Driver, file: SceneTables) -> Iterator[Problem]:
+def _position_problems(where: str, i: int, table: DrivenAngle, file: SceneTables) -> Iterator[Problem]:
     if table.position is None:
         return
     known = [str(k) for k in range(1, ((file.positions and file.positions.count) or 0) + 1)]
@@ -294,24 +282,15 @@ def _slide_problems(
     return problems, keys[0] if len(keys) == 1 else table.slide
 
 
-def _driven_twice(where: str, key: str, base: str, found: list[DriverEntry]) -> list[Problem]:
-    for other in found:
+def _driven_twice(where: str, key: str, base: str, found: Mapping[str, Driver]) -> list[Problem]:
+    for place, other in found.items():
         if other.key == key:
             what = Phrase("link of name", name=key) if base else key
-            hint = Phrase("write the second as link relative_to", base=base, key=key) if base != other.base else ""
-            return [
-                Problem(
-                    where,
-                    Phrase("is driven by already", what=what, where=other.where),
-                    hint or Phrase("leave one of them out"),
-                )
-            ]
-        if base and {key, base} == {other.key, other.base}:
-            return [
-                Problem(
-                    where,
-                    Phrase("the angle between links and is driven by", key=key, base=base, where=other.where),
-                    Phrase("leave one of them out"),
-                )
-            ]
+            again = base and not (other.turns and other.relative_to == base)
+            hint = Phrase("write the second as link relative_to", base=base, key=key) if again else ""
+            said = Phrase("is driven by already", what=what, where=place)
+            return [Problem(where, said, hint or Phrase("leave one of them out"))]
+        if base and other.turns and {key, base} == {*other.links}:
+            said = Phrase("the angle between links and is driven by", key=key, base=base, where=place)
+            return [Problem(where, said, Phrase("leave one of them out"))]
     return []

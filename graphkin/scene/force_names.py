@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 
@@ -76,7 +76,7 @@ def force_names(mechanism: Mechanism) -> Mapping[str, Literal["force", "moment"]
     if loading.balance is not None:
         return made | {_balance(loading.balance.kind == "moment", loading.balance.link): loading.balance.kind}
     for driver in mechanism.drivers:
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             made[_balance(True, driver.link)] = "moment"
         else:
             pin = next((p.of for p in mechanism.pins if p.key == driver.key), driver.key.split("/")[0])

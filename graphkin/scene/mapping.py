@@ -10,7 +10,7 @@ from graphkin.plane import degrees
 from graphkin.scene.cams import LawCam, LiftPiece, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.loads import Phase
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.motion_law import CubicPart, MotionLaw
 
 __all__ = ["as_mapping", "toml_text"]
@@ -176,7 +176,7 @@ def _loading(scene: Mechanism, place: Callable[[complex], list[float]]) -> OwnTa
 def _phase(scene: Mechanism, phase: Phase) -> OwnTables:
     if phase.stroke:
         return {"stroke": phase.stroke, "sense": phase.sense, "from": phase.start, "to": phase.end}
-    turns = isinstance(scene.drivers[0], AngleDriver)
+    turns = scene.drivers[0].turns
     unit = math.radians(1.0) if turns else scene.units.metres
     return {"driver": [_tidy(phase.start / unit), _tidy(phase.end / unit)]}
 
@@ -189,20 +189,20 @@ def _guide_name(link: str, guide: str) -> str:
     return f"{link}.{guide}" if guide else link
 
 
-def _driver(scene: Mechanism, driver: AnyDriver, length: Callable[[float], float]) -> OwnTables:
-    if isinstance(driver, AngleDriver):
+def _driver(scene: Mechanism, driver: Driver, length: Callable[[float], float]) -> OwnTables:
+    if driver.turns:
         base = {} if driver.relative_to == scene.frame.name else {"relative_to": driver.relative_to}
-        angle = _tidy(math.degrees(driver.angle))
-        rate: OwnTables = {"omega": _tidy(driver.omega)}
+        angle = _tidy(math.degrees(driver.value))
+        rate: OwnTables = {"omega": _tidy(driver.rate)}
         if driver.law is not None:
             moment = _law(driver.law, math.pi / 180)
             return {"link": driver.link, **base, **moment}
         if driver.given_speed is not None:
             rate = {"speed": _tidy(driver.given_speed[1] / scene.units.rates.metres), "of": driver.given_speed[0]}
-        return {"link": driver.link, **base, "angle": angle, **rate, "alpha": _tidy(driver.alpha)}
+        return {"link": driver.link, **base, "angle": angle, **rate, "alpha": _tidy(driver.second)}
     if driver.law is not None:
         return {"slide": driver.key, **_law(driver.law, scene.units.metres)}
-    travel = length(driver.travel)
+    travel = length(driver.value)
     velocity, second = (_tidy(v / scene.units.rates.metres) for v in driver.values[1:])
     return {"slide": driver.key, "travel": travel, "velocity": velocity, "acceleration": second}
 

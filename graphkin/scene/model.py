@@ -24,11 +24,8 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Measure, SceneTables, Unit, Units
 
 __all__ = [
-    "AngleDriver",
-    "AngleFollower",
-    "AnyDriver",
     "CircularSlot",
-    "Follower",
+    "Driver",
     "FromDeadPoint",
     "Mechanism",
     "NamedPositions",
@@ -36,8 +33,6 @@ __all__ = [
     "PinInSlot",
     "PlacedGuide",
     "PlacedLink",
-    "SlideDriver",
-    "SlideFollower",
     "SlidingPair",
     "StatedValues",
 ]
@@ -129,110 +124,90 @@ class FromDeadPoint:
 
 
 @dataclass(frozen=True)
-class AngleDriver:
-    """The angle of ``link``'s own x axis from that of ``relative_to`` (the frame's name by default).
+class Driver:
+    """What gives a link's motion relative to another: the angle of its own x axis, or its travel in a sliding pair.
 
-    ``position`` names the position that is meant, where its angle follows from a stroke that is not known yet; ``rpm``
-    is its speed in turns per minute, where the problem gives it so.  ``given_speed`` is a point and its speed (m/s,
-    with the sign of the turning), from which ``omega`` follows, 0 until it has been found.  ``law`` says how it moves
-    over the time, if the problem does: ``omega`` and ``alpha`` are those at the moment that the law asks.
+    Parameters
+    ----------
+    link, relative_to : the driven link and that from which its motion counts; of a travel the link (or the block of a
+        pin in a slot) that slides, and that on which it slides
+    value, rate, second : an angle (rad, rad/s, rad/s2), or a travel along the guide's sense (m, m/s, m/s2)
+    slide : key of the sliding pair or pin in slot of a travel, "" of an angle
+    dead_point : how the value is given, where it is the distance from a dead point
+    position : names the position that is meant, where its angle follows from a stroke that is not known yet
+    rpm : the rate in turns per minute, where the problem gives it so
+    given_speed : a point and its speed (m/s, with the sign of the turning), from which the rate follows, 0 until it has
+        been found
+    law : how it moves over the time; the rates are those at the moment that the law asks
+    ratios, through : of a follower, whose motion is in constant ratios to the drivers by rolling: its rate by that of
+        each driver (m/rad where lengths and angles mix), and the links that pass the motion on
     """
 
     link: str
     relative_to: str
-    angle: float
-    omega: float
-    alpha: float
+    value: float
+    rate: float
+    second: float
+    slide: str = ""
     dead_point: FromDeadPoint | None = None
     position: str = ""
     rpm: float | None = None
     given_speed: tuple[str, float] | None = None
     law: MotionLaw | None = None
+    ratios: tuple[float, ...] = ()
+    through: tuple[str, ...] = ()
+
+    @property
+    def turns(self) -> bool:
+        """Whether it gives an angle, not a travel."""
+        return not self.slide
 
     @property
     def key(self) -> str:
-        return self.link
+        """Its name: the link that it turns, or the sliding pair."""
+        return self.slide or self.link
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The driven link, and that from which its motion counts."""
+        return self.link, self.relative_to
+
+    @property
+    def rolls(self) -> bool:
+        """Whether rolling makes it follow the drivers."""
+        return bool(self.ratios)
+
+    @property
+    def given(self) -> bool:
+        """Whether the scene gives it, not rolling or a cam."""
+        return not self.ratios
 
     @property
     def measure(self) -> Measure:
         """What its value measures."""
-        return "angle"
+        return "angle" if self.turns else "length"
 
     @property
     def values(self) -> tuple[float, float, float]:
-        """Value, rate, second rate (rad, rad/s, rad/s2)."""
-        return self.angle, self.omega, self.alpha
+        """Value, rate, second rate (rad or m, per s, per s2)."""
+        return self.value, self.rate, self.second
 
-    def at_value(self, value: float) -> AngleDriver:
-        """The same driver at another angle (rad)."""
-        return replace(self, angle=value, dead_point=None, position="")
+    def span(self, size: float) -> float:
+        """What its values are measured by where they shall have no unit: 1 rad, or a size (m)."""
+        return 1.0 if self.turns else size
 
-    def at_rate(self, rate: float) -> AngleDriver:
-        """The same driver at a steady rate (rad/s)."""
-        return replace(self, omega=rate, alpha=0.0, rpm=None, law=None)
+    def at_value(self, value: float) -> Driver:
+        """The same driver at another value (rad, m)."""
+        return replace(self, value=value, dead_point=None, position="")
 
-    def moving(self, law: MotionLaw) -> AngleDriver:
+    def at_rate(self, rate: float) -> Driver:
+        """The same driver at a steady rate (rad/s, m/s)."""
+        return replace(self, rate=rate, second=0.0, rpm=None, law=None)
+
+    def moving(self, law: MotionLaw) -> Driver:
         """The same driver with the rates of a law at the moment that it asks."""
         now = law.at(law.time)
-        return replace(self, omega=now.slope, alpha=now.bend, law=law)
-
-
-@dataclass(frozen=True)
-class SlideDriver:
-    """The travel of the sliding pair (or pin in slot) whose key is ``key``, along the guide's sense."""
-
-    key: str
-    travel: float
-    velocity: float
-    acceleration: float
-    dead_point: FromDeadPoint | None = None
-    law: MotionLaw | None = None
-
-    @property
-    def measure(self) -> Measure:
-        """What its value measures."""
-        return "length"
-
-    @property
-    def values(self) -> tuple[float, float, float]:
-        """Value, rate, second rate (m, m/s, m/s2)."""
-        return self.travel, self.velocity, self.acceleration
-
-    def at_value(self, value: float) -> SlideDriver:
-        """The same driver at another travel (m)."""
-        return replace(self, travel=value, dead_point=None)
-
-    def at_rate(self, rate: float) -> SlideDriver:
-        """The same driver at a steady rate (m/s)."""
-        return replace(self, velocity=rate, acceleration=0.0, law=None)
-
-    def moving(self, law: MotionLaw) -> SlideDriver:
-        """The same driver with the rates of a law at the moment that it asks."""
-        now = law.at(law.time)
-        return replace(self, velocity=now.slope, acceleration=now.bend, law=law)
-
-
-@dataclass(frozen=True)
-class AngleFollower(AngleDriver):
-    """A link that rolling makes turn in constant ratios to the drivers: as good as driven.
-
-    ``ratios`` are its rate by that of each driver; ``through`` are the links that pass the motion on.
-    """
-
-    ratios: tuple[float, ...] = ()
-    through: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class SlideFollower(SlideDriver):
-    """The same of a sliding pair (m, m/rad)."""
-
-    ratios: tuple[float, ...] = ()
-    through: tuple[str, ...] = ()
-
-
-Follower = AngleFollower | SlideFollower
-AnyDriver = AngleDriver | SlideDriver
+        return replace(self, rate=now.slope, second=now.bend, law=law)
 
 
 @dataclass(frozen=True)
@@ -297,11 +272,11 @@ class NamedPositions:
             return self.also[name]
         return None if first is None else first + sense * 2 * math.pi * (int(name) - 1) / self.count
 
-    def placed(self, driver: AngleDriver) -> AngleDriver:
+    def placed(self, driver: Driver) -> Driver:
         """A driver at the position that it names, if its value does not follow from a stroke."""
         first = self.first if isinstance(self.first, float) else None
-        place = self.place(driver.position, first, -1.0 if driver.omega < 0 else 1.0)
-        return replace(driver, angle=place, position="") if isinstance(place, float) else driver
+        place = self.place(driver.position, first, -1.0 if driver.rate < 0 else 1.0)
+        return driver.at_value(place) if isinstance(place, float) else driver
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -329,7 +304,7 @@ class Mechanism:
     links: tuple[PlacedLink, ...]
     slidings: tuple[SlidingPair, ...]
     pins: tuple[PinInSlot, ...]
-    drivers: tuple[AnyDriver, ...]
+    drivers: tuple[Driver, ...]
     units: Units = field(default_factory=Units)
     title_zh: str = ""
     source: str = ""
@@ -363,7 +338,7 @@ class Mechanism:
         here = (own for own in self.stated if own.at is None)
         return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
 
-    def unit_of(self, driver: AnyDriver, radians: bool = False) -> Unit:
+    def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
         """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
         return self.units.of(driver.measure, radians)
 
@@ -404,7 +379,7 @@ class Mechanism:
         fixed = list(self.frame.points.values()) + [g.through for n, g in self.frame.guides.items() if n]
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]
         spans += [abs(z - w) for z in self.drawn.values() for w in fixed]
-        spans += [abs(d.travel) for d in self.drivers if isinstance(d, SlideDriver)]
+        spans += [abs(d.value) for d in self.drivers if not d.turns]
         spans += [cam.base for cam in self.cams]
         spans += [abs(disc.radius) for c in self.contacts for disc in c.round]
         return max(spans, default=0.0) or self.units.metres

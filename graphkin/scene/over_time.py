@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.words import Phrase
 
 __all__ = ["asked_time", "at_time", "moments", "moves_by_law", "time_span"]
@@ -51,7 +51,7 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
                 Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}"),
             )
         )
-    drivers: list[AnyDriver] = []
+    drivers: list[Driver] = []
     values: dict[str, float] = {}
     since = time - asked_time(scene)
     for driver in scene.drivers:
@@ -62,7 +62,5 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
         value, rate, second = driver.values
         values[driver.key] = value + since * (rate + since * second / 2)
         now = rate + since * second
-        same = now == rate
-        moved = replace(driver, omega=now) if isinstance(driver, AngleDriver) else replace(driver, velocity=now)
-        drivers.append(driver if same else moved)
+        drivers.append(driver if now == rate else replace(driver, rate=now))
     return replace(scene, drivers=tuple(drivers)), values

@@ -15,10 +15,10 @@ from graphkin.scene.background import background_of, scans_of
 from graphkin.scene.cam_reading import cams_of
 from graphkin.scene.cams import LawCam
 from graphkin.scene.contacts import PlacedDisc
-from graphkin.scene.driving import DriverEntry, drives
+from graphkin.scene.driving import drives
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import Loading, loading_of
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.names import Flaws, Names
 from graphkin.scene.pairs import islands, pins_in_slots, sliding_pairs, with_bars, with_carriages
@@ -114,18 +114,20 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
 
     drawn = {p: complex(*xy) * metres for p, xy in file.drawn.items()}
     bodies = _bodies(file, names, drawn, metres, flaws, problems)
-    referred = {p.on for p in slidings} | {p.on for p in pins} | {n for d in driven if d.base for n in (d.key, d.base)}
+    referred = {p.on for p in slidings} | {p.on for p in pins}
+    referred |= {name for d in driven.values() if d.turns for name in d.links}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}))
     fixed = bodies[names.frame].local
+    told = [d for d in driven.values() if not math.isnan(d.value)]
     position = DrawnPosition(
         bodies,
         fixed,
         drawn,
         slidings,
         pins,
-        tuple((d.key, d.base, cmath.rect(1.0, d.value)) for d in driven if d.base and d.value is not None),
-        {d.key: d.value for d in driven if not d.base and d.value is not None},
+        tuple((*d.links, cmath.rect(1.0, d.value)) for d in told if d.turns),
+        {d.key: d.value for d in told if not d.turns},
         metres,
         _size(bodies, drawn, metres),
         problems,
@@ -151,8 +153,8 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
     under = background_of(file.sheet.background, fixed, drawn, problems) if file.sheet.background else None
     scans = scans_of(file.scans, problems)
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
-    drivers = [_driver(d, position, [] if hopeless else problems) for d in driven]
-    if positions is not None and drivers and isinstance(drivers[0], AngleDriver) and drivers[0].position:
+    drivers = [_driver(where, d, position, [] if hopeless else problems) for where, d in driven.items()]
+    if positions is not None and drivers and drivers[0].turns and drivers[0].position:
         drivers[0] = positions.placed(drivers[0])
     if problems:
         raise SceneError(*dict.fromkeys(problems))
@@ -167,7 +169,7 @@ def resolve(file: SceneTables, name: str, problems: list[Problem], flaws: Flaws)
         links,
         slidings,
         pins,
-        tuple(d for d in drivers if d),
+        tuple(drivers),
         file.units,
         file.title_zh,
         file.source,
@@ -307,67 +309,42 @@ def _not_found(position: DrawnPosition) -> list[Problem]:
     return found
 
 
-def _driver(drive: DriverEntry, position: DrawnPosition, problems: list[Problem]) -> AnyDriver | None:
+def _driver(where: str, driver: Driver, position: DrawnPosition, problems: list[Problem]) -> Driver:
     """The driver with its value, taken from the drawn points where the file leaves it out."""
-    if not drive.base:
-        travel = drive.value if drive.value is not None else travel_of(position, drive.key)
-        if travel is not None:
-            made = SlideDriver(drive.key, travel, drive.rate, drive.second, drive.dead_point)
-            return made if drive.law is None else _by_law(drive, made, drive.law, position, problems)
-        problems.append(
-            Problem(
-                f"{drive.where}.travel",
-                Phrase("is missing"),
-                Phrase("write time in s or the travel")
-                if drive.law is not None
-                else Phrase("write travel or draw the points that give"),
-            )
-        )
-        return None
-    if drive.position:  # its value is found where the positions are known
-        return AngleDriver(
-            drive.key, drive.base, 0.0, drive.rate, drive.second, None, drive.position, drive.rpm, drive.given_speed
-        )
-    angle = drive.value
-    driven, base = position.bodies.get(drive.key), position.bodies.get(drive.base)
-    if angle is None and driven and base and driven.turn is not None and base.turn is not None:
-        angle = cmath.phase(driven.turn / base.turn)
-    if angle is not None:
-        turning = AngleDriver(
-            drive.key, drive.base, angle, drive.rate, drive.second, drive.dead_point, "", drive.rpm, drive.given_speed
-        )
-        return turning if drive.law is None else _by_law(drive, turning, drive.law, position, problems)
-    problems.append(
-        Problem(
-            f"{drive.where}.angle",
-            Phrase("is missing"),
-            Phrase("write time in s or the angle")
-            if drive.law is not None
-            else Phrase("write angle in degrees or draw two points", key=drive.key),
-        )
-    )
-    return None
+    if driver.position:  # its value is found where the positions are known
+        return replace(driver, value=0.0)
+    value = driver.value
+    if math.isnan(value) and not driver.turns:
+        travel = travel_of(position, driver.key)
+        value = value if travel is None else travel
+    elif math.isnan(value):
+        driven, base = (position.bodies.get(name) for name in driver.links)
+        if driven and base and driven.turn is not None and base.turn is not None:
+            value = cmath.phase(driven.turn / base.turn)
+    if not math.isnan(value):
+        driver = replace(driver, value=value)
+        return driver if driver.law is None else _by_law(where, driver, driver.law, position.metres, problems)
+    if driver.turns:
+        key, wanted = "angle", Phrase("write angle in degrees or draw two points", key=driver.key)
+    else:
+        key, wanted = "travel", Phrase("write travel or draw the points that give")
+    if driver.law is not None:
+        wanted = Phrase(f"write time in s or the {key}")
+    problems.append(Problem(f"{where}.{key}", Phrase("is missing"), wanted))
+    return driver
 
 
-def _by_law(
-    drive: DriverEntry, driver: AngleDriver | SlideDriver, law: MotionLaw, position: DrawnPosition,
-    problems: list[Problem],
-) -> AnyDriver:  # fmt: skip
+def _by_law(where: str, driver: Driver, law: MotionLaw, metres: float, problems: list[Problem]) -> Driver:
     """The driver with the rates that its law gives it where it stands: at the moment that is asked, else at the first
     at which it comes there."""
-    if abs(law.at(law.time).lift - driver.values[0]) > 1e-12 * max(map(abs, law.span)):
-        time = law.reached(driver.values[0])
+    if abs(law.at(law.time).lift - driver.value) > 1e-12 * max(map(abs, law.span)):
+        time = law.reached(driver.value)
         if time is None:
-            turns = isinstance(driver, AngleDriver)
-            unit, what = (math.pi / 180, "angle") if turns else (position.metres, "travel")
+            unit, what = (math.pi / 180, "angle") if driver.turns else (metres, "travel")
             low, high = (f"{end / unit:.6g}" for end in law.span)
-            problems.append(
-                Problem(
-                    f"{drive.where}.{what}",
-                    Phrase("found value", value=f'{driver.values[0] / unit:.6g}'),
-                    Phrase("the law goes from to", least=low, greatest=high, turns=' deg' * turns),
-                )
-            )
+            found = Phrase("found value", value=f"{driver.value / unit:.6g}")
+            wanted = Phrase("the law goes from to", least=low, greatest=high, turns=" deg" * driver.turns)
+            problems.append(Problem(f"{where}.{what}", found, wanted))
             return driver
         law = replace(law, time=time)
     return driver.moving(law)

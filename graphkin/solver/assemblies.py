@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.search import last_true
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
@@ -184,7 +184,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     """The nearest value of the first driver at which everything up to group ``i`` can be assembled."""
     scene = structure.scene
     first = scene.drivers[0]
-    wide = np.pi if isinstance(first, AngleDriver) else 2 * scene.size
+    wide = np.pi if first.turns else 2 * scene.size
 
     def closes(offset: Array) -> Array:
         value = np.repeat(drive.value, len(offset), axis=0)

@@ -15,7 +15,6 @@ from typing import Protocol
 
 from graphkin.plane import cross
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver
 from graphkin.solver.dyads import DyadSolution, Joints
 from graphkin.solver.expressions import ExpressionGraph, PoseFormula, Real, Vec, fmax, root
 from graphkin.solver.joints import Frames, body_shape
@@ -334,7 +333,7 @@ class ErrorFormulas:
         joint, pose = self._at(pair, base), self.program.poses[link]
         mine = self.program.rest(pair, link)
         turning = joint
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             other = driver.relative_to if driver.link == link else driver.link
             turning = joint.turning_as(*self._error_of(other).of_turning)
         else:
@@ -413,7 +412,7 @@ def _bases(element: Driven | Dyad) -> list[str]:
             return [*found, element.driver.link]
         if isinstance(element.driver, Rolled):
             return [*found, *(n for n in element.driver.links if n != element.link)]
-        if isinstance(element.driver, AngleDriver):
+        if element.driver.turns:
             found += [n for n in (element.driver.link, element.driver.relative_to) if n != element.link]
         return found
     bodies = zip((element.outer_first, element.outer_second), element.bodies, strict=True)

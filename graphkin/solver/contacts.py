@@ -11,7 +11,7 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.contacts import PlacedContact, PlacedGear
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import least_value
 from graphkin.solver.driver_range import DriverRange, driver_range
@@ -152,7 +152,7 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
 def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     """Which side of a contact is the cam (0 or 1), and what tells the follower's motion: its sliding pair or link."""
     driver = scene.drivers[0] if scene.drivers else None
-    if not isinstance(driver, AngleDriver) or driver.relative_to != scene.frame.name or contact.rolling:
+    if driver is None or not driver.turns or driver.relative_to != scene.frame.name or contact.rolling:
         return None
     if driver.link not in contact.links:
         return None

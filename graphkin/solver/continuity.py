@@ -12,7 +12,6 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.scene.model import SlideDriver
 from graphkin.solver.discriminant import least_closes
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import group_at, positions
@@ -301,7 +300,7 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
 def _steps(structure: Structure, span: Array) -> int:
     steps = 8
     for driver, wide in zip(structure.scene.drivers, span, strict=True):
-        fine = TRAVEL_STEP * structure.scene.size if isinstance(driver, SlideDriver) else TURN_STEP
+        fine = TRAVEL_STEP * structure.scene.size if not driver.turns else TURN_STEP
         steps = max(steps, int(np.ceil(wide / fine)))
     return min(steps, 4000)
 

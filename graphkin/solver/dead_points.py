@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.search import last_true, least_value
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.decimals import PI, meant_value, working
@@ -78,7 +78,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
 
 def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
     off = float(one.value - two.value)
-    turning = isinstance(structure.scene.drivers[0], AngleDriver)
+    turning = structure.scene.drivers[0].turns
     return abs(math.remainder(off, 2 * math.pi) if turning else off) < SAME
 
 
@@ -92,14 +92,14 @@ def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float],
     """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
     if len(structure.scene.drivers) != 1 or in_stages(structure.elements[: i + 1]):
         return None
-    unit = 1.0 if isinstance(structure.scene.drivers[0], AngleDriver) else structure.scene.size
+    unit = 1.0 if structure.scene.drivers[0].turns else structure.scene.size
     grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)
     found = list(_of_group(structure, i, signs, grid))
     return min(found, key=lambda p: abs(float(p.value) - value), default=None)
 
 
 def _grid(structure: Structure, near: float) -> Array:
-    turning = isinstance(structure.scene.drivers[0], AngleDriver)
+    turning = structure.scene.drivers[0].turns
     wide = math.pi if turning else FAR * structure.scene.size
     # a step more on both sides, for what lies at the ends
     return np.asarray(near + wide * np.arange(-GRID // 2 - 1, GRID // 2 + 2) / (GRID // 2))
@@ -208,7 +208,7 @@ def from_dead_point(structure: Structure) -> Structure:
         names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
         raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
                                                Phrase("write near to tell which one")))
-    turn = float(2 * PI) if isinstance(driver, AngleDriver) else math.inf
+    turn = float(2 * PI) if driver.turns else math.inf
 
     def away(point: DeadPoint) -> float:
         off = abs(float(point.value) - (dead.near or 0.0))
@@ -243,6 +243,4 @@ def _at(structure: Structure, value: Decimal) -> Structure:
     driver = scene.drivers[0]
     assert driver.dead_point is not None
     exact = replace(driver.dead_point, exact=str(value))
-    if isinstance(driver, AngleDriver):
-        return analyse(replace(scene, drivers=(replace(driver, angle=float(value), dead_point=exact),)))
-    return analyse(replace(scene, drivers=(replace(driver, travel=float(value), dead_point=exact),)))
+    return analyse(replace(scene, drivers=(replace(driver, value=float(value), dead_point=exact),)))

@@ -6,7 +6,7 @@ import cmath
 from contextlib import AbstractContextManager
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
 
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 
 __all__ = [
     "DIGITS",
@@ -47,9 +47,9 @@ def meant_angle(value: float) -> tuple[Decimal, bool]:
         return (degrees * PI / 180 if known else Decimal(value)), known
 
 
-def meant_value(driver: AnyDriver, value: float) -> Decimal:
+def meant_value(driver: Driver, value: float) -> Decimal:
     """The value of a driver that was written for a float."""
-    return (meant_angle if isinstance(driver, AngleDriver) else meant)(value)[0]
+    return (meant_angle if driver.turns else meant)(value)[0]
 
 
 def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver
 from graphkin.solver.decimals import meant_value
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
@@ -128,7 +127,7 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
         return ""
     one = np.ones((1, len(values)))
     size = structure.scene.size
-    for driver, turns in enumerate(isinstance(d, AngleDriver) for d in structure.scene.drivers):
+    for driver, turns in enumerate(d.turns for d in structure.scene.drivers):
         nudged = values[None].copy()
         nudged[0, driver] += HAIR * (1.0 if turns else size)
         solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
@@ -236,7 +235,7 @@ def _lies_at(structure: Structure, value: float, away: float, about: bool = Fals
     scene, driver = structure.scene, structure.scene.drivers[0]
     key, figures = ("it lies at about", 2) if about else ("it lies at", 3)
     distance: Wording = f"{away / scene.units.metres:.{figures}g} {scene.units.length}"
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         distance = Phrase("so many degrees", value=f"{np.degrees(away):.{figures}g}")
     return Phrase(key, driver=driver.key, value=driver_text(scene, driver, value), distance=distance)
 

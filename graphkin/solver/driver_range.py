@@ -16,7 +16,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.diagnosis import assembly_words, limit_why
 from graphkin.solver.driver_values import UniformGrid
@@ -92,7 +92,7 @@ def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, wh
     from graphkin.solver.continuity import FAR, follow_path
 
     driver = structure.scene.drivers[which]
-    turning = isinstance(driver, AngleDriver)
+    turning = driver.turns
     wide = float(np.copysign(2 * np.pi if turning else FAR * structure.scene.size, driver.values[1]))
 
     # the ways from here that ended before they came to where they should
@@ -194,7 +194,7 @@ class DriverRange:
         return self.structure.scene
 
     @property
-    def driver(self) -> AnyDriver:
+    def driver(self) -> Driver:
         return self.scene.drivers[0]
 
     @property
@@ -240,7 +240,7 @@ class DriverRange:
         themselves, of a motion that closes within its turns; of an angle that it does not reach so, at most a turn
         ahead or as far behind as the motion reaches."""
         offset = np.asarray(self.sense * (value - self.start[0]))
-        if not isinstance(self.driver, AngleDriver):
+        if not self.driver.turns:
             return offset
         if self.full:
             return np.asarray(np.remainder(offset, abs(self.wide)))
@@ -257,7 +257,7 @@ class DriverRange:
         """Offsets of positions ``first`` to ``last`` (not included) of a table of n, in the sense of the driver: over a
         turn from the start on, or evenly inside the range of travel."""
         k = np.arange(first, n if last is None else last)
-        if isinstance(self.driver, AngleDriver):
+        if self.driver.turns:
             return np.asarray(2 * np.pi * k / n)
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
@@ -266,7 +266,7 @@ class DriverRange:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
         start on in the sense of the driver, or evenly inside the range of travel."""
         last, start = n if last is None else last, float(self.start[0])
-        if isinstance(self.driver, AngleDriver):
+        if self.driver.turns:
             return UniformGrid(start, self.sense * 2 * np.pi, n, first, last)
         low, high = self.ends
         return UniformGrid(start + self.sense * ((high - low) / n / 2 + low), self.sense * (high - low), n, first, last)
@@ -335,7 +335,7 @@ class DriverRange:
     def _reached(self, offset: Array) -> Array:
         """The offsets, a turn less where an angle driver that cannot turn fully comes there the other way round."""
         low, high = self.ends
-        if self.full or not isinstance(self.driver, AngleDriver):
+        if self.full or not self.driver.turns:
             return offset
         return np.where((offset > high) & (offset - 2 * np.pi >= low), offset - 2 * np.pi, offset)
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
@@ -36,7 +36,7 @@ FEW_ROUNDINGS = 8
 """Roundings in a result that is itself exact but for the last place."""
 
 
-def known_exactly(drivers: Sequence[AnyDriver], values: Array) -> Array:
+def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
     """Positions whose driver values, shape (n, drivers), are known to fifty digits, shape (n,)."""
     found = np.zeros(len(values), dtype=bool)
     for j, driver in enumerate(drivers):
@@ -55,7 +55,7 @@ class ExtendedPrecision:
 
     dimensioned: DimensionedProgram
     code: Code
-    drivers: Sequence[AnyDriver]
+    drivers: Sequence[Driver]
     value: Array
     rate: Array
     second: Array
@@ -108,7 +108,7 @@ class ExtendedPrecision:
         given: dict[Name, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
             value = float(self.value[k, j])
-            turns = isinstance(driver, AngleDriver)
+            turns = driver.turns
             number, exact = meant_angle(value) if turns else meant(value)
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
@@ -255,7 +255,7 @@ class _Run:
         given: dict[Name, Array] = {}
         for k, driver in enumerate(self.structure.drivers):
             value = self.drive.value[:, k]
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 u = turned(value)
                 given["cos", k], given["sin", k] = u.real, u.imag
             else:
@@ -458,7 +458,7 @@ def _as_asked(asked: Sequence[Real | Vec], columns: Iterable[Array]) -> list[Arr
 def _ends(group: Cluster) -> set[str]:
     found = {end for pair in group.pairs for end in (pair.a, pair.b)}
     for driver in group.drivers:
-        found |= {getattr(driver, "link", ""), getattr(driver, "relative_to", "")}
+        found |= {*driver.links}
     for relation in group.rolling:
         found |= {*relation.links}
     return found

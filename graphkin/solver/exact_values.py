@@ -11,7 +11,6 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem
 from graphkin.scene.force_names import no_force
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.solver.driver_range import DriverRange, driver_range
 from graphkin.solver.motion import Motion
@@ -107,5 +106,5 @@ def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
 def _in_motion(motion: Motion, values: Mapping[str, float]) -> Motion:
     """The same position with the first driver at unit speed."""
     scene, first = motion.scene, motion.scene.drivers[0]
-    faster = replace(first, **{"omega" if isinstance(first, AngleDriver) else "velocity": 1.0})  # type: ignore[arg-type]
+    faster = replace(first, **{"omega" if first.turns else "velocity": 1.0})  # type: ignore[arg-type]
     return solve(replace(scene, drivers=(faster, *scene.drivers[1:])), at=values)

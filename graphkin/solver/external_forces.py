@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import changes
 from graphkin.solver.driver_range import DriverRange, driver_range
@@ -160,7 +160,7 @@ class _Loads:
         if phase.stroke:
             return self._on_stroke(phase)
         value = self.motion.values[:, 0]
-        if not isinstance(self.scene.drivers[0], AngleDriver):
+        if not self.scene.drivers[0].turns:
             edge = EDGE * (phase.end - phase.start)
             near = (np.abs(value - phase.start) < edge) | (np.abs(value - phase.end) < edge)
             return np.asarray((phase.start < value) & (value < phase.end)), np.asarray(near)
@@ -225,7 +225,7 @@ def _begins_and_ends(reach: DriverRange, phase: Phase) -> Iterator[float]:
     if not phase.stroke:
         for value in (phase.start, phase.end):
             at = float(reach.sense * (value - reach.start[0]))
-            if isinstance(reach.driver, AngleDriver):
+            if reach.driver.turns:
                 first = at + np.ceil((low - 1e-9 - at) / (2 * np.pi)) * 2 * np.pi
                 yield from np.arange(first, high + 1e-9, 2 * np.pi).tolist()
             else:

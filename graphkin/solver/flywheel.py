@@ -14,7 +14,6 @@ from itertools import pairwise
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.external_forces import Action, load_edges
 from graphkin.solver.forces import balances, forces_of
@@ -94,11 +93,11 @@ def flywheel_of(reach: DriverRange) -> FlywheelStudy:
 def _found(reach: DriverRange) -> FlywheelStudy:
     wanted = reach.scene.loading.flywheel
     assert wanted is not None
-    if not isinstance(reach.driver, AngleDriver) or not reach.full or len(reach.scene.drivers) > 1:
+    if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
         raise _without(Phrase("the mechanism runs through no cycle one driver"), "leave [flywheel] out")
     speed = _mean_speed(reach, wanted.link)
     if not speed:
-        rests = not reach.driver.omega
+        rests = not reach.driver.rate
         found = Phrase("the driver rests") if rests else Phrase("link does not turn on and on", link=wanted.link)
         raise _without(found, Phrase("give it a speed") if rests else Phrase("put the flywheel on one that does"))
     edges = _panels(reach)
@@ -131,8 +130,7 @@ def _mean_speed(reach: DriverRange, link: str) -> float:
     ends: Motion = reach.motion(np.array(reach.ends))
     turned = float(np.diff(reach.angle(ends, link))[0])
     driver = reach.driver
-    assert isinstance(driver, AngleDriver)
-    return float(np.rint(turned / (2 * np.pi)) * 2 * np.pi / abs(reach.wide) * abs(driver.omega))
+    return float(np.rint(turned / (2 * np.pi)) * 2 * np.pi / abs(reach.wide) * abs(driver.rate))
 
 
 def _panels(reach: DriverRange) -> Array:

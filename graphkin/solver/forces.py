@@ -17,7 +17,7 @@ import numpy as np
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints, opposite
 from graphkin.scene.loads import BalanceAt
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.solver.cams import contact_of
 from graphkin.solver.contacts import contact_motion, pitch_point
 from graphkin.solver.external_forces import EDGE, Action, actions, spring_ends, without_line
@@ -121,7 +121,7 @@ class _Pairs:
             return [self._said_balance(self.scene.loading.balance)]
         frame, found = self.scene.frame.name, []
         for driver in self.scene.drivers:
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 at = np.asarray(self.motion.poses[driver.link].z)
                 found.append(PairForce(f"M_{driver.link}", driver.relative_to, driver.link, None, at))
                 continue

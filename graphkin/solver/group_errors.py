@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver, AngleFollower, SlideFollower
+from graphkin.scene.model import Driver
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.expressions import Name
 from graphkin.solver.joints import Drive, joint_place
@@ -33,7 +33,7 @@ class LedLink:
     """A link that a cam or rolling leads, and the driver that would move it so."""
 
     element: Driven
-    driver: AngleFollower | SlideFollower
+    driver: Driver
 
     def off(
         self, order: int, structure: Structure, poses: Mapping[str, Pose], errors: Mapping[str, Errors],
@@ -95,12 +95,12 @@ def with_led_links(
         pair = element.pair
         if isinstance(pair, Turn):
             pose = poses[element.link]
-            led.append(LedLink(element, AngleFollower(element.link, frame, 0.0, 0.0, 0.0)))
+            led.append(LedLink(element, Driver(element.link, frame, 0.0, 0.0, 0.0)))
             columns.append((np.angle(pose.u), pose.omega, pose.alpha))
             continue
         one, two = (poses[name].fixed(*joint_place(structure, pair, name)) for name in (pair.a, pair.b))
         seen = two.inverse().of(one)
-        led.append(LedLink(element, SlideFollower(pair.key, 0.0, 0.0, 0.0)))
+        led.append(LedLink(element, Driver(pair.a, pair.b, 0.0, 0.0, 0.0, pair.key)))
         columns.append((seen.z.real, seen.v.real, seen.a.real))
     if not led:
         return structure, drive, ()
@@ -296,14 +296,14 @@ class Rows:
                 rows += [_turning(one, two, order), _sliding(one, two, order) / size]
         for driver in self.system.group.drivers:
             i = structure.drivers.index(driver)
-            turns = isinstance(driver, AngleDriver)
+            turns = driver.turns
             first = len(structure.drivers) - len(self.led)
             given: float | Array
             if i >= first:
                 given = self.led[i - first].off(order, structure, self.poses, self.before, self.given)
             else:
                 given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 one, two = (_Joint(self.poses[k], self._errors(k)) for k in (driver.link, driver.relative_to))
                 rows.append(_turning(one, two, order) + given)
             else:

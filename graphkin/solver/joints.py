@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.dyads import Joints
 from graphkin.solver.expressions import PoseFormula, Real, Vec
 from graphkin.solver.pose import Array
@@ -61,9 +61,9 @@ def turned(angle: Array) -> Array:
     return u
 
 
-def driver_text(scene: Mechanism, driver: AnyDriver, value: float) -> Wording:
+def driver_text(scene: Mechanism, driver: Driver, value: float) -> Wording:
     """A driver value in its own unit."""
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         return Phrase("so many degrees", value=f"{np.degrees(value):.10g}")
     return f"{value / scene.units.metres:.10g} {scene.units.length}"
 
@@ -85,10 +85,10 @@ class Frames(Protocol):
     def rest(self, pair: Pair, link: str) -> PoseFormula:
         """The joint's frame in the axes of one of its links."""
 
-    def turn(self, driver: AngleDriver) -> PoseFormula:
+    def turn(self, driver: Driver) -> PoseFormula:
         """The rotation that an angle driver gives."""
 
-    def travel(self, driver: AnyDriver) -> tuple[Real, Real, Real]:
+    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
 
     def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
@@ -119,7 +119,7 @@ def driven(frames: Frames, element: Driven, poses: Mapping[str, PoseFormula]) ->
             return at.pinned(mine, stands, rate, second)
         sense = 1.0 if pair.a == link else -1.0
         return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
-    if isinstance(element.driver, AngleDriver):
+    if element.driver.turns:
         given = frames.turn(element.driver)
         forward = element.driver.link == link
         from_ = poses[element.driver.relative_to if forward else element.driver.link]
@@ -136,7 +136,7 @@ def body_shape(frames: Frames, body: Body, rest: PoseFormula) -> dict[str, PoseF
     shape = {body.links[0]: rest}
     for weld in body.welds:
         joint = shape[weld.a].of(frames.rest(weld.pair, weld.a))
-        if isinstance(weld.driver, AngleDriver):
+        if weld.driver.turns:
             given = frames.turn(weld.driver)
             joint = joint.of(given if weld.sign > 0 else given.inverse())
         else:

@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.scene.model import AngleDriver
 from graphkin.solver.joints import Drive, joint_place, turned
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
@@ -81,7 +80,7 @@ class Layout:
         self.slides = len(slides)
         for driver in group.drivers:
             i = drivers.index(driver)
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 angles.append((row, driver.link, driver.relative_to, i))
             else:
                 self.travels.append((row, len(lines), i))
@@ -132,7 +131,7 @@ class Layout:
         for pair in group.pairs:
             yield from (pair.a, pair.b)
         for driver in group.drivers:
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 yield from (driver.link, driver.relative_to)
         for relation in group.rolling:
             yield from relation.links

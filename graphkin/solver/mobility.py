@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_forms, new_places, own_values
 from graphkin.solver.cams import meeting_followers
@@ -70,7 +70,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 
         structure = from_dead_point(structure)
     structure = with_sensible_slots(structure)
-    if any(isinstance(d, AngleDriver) and d.given_speed for d in scene.drivers):
+    if any(d.turns and d.given_speed for d in scene.drivers):
         return at_given_speed(structure)
     return structure
 
@@ -79,7 +79,7 @@ def _diagnosis(scene: Mechanism) -> Problem | None:
     tried: list[tuple[str, Fit, bool]] = []
     pins = {pin.key: pin.of for pin in scene.pins}
     driven = {n for d in scene.drivers for n in (*d.key.split("/"), pins.get(d.key))}
-    driven |= {d.relative_to for d in scene.drivers if isinstance(d, AngleDriver)}
+    driven |= {d.relative_to for d in scene.drivers if d.turns}
     for link in reversed(scene.links):
         if link.redundant or link.name in driven:
             continue
@@ -231,7 +231,6 @@ def at_given_speed(structure: Structure) -> Structure:
     """
     scene = structure.scene
     driver = scene.drivers[0]
-    assert isinstance(driver, AngleDriver)
     assert driver.given_speed is not None
     name, speed = driver.given_speed
     own = own_values(scene)[None]
@@ -254,4 +253,4 @@ def at_given_speed(structure: Structure) -> Structure:
                 Phrase("driver of key and name", key=driver.key, name=name), said, Phrase("give omega or another place")
             ),
         )
-    return analyse(replace(scene, drivers=(replace(driver, omega=speed / once, given_speed=None),)))
+    return analyse(replace(scene, drivers=(replace(driver, rate=speed / once, given_speed=None),)))

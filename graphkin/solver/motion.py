@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.assemblies import own_values
@@ -345,7 +345,7 @@ class Motion:
         size = self.scene.size
         rate, second = np.zeros(len(self)), np.zeros(len(self))
         for driver in self.scene.drivers:
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 one, two = self.poses[driver.link], self.poses[driver.relative_to]
                 rate, second = rate + np.abs(one.omega - two.omega), second + np.abs(one.alpha - two.alpha)
             else:

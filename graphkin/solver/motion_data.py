@@ -11,7 +11,7 @@ from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.files import json_text as one_line
 from graphkin.scene.cams import SwingingFollower
-from graphkin.scene.model import Mechanism, SlideDriver
+from graphkin.scene.model import Mechanism
 from graphkin.solver.cams import contact_of
 from graphkin.solver.contacts import contact_motion, pitch_point
 from graphkin.solver.driver_range import driver_range
@@ -83,7 +83,7 @@ def head(motion: Motion) -> dict[str, Json]:
 def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
     """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
     values = zip(scene.drivers, one.values, strict=True)
-    at = {d.key: v / (scene.units.metres if isinstance(d, SlideDriver) else 1.0) for d, v in values}
+    at = {d.key: v / (scene.units.metres if not d.turns else 1.0) for d, v in values}
     return {"links": list(one.links), "driver": at}
 
 
@@ -94,7 +94,7 @@ def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, 
     flywheel = _flywheel(motion)
     angles = {link.name: motion.angle(link.name) for link in scene.links}
     drivers = {
-        d.key: motion.values[:, i] / (metres if isinstance(d, SlideDriver) else 1.0)
+        d.key: motion.values[:, i] / (metres if not d.turns else 1.0)
         for i, d in enumerate(scene.drivers)
     }
     for first in range(0, len(motion), BLOCK):

@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism, NamedPositions, OnStroke
+from graphkin.scene.model import Driver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.driver_range import DriverRange, driver_range
@@ -43,7 +43,7 @@ class PlacesByName:
         sense = -1.0 if self.reach.driver.values[1] < 0 else 1.0
         own = self.reach.scene.drivers[0].values[0]
         found = {name: self._value(self.names.place(name, self.first, sense)) for name in self.names.names}
-        if isinstance(self.reach.driver, AngleDriver):
+        if self.reach.driver.turns:
             return {name: own + math.remainder(value - own, math.tau) for name, value in found.items()}
         return found
 
@@ -85,7 +85,7 @@ class PlacesByName:
 
     def name_of(self, value: float) -> str:
         """The name of the position at a driver's value (rad, m), whole turns aside; "" where it has none."""
-        turning = isinstance(self.reach.driver, AngleDriver)
+        turning = self.reach.driver.turns
         for name, own in self.values.items():
             off = math.remainder(value - own, math.tau) if turning else (value - own) / self.reach.scene.size
             if abs(off) < SAME:
@@ -111,7 +111,7 @@ def standing(scene: Mechanism) -> Mechanism:
     Unsolvable : no position of the driver leads to the stroke that is named
     """
     first = scene.drivers[0] if scene.drivers else None
-    if not isinstance(first, AngleDriver) or not first.position:
+    if first is None or not first.position:
         return scene
     stop: GraphkinError | None = None
     for k in range(TRIES):
@@ -135,6 +135,6 @@ def standing(scene: Mechanism) -> Mechanism:
     )
 
 
-def _at(scene: Mechanism, driver: AngleDriver, value: float) -> Mechanism:
+def _at(scene: Mechanism, driver: Driver, value: float) -> Mechanism:
     turned = math.remainder(value, math.tau)
-    return replace(scene, drivers=(replace(driver, angle=turned, position=""), *scene.drivers[1:]))
+    return replace(scene, drivers=(driver.at_value(turned), *scene.drivers[1:]))

@@ -10,7 +10,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from graphkin.scene.dimensions import Dimension, dimensions
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.code import Code
 from graphkin.solver.compiled import LONG, Kernel
@@ -73,7 +73,7 @@ class PreparedMechanism:
         scene, (metre, radian, metre_of_rates) = self.structure.scene, self.units
         rate = second = 0.0
         for driver in scene.drivers:
-            by = 1.0 if isinstance(driver, AngleDriver) else 1.0 / scene.size
+            by = 1.0 if driver.turns else 1.0 / scene.size
             rate, second = rate + by * abs(driver.values[1]), second + by * abs(driver.values[2])
         second += rate**2
         whole = {"length": scene.size * metre, "velocity": scene.size * rate * metre_of_rates, "angle": radian,
@@ -107,7 +107,7 @@ class PreparedMechanism:
     @cached_property
     def turns(self) -> bool:
         """Whether the first driver is an angle."""
-        return isinstance(self.range.driver, AngleDriver)
+        return self.range.driver.turns
 
     @cached_property
     def _even(self) -> bool:
@@ -149,7 +149,7 @@ class PreparedMechanism:
                 far = abs(self.range.start[k]) + (0.0 if k else abs(self.range.wide))
             else:  # what rolls goes as far as its ratios make it
                 ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(count) == 0)
-                far = abs(driver.values[0]) + float(np.abs(getattr(driver, "ratios", (0.0,))) @ ends)
+                far = abs(driver.values[0]) + float(np.abs(driver.ratios or (0.0,)) @ ends)
             held["error", "angle", k] = GIVEN * far + PRODUCTS * UNIT
             held["error", "travel", k] = GIVEN * far
             if 0 < k < count:

@@ -14,7 +14,7 @@ from typing import cast
 
 from graphkin.errors import CallError, Problem
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.bounds import ErrorFormulas, FrameError
 from graphkin.solver.code import Code
@@ -93,7 +93,7 @@ class Program:
         """The guide of a sliding pair in the world."""
         return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
-    def _rates(self, driver: AnyDriver) -> tuple[Real, Real]:
+    def _rates(self, driver: Driver) -> tuple[Real, Real]:
         k = self.structure.drivers.index(driver)
         second = self.graph.param(("second", k)) if self._moving[k] else self.graph.const(0)
         return self.graph.param(("rate", k)), second
@@ -102,14 +102,14 @@ class Program:
         """The angle of a direction, in (-pi, pi] (rad)."""
         return self.graph.line("atan2", direction.imag.at, direction.real.at)
 
-    def turn(self, driver: AngleDriver) -> PoseFormula:
+    def turn(self, driver: Driver) -> PoseFormula:
         """The rotation that an angle driver gives."""
         k = self.structure.drivers.index(driver)
         rate, second = self._rates(driver)
         none = Vec(self.graph.const(0), self.graph.const(0))
         return Pose(none, Vec(self.graph.input(("cos", k)), self.graph.input(("sin", k))), none, rate, none, second)
 
-    def travel(self, driver: AnyDriver) -> tuple[Real, Real, Real]:
+    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
         """Value, rate and second rate of a slide driver."""
         k = self.structure.drivers.index(driver)
         return self.graph.input(("travel", k)), *self._rates(driver)
@@ -201,7 +201,7 @@ def _numbers(structure: Structure) -> dict[Name, complex]:
 
 def _form(structure: Structure, open_: Container[Name]) -> Hashable:
     """What a program depends on: elements, joints and drivers by name, and which numbers are 0, 1 or -1."""
-    drivers = tuple((type(d).__name__, d.key, getattr(d, "relative_to", "")) for d in structure.drivers)
+    drivers = tuple((d.key, *d.links, d.rolls) for d in structure.drivers)
     special = tuple(
         (*name, axis, x if x in SPECIAL and (*name, axis) not in open_ else None)
         for name, z in _numbers(structure).items()

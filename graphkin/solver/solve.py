@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.solver.assemblies import choose_forms, own_values
 from graphkin.solver.diagnosis import assembly_words
 from graphkin.solver.driver_range import range_from, stopped_why, way_to
@@ -109,8 +109,8 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     n = sweep or 1
     values = np.repeat(goal[None], n, axis=0)
     first = structure.scene.drivers[0]
-    if isinstance(first, AngleDriver):
-        values[:, 0] += (-1.0 if first.omega < 0 else 1.0) * 2 * np.pi * np.arange(n) / n
+    if first.turns:
+        values[:, 0] += (-1.0 if first.rate < 0 else 1.0) * 2 * np.pi * np.arange(n) / n
     none = rest().spread(n)
     gone = none.where(np.zeros(n, dtype=bool))
     names = [*structure.links, *(link.name for link in structure.scene.links if link.redundant)]

@@ -10,7 +10,6 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.cams import beginning
@@ -69,7 +68,7 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
         no limit positions
     CallError : there is no such sliding pair
     """
-    if not isinstance(reach.driver, AngleDriver):
+    if not reach.driver.turns:
         raise _without(symbol, Phrase("belongs to a whole turn but the driver"), WHERE_ELSE)
     if reach.turns != 1:
         why = reach.limit_why or Phrase("the motion does not repeat after one turn")

@@ -10,7 +10,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure, links_of
@@ -169,7 +169,7 @@ def _in_parts(structure: Structure) -> Structure:
             found[e] = tuple(triangles)
     if not found:
         return structure
-    instead: dict[AnyDriver, AnyDriver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
+    instead: dict[Driver, Driver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
     try:
         opened = analyse(replace(structure.scene, drivers=tuple(instead.get(d, d) for d in structure.scene.drivers)))
     except Unsolvable:
@@ -332,9 +332,9 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
                 did_you_mean(link, known),
             )
         )
-    driver: AnyDriver = AngleDriver(link, scene.frame.name, 0.0, 0.0, 0.0)
+    driver: Driver = Driver(link, scene.frame.name, 0.0, 0.0, 0.0)
     if slide is not None:
-        driver = SlideDriver(slide, 0.0, 0.0, 0.0)
+        driver = Driver(link, scene.frame.name, 0.0, 0.0, 0.0, slide)
     elif not any(p in scene.frame.points for p in scene.by_name[link].points):
         raise CallError(
             Problem(Phrase("driver of driver", driver=link), Phrase("neither turns about the frame nor slides on"))

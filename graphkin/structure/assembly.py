@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
 from graphkin.plane import added_up
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording, listed
 
@@ -133,7 +133,7 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
 
 
 def ways(
-    drivers: Sequence[AnyDriver], start: Sequence[float], goal: Sequence[float], direct: bool = False
+    drivers: Sequence[Driver], start: Sequence[float], goal: Sequence[float], direct: bool = False
 ) -> Iterator[tuple[float, ...]]:
     """Driver values (rad, m) to which the motion may be followed to come to a goal: straight on to the goal itself,
     whole turns included; then, for drivers that turn, to where they stand the same way within a turn, the nearer first.
@@ -144,7 +144,7 @@ def ways(
         return
     choices: list[tuple[float, ...]] = []
     for driver, a, b in zip(drivers, start, goal, strict=True):
-        if not isinstance(driver, AngleDriver) or a == b:
+        if not driver.turns or a == b:
             choices.append((b,))
             continue
         here = b if abs(b - a) <= FOLD else a + math.fmod(b - a, FOLD)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import AngleDriver, AnyDriver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import Mobility, Slide
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of
@@ -51,7 +51,7 @@ class Constraints:
         )
         relations = relations_of(scene, meshes_of(scene, self.contacts, self.gears, links))
         self.followers, self.relations = followers_of(scene, relations, links, self.slides)
-        self.drivers: tuple[AnyDriver, ...] = (*scene.drivers, *self.followers)
+        self.drivers: tuple[Driver, ...] = (*scene.drivers, *self.followers)
         self._place = {name: i for i, name in enumerate(links)}
 
     def place(self, node: Node) -> tuple[int, int, str]:
@@ -97,11 +97,8 @@ class Constraints:
                     row.update((*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")))
             rows.append(row)
         for driver in self.drivers:
-            if isinstance(driver, AngleDriver):
-                rows.append({*self._coordinates(driver.link, "t"), *self._coordinates(driver.relative_to, "t")})
-            else:
-                s = next(s for s in self.slides if s.key == driver.key)
-                rows.append({*self._coordinates(s.a, "xy"), *self._coordinates(s.b, "xyt")})
+            driven, base = ("t", "t") if driver.turns else ("xy", "xyt")
+            rows.append({*self._coordinates(driver.link, driven), *self._coordinates(driver.relative_to, base)})
         return rows
 
     def _coordinates(self, name: str, axes: str) -> Iterable[Unknown]:

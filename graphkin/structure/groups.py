@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import Literal, TypeVar
 
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.structure.constraints import Constraints
 from graphkin.structure.model import (
     Body,
@@ -129,7 +129,7 @@ _KINDS: Mapping[str, tuple[DyadKind, Literal["as found", "the other", "as writte
 def element_of(system: Constraints, members: list[str], known: set[str]) -> Element:
     scene = system.scene
     inside = set(members)
-    drivers = [d for d in system.drivers if _ends(d, system) & inside and not (_ends(d, system) - inside - known)]
+    drivers = [d for d in system.drivers if inside & {*d.links} and {*d.links} <= inside | known]
     pairs = _pairs(system, members, known)
     for cam in system.cams:
         if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
@@ -165,13 +165,6 @@ def _touches(system: Constraints, relation: RollingRelation, inside: set[str], k
     return bool(within & inside) and within <= inside | known
 
 
-def _ends(driver: AnyDriver, system: Constraints) -> set[str]:
-    if isinstance(driver, AngleDriver):
-        return {driver.link, driver.relative_to}
-    s = next(s for s in system.slides if s.key == driver.key)
-    return {s.a, s.b}
-
-
 def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pair]:
     """All pairs that hold the members: to known links, or among themselves."""
     found: list[Pair] = []
@@ -188,10 +181,10 @@ def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pai
     return found
 
 
-def _bodies(system: Constraints, members: list[str], drivers: list[AnyDriver]) -> tuple[list[Body], list[AnyDriver]]:
+def _bodies(system: Constraints, members: list[str], drivers: list[Driver]) -> tuple[list[Body], list[Driver]]:
     """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
     welds: list[Weld] = []
-    loose: list[AnyDriver] = []
+    loose: list[Driver] = []
     for driver in drivers:
         pair = driver_pair(driver, system.links, system.slides)
         if pair is None or not {pair.a, pair.b} <= set(members):
@@ -267,7 +260,7 @@ def _letter(pair: Pair) -> str:
 
 
 def _rolls_like_a_dyad(
-    members: Sequence[str], pairs: Sequence[Pair], drivers: Sequence[AnyDriver], rolling: Sequence[RollingRelation]
+    members: Sequence[str], pairs: Sequence[Pair], drivers: Sequence[Driver], rolling: Sequence[RollingRelation]
 ) -> bool:
     """Whether for velocities a group is two links with three joints, one of them where it rolls, as if hinged there: a
     link that only carries a wheel follows it, links that a driver joins are one."""

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.loops import Arrow, Loop, Unknown, angle_of, loops_of
 from graphkin.structure.model import Structure
 
@@ -93,7 +92,7 @@ def loops_in_numbers(
     turning = _turning(structure)
     angle = {Unknown("theta", structure.scene.frame.name): (0.0, 0.0)}
     for driver in structure.scene.drivers:
-        if isinstance(driver, SlideDriver):
+        if not driver.turns:
             angle[Unknown("s", driver.key)] = driver.values[1:]
     blocks: dict[int, list[Loop]] = {}
     for loop in loops_of(structure):
@@ -117,8 +116,8 @@ Turning = Mapping[str, tuple[str, float, float]]
 def _turning(structure: Structure) -> Turning:
     joins: list[tuple[str, str, float, float]] = [(s.b, s.a, 0.0, 0.0) for s in structure.slides]
     for d in structure.scene.drivers:
-        if isinstance(d, AngleDriver):
-            joins.append((d.relative_to, d.link, d.omega, d.alpha))
+        if d.turns:
+            joins.append((d.relative_to, d.link, d.rate, d.second))
     found: dict[str, tuple[str, float, float]] = {}
     for first in angle_of(structure).values():
         found.setdefault(first, (first, 0.0, 0.0))

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.model import AngleDriver, SlideDriver
 from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn
 from graphkin.words import Phrase
 
@@ -67,7 +66,7 @@ def angle_of(structure: Structure) -> dict[str, str]:
     turn alike, a guide's stands for its blocks'; the frame's stands for all that never turn or are given."""
     group = {name: {name} for name in structure.links}
     joins = [(s.a, s.b) for s in structure.slides]
-    joins += [(d.link, d.relative_to) for d in structure.scene.drivers if isinstance(d, AngleDriver)]
+    joins += [(d.link, d.relative_to) for d in structure.scene.drivers if d.turns]
     for a, b in joins:
         merged = group[a] | group[b]
         for name in merged:
@@ -282,7 +281,7 @@ def _with_unknowns(structure: Structure, loops: Iterable[Loop]) -> list[Loop]:
     ties = angle_of(structure)
     frame = structure.scene.frame.name
     known = {Unknown("theta", frame)}
-    known |= {Unknown("s", d.key) for d in structure.scene.drivers if isinstance(d, SlideDriver)}
+    known |= {Unknown("s", d.key) for d in structure.scene.drivers if not d.turns}
     waiting, made, block = list(loops), [], 0
     while waiting:
         taken = _next_block(waiting, ties, known)

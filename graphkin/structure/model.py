@@ -10,11 +10,11 @@ from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism, PlacedGuide, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 
 __all__ = [
     "Body",
@@ -75,7 +75,7 @@ class Weld:
     """
 
     pair: Pair
-    driver: AnyDriver
+    driver: Driver
     a: str
     b: str
     sign: int = 1
@@ -128,6 +128,9 @@ class Rolled:
     start: float
     factors: tuple[tuple[Coordinate, float], ...]
     links: tuple[str, ...]
+    rolls: ClassVar[bool] = True
+    given: ClassVar[bool] = False
+    through: ClassVar[tuple[str, ...]] = ()
 
     @property
     def key(self) -> str:
@@ -149,7 +152,7 @@ class Driven:
 
     link: str
     pair: Pair
-    driver: AnyDriver | LawCam | Rolled
+    driver: Driver | LawCam | Rolled
 
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
@@ -207,8 +210,8 @@ class DrivenTriangle:
     held: str
     links: tuple[str, str, str]
     pair: Pair
-    driver: SlideDriver
-    equivalent: AnyDriver
+    driver: Driver
+    equivalent: Driver
 
 
 @dataclass(frozen=True)
@@ -225,13 +228,13 @@ class Cluster:
 
     members: tuple[str, ...]
     pairs: tuple[Pair, ...]
-    drivers: tuple[AnyDriver, ...]
+    drivers: tuple[Driver, ...]
     links: tuple[str, ...]
     order: int
     triangles: tuple[DrivenTriangle, ...] = ()
     parts: tuple[Driven | Dyad, ...] = ()
     rolling: tuple[RollingRelation, ...] = ()
-    starts: tuple[AnyDriver, ...] = ()
+    starts: tuple[Driver, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -253,20 +256,15 @@ def links_of(element: Element) -> tuple[str, ...]:
 def outside_of(element: Element) -> set[str]:
     """The links that an element hangs on."""
     if isinstance(element, Driven):
-        if isinstance(element.driver, LawCam):
-            return {element.pair.a, element.pair.b, element.driver.link} - {element.link}
-        if isinstance(element.driver, Rolled):
-            return {element.pair.a, element.pair.b, *element.driver.links} - {element.link}
-        pairs, drivers = [element.pair], [element.driver]
-    elif isinstance(element, Cluster):
-        pairs, drivers = list(element.pairs), list(element.drivers)
+        driver = element.driver
+        return {element.pair.a, element.pair.b, *driver.links, *driver.through} - {element.link}
+    if isinstance(element, Cluster):
+        names = {n for pair in element.pairs for n in (pair.a, pair.b)}
+        names |= {n for driver in element.drivers for n in (*driver.links, *driver.through)}
+        names |= {n for relation in element.rolling for n in relation.links}
     else:
-        pairs, drivers = [element.outer_first, element.outer_second], []
-    names = {n for pair in pairs for n in (pair.a, pair.b)}
-    names |= {n for d in drivers if isinstance(d, AngleDriver) for n in (d.link, d.relative_to)}
-    held = () if isinstance(element, Driven | Cluster) else (w.driver for body in element.bodies for w in body.welds)
-    names |= {n for d in (*drivers, *held) if isinstance(d, Follower) for n in d.through}
-    names |= {n for r in (element.rolling if isinstance(element, Cluster) else ()) for n in r.links}
+        names = {n for pair in element.outer for n in (pair.a, pair.b)}
+        names |= {n for body in element.bodies for weld in body.welds for n in weld.driver.through}
     return names.difference(links_of(element))
 
 
@@ -297,10 +295,10 @@ class Structure:
     hinges: Mapping[str, tuple[str, ...]]
     mobility: Mobility
     elements: tuple[Element, ...]
-    followers: tuple[Follower, ...] = ()
+    followers: tuple[Driver, ...] = ()
 
     @property
-    def drivers(self) -> tuple[AnyDriver, ...]:
+    def drivers(self) -> tuple[Driver, ...]:
         """The drivers of the scene, then what follows them by rolling."""
         return (*self.scene.drivers, *self.followers)
 
@@ -366,10 +364,9 @@ class Structure:
         return next(s for s in self.slides if s.key == key)
 
 
-def driver_pair(driver: AnyDriver, links: Mapping[str, PlacedLink], slides: tuple[Slide, ...]) -> Pair | None:
+def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Slide, ...]) -> Pair | None:
     """The pair at which a driver acts; None for an angle between links that no turning pair joins."""
-    if isinstance(driver, SlideDriver):
-        return next(s for s in slides if s.key == driver.key)
-    assert isinstance(driver, AngleDriver)
+    if driver.slide:
+        return next(s for s in slides if s.key == driver.slide)
     common = [p for p in links[driver.link].points if p in links[driver.relative_to].points]
     return Turn(common[0], driver.link, driver.relative_to) if common else None

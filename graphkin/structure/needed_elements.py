@@ -6,10 +6,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, Follower, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol, centre_links
-from graphkin.structure.model import Cluster, Driven, Element, Rolled, Structure, links_of
+from graphkin.structure.model import Cluster, Driven, Element, Structure, links_of
 from graphkin.words import Phrase
 
 __all__ = ["by_drivers_alone", "greatest_before", "in_stages", "links_for", "needed", "part_of"]
@@ -88,7 +87,7 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
 def in_stages(elements: Sequence[Element]) -> bool:
     """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
     followers of cams, whose law has pieces, and what rolls."""
-    followers = (isinstance(e, Driven) and isinstance(e.driver, LawCam | Follower | Rolled) for e in elements)
+    followers = (isinstance(e, Driven) and not e.driver.given for e in elements)
     return any(isinstance(e, Cluster) or follows for e, follows in zip(elements, followers, strict=True))
 
 
@@ -125,9 +124,9 @@ def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> 
     )
 
 
-def _ends(scene: Mechanism, driver: AnyDriver) -> set[str]:
+def _ends(scene: Mechanism, driver: Driver) -> set[str]:
     """The links that a driver acts between."""
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         return {driver.link, driver.relative_to}
     pin = next((p for p in scene.pins if p.key == driver.key), None)
     return {pin.of, pin.on} if pin else set(driver.key.split("/"))

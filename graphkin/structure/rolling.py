@@ -20,16 +20,7 @@ from itertools import chain, islice, product
 
 from graphkin.plane import added_up
 from graphkin.scene.contacts import PlacedContact, PlacedGear
-from graphkin.scene.model import (
-    AngleDriver,
-    AngleFollower,
-    AnyDriver,
-    Follower,
-    Mechanism,
-    PlacedLink,
-    SlideDriver,
-    SlideFollower,
-)
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.touching import rack_place
 from graphkin.structure.model import Cluster, Coordinate, Pair, Rolled, RollingRelation, Slide, Structure, Turn
 
@@ -158,7 +149,7 @@ class _Rows:
 
 def followers_of(
     scene: Mechanism, relations: Sequence[RollingRelation], links: Mapping[str, PlacedLink], slides: Sequence[Slide]
-) -> tuple[tuple[Follower, ...], tuple[RollingRelation, ...]]:
+) -> tuple[tuple[Driver, ...], tuple[RollingRelation, ...]]:
     """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
     left, between coordinates that also depend on lengths."""
     if not relations:
@@ -169,22 +160,21 @@ def followers_of(
         for s in slides:
             system.add(_angles(frame, s.a, s.b))
         for k, driver in enumerate(scene.drivers):
-            given: dict[Unknown, Fraction] = {("travel", driver.key): Fraction(1)}
-            if isinstance(driver, AngleDriver):
-                given = _angles(frame, driver.link, driver.relative_to)
+            travel: dict[Unknown, Fraction] = {("travel", driver.key): Fraction(1)}
+            given = _angles(frame, *driver.links) if driver.turns else travel
             system.add({**given, k: Fraction(-1)})
     # what the drivers and others before it settle holds the links a second time: it stays, and the count finds it
     twice = [relation for relation in relations if not whole.add(relation.terms)]
     candidates: list[Coordinate] = [("angle", name) for name in links if name != frame]
     candidates += [("travel", s.key) for s in slides]
-    followers: list[Follower] = []
+    followers: list[Driver] = []
     settled = [r for r in relations if r not in twice and all(whole.ratios(c, count) is not None for c in r.terms)]
     through = tuple(dict.fromkeys(chain.from_iterable(r.links for r in settled)))
     for coordinate in candidates:
         ratios = whole.ratios(coordinate, count)
         if ratios is None or base.ratios(coordinate, count) is not None:
             continue
-        followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links))
+        followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links, slides))
         follows: dict[Unknown, Fraction] = {k: -f for k, f in enumerate(ratios)}
         base.add({coordinate: Fraction(1), **follows})
     left = tuple(r for r in relations if r in twice or (r not in settled and base.add(r.terms)))
@@ -201,16 +191,18 @@ def _angles(frame: str, one: str, two: str) -> dict[Unknown, Fraction]:
 
 def _follower(
     scene: Mechanism, coordinate: Coordinate, ratios: tuple[float, ...], through: tuple[str, ...],
-    links: Mapping[str, PlacedLink],
-) -> Follower:
+    links: Mapping[str, PlacedLink], slides: Sequence[Slide],
+) -> Driver:
     kind, name = coordinate
     rate, second = (added_up(r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)) for k in (1, 2))
     if kind == "travel":
-        return SlideFollower(name, scene.starts.get(name, 0.0), rate, second, ratios=ratios, through=through)
+        slide = next(s for s in slides if s.key == name)
+        place = scene.starts.get(name, 0.0)
+        return Driver(slide.a, slide.b, place, rate, second, name, ratios=ratios, through=through)
     start = scene.starts.get(name)
     if start is None:
         start = drawn_angle(scene, links[name]) or 0.0
-    return AngleFollower(name, scene.frame.name, start, rate, second, ratios=ratios, through=through)
+    return Driver(name, scene.frame.name, start, rate, second, ratios=ratios, through=through)
 
 
 def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
@@ -243,7 +235,7 @@ def unrolled(scene: Mechanism, names: Sequence[str]) -> Mechanism:
     )
 
 
-def start_drivers(structure: Structure, groups: Sequence[Cluster]) -> Iterator[tuple[AnyDriver, ...]]:
+def start_drivers(structure: Structure, groups: Sequence[Cluster]) -> Iterator[tuple[Driver, ...]]:
     """A driver for each rolling relation of some groups, in the order of the groups: those that the scene tells first.
     Which of them hold the mechanism remains to be seen."""
     each = [_of(structure, group, relation) for group in groups for relation in group.rolling]
@@ -258,18 +250,18 @@ def start_drivers(structure: Structure, groups: Sequence[Cluster]) -> Iterator[t
             yield tuple(driver for _, driver in chosen)
 
 
-def _of(structure: Structure, group: Cluster, relation: RollingRelation) -> list[tuple[int, AnyDriver]]:
+def _of(structure: Structure, group: Cluster, relation: RollingRelation) -> list[tuple[int, Driver]]:
     """What can be given for a relation, and how well it is told: as the start of what rolls, of another link of the
     group, by a sketched bar, not at all."""
     scene, inside = structure.scene, set(group.members)
-    found: list[tuple[int, AnyDriver]] = []
+    found: list[tuple[int, Driver]] = []
     others = [("angle", n) for n in group.links if ("angle", n) not in relation.terms and n in scene.starts]
     for coordinate in (*reversed(list(relation.terms)), *others):
         kind, name = coordinate
         if kind == "travel":
             slide = structure.slide(name)
             if name in scene.starts and inside & {slide.a, slide.b}:
-                found.append((1, SlideDriver(name, scene.starts[name], 0.0, 0.0)))
+                found.append((1, Driver(slide.a, slide.b, scene.starts[name], 0.0, 0.0, name)))
         elif name in inside and name in scene.by_name:
             start = scene.starts.get(name)
             drawn = None if start is not None else drawn_angle(scene, structure.links[name])
@@ -278,14 +270,14 @@ def _of(structure: Structure, group: Cluster, relation: RollingRelation) -> list
     return found
 
 
-def _turned(structure: Structure, name: str, angle: float) -> AngleDriver:
+def _turned(structure: Structure, name: str, angle: float) -> Driver:
     """A driver by which a link's own axis stands at an angle (rad): from a link to which it is pinned and that never
     turns, where there is one."""
     still = _still(structure)
     pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
     frame = structure.scene.frame.name
     base = frame if frame in pinned or not pinned else pinned[0]
-    return AngleDriver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)
+    return Driver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)
 
 
 def _still(structure: Structure) -> Mapping[str, complex]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphkin.scene.model import AngleDriver, AnyDriver, PlacedLink, SlideDriver
+from graphkin.scene.model import Driver, PlacedLink
 from graphkin.structure.model import Cluster, DrivenTriangle, Pair, Slide, Turn
 
 __all__ = ["triangles_of"]
@@ -52,7 +52,7 @@ def triangles_of(
     found = []
     for driver in cluster.drivers:
         slide = next((p for p in cluster.pairs if isinstance(p, Slide) and p.key == driver.key), None)
-        if isinstance(driver, SlideDriver) and slide is not None and {slide.a, slide.b} <= set(cluster.members):
+        if not driver.turns and slide is not None and {slide.a, slide.b} <= set(cluster.members):
             triangle = _triangle(joints, slide, driver, taken)
             if triangle is not None:
                 taken.add(triangle.equivalent.key)
@@ -60,7 +60,7 @@ def triangles_of(
     return found
 
 
-def _triangle(joints: _Joints, slide: Slide, driver: SlideDriver, taken: set[str]) -> DrivenTriangle | None:
+def _triangle(joints: _Joints, slide: Slide, driver: Driver, taken: set[str]) -> DrivenTriangle | None:
     one, two = joints.of(slide.a, slide), joints.of(slide.b, slide)
     if len(one) != 1 or len(two) != 1:
         return None
@@ -77,7 +77,7 @@ def _triangle(joints: _Joints, slide: Slide, driver: SlideDriver, taken: set[str
     return None
 
 
-def _equivalent_driver(pair: Pair, held: str, other: str) -> AnyDriver:
+def _equivalent_driver(pair: Pair, held: str, other: str) -> Driver:
     if isinstance(pair, Turn):
-        return AngleDriver(other, held, 0.0, 0.0, 0.0)
-    return SlideDriver(pair.key, 0.0, 0.0, 0.0)
+        return Driver(other, held, 0.0, 0.0, 0.0)
+    return Driver(pair.a, pair.b, 0.0, 0.0, 0.0, pair.key)

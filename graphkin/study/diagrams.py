@@ -25,7 +25,7 @@ from graphkin.drawing.place.placement import place
 from graphkin.drawing.text import rich
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
@@ -332,7 +332,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     if reach.full:
         ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
     else:
-        angle = isinstance(reach.driver, AngleDriver)
+        angle = reach.driver.turns
         values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
         ticks = (values - reach.start[0]) * reach.sense
     at = reach.motion(ticks).position(point, link)
@@ -351,7 +351,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
 
     skeleton = _skeleton(turn, places, page)
     dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
-    axis_unit = "°" if isinstance(reach.driver, AngleDriver) else ""
+    axis_unit = "°" if reach.driver.turns else ""
     numbers = [float(scene.unit_of(scene.drivers[0]).of(reach.value(t))) for t in ticks]
     numbers = [round(n, 9) + 0.0 for n in numbers]
     if reach.full:
@@ -369,7 +369,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     title = say(Phrase("curve of point", (f"${point}$",)), language)
     scale = 1e3 / mm / (scene.units.metres * 1e3)
     facts = [f"1 mm = {scale:g} {scene.units.length}"]
-    if isinstance(reach.driver, AngleDriver) and reach.full:
+    if reach.driver.turns and reach.full:
         begin = 0 if reach.sense > 0 else 360
         facts.append(say(Phrase("ticks at", (str(360 // TICKS), str(begin))), language))
     plain = title.replace("$", "")

@@ -14,7 +14,7 @@ from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Primitive, Text
 from graphkin.drawing.chart import degree_step
 from graphkin.drawing.text import rich
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, Motion
 from graphkin.words import Phrase, say
 from graphkin.words.written import in_markup, true_minus
@@ -125,7 +125,7 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     """The axis for the whole way of the driver."""
     scene, driver = reach.scene, reach.driver
     name = driver.key.split("/")[0]
-    angle = isinstance(driver, AngleDriver)
+    angle = driver.turns
     symbol = f"$φ_{{{name}}}$ (°)" if angle else f"$s_{{{name}}}$ ({scene.units.length})"
     if reach.full:
         low, high = 0.0, 360.0 * reach.turns

@@ -16,7 +16,6 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.plane import Values
-from graphkin.scene.model import AngleDriver
 from graphkin.solver import Motion
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array
@@ -172,7 +171,7 @@ class Equations:
             put(i + 1, b, 0, 0, -1)
         for n, driver in enumerate(self.structure.scene.drivers):
             i = 2 * len(self.pairs) + n
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 turned = self._angle(x, driver.link) - self._angle(x, driver.relative_to)
                 open_[i] = self.numbers.unturned(turned - values[n])
                 put(i, driver.link, 0, 0, 1)
@@ -230,7 +229,7 @@ class Equations:
             gx, gy, over, _, vx, vy, w = guided(pair)
             right[i] = right[i] + w * w * over + 2 * w * (gx * vx + gy * vy)
         for n, driver in enumerate(self.structure.scene.drivers):
-            if not isinstance(driver, AngleDriver):
+            if not driver.turns:
                 i = 2 * len(self.pairs) + n
                 gx, gy, _, along, vx, vy, w = guided(self.structure.slide(driver.key))
                 right[i] = right[i] + w * w * along - 2 * w * (gx * vy - gy * vx)

@@ -13,7 +13,6 @@ from typing import Literal
 import numpy as np
 
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver
 from graphkin.search.curves import Pieces, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.cams import cam_angle
@@ -219,7 +218,7 @@ def _to_zero(steps: Array, values: Array) -> float:
 def driver_value(reach: DriverRange, offset: float) -> float:
     """Value of the first driver at an offset; an angle of a driver that turns fully within a turn from 0 on."""
     value = float(reach.value(np.array(offset)))
-    if reach.full and isinstance(reach.driver, AngleDriver):
+    if reach.full and reach.driver.turns:
         whole = 2 * np.pi * reach.turns
         value = value % whole
         value -= whole if whole - value < 1e-9 else 0.0

@@ -29,7 +29,7 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.external_forces import load_edges
@@ -234,7 +234,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     title = say(Phrase("polar diagram of", (name,)), language)
     k = int(np.nanargmax(sizes))
     away = _unbounded(reach, found.offsets, sizes, float(found.offsets[k]), float(sizes[k]))
-    mark = "°" if isinstance(scene.drivers[0], AngleDriver) else f" {scene.units.length}"
+    mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
     greatest = f"{number(float(sizes[k]))} {unit}", f"{number(float(found.x[k]), 4)}{mark}"
     facts = [f"{name}{word('colon', language)}{word('unbounded', language)}" if away
              else say(Phrase("greatest force at", greatest), language)]  # fmt: skip

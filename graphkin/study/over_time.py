@@ -14,7 +14,7 @@ from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words
 from graphkin.files import Json
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import time_span
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
@@ -182,8 +182,8 @@ def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
         named = ((f"diagram-{q.name.replace('/', '-').replace('@', '')}", (q,)) for q in asked)
         return TimeStudy(scene, tuple(named))
     pages: list[tuple[str, tuple[Quantity, ...]]] = []
-    turning = [d.link for d in scene.drivers if isinstance(d, AngleDriver) and d.relative_to == scene.frame.name]
-    sliding = [d.key for d in scene.drivers if not isinstance(d, AngleDriver)]
+    turning = [d.link for d in scene.drivers if d.turns and d.relative_to == scene.frame.name]
+    sliding = [d.key for d in scene.drivers if not d.turns]
     start = over_time(scene, np.array(time_span(scene)[:1]))
     turning += [name for name in output_links(scene) if name not in turning]
     sliding += [key for key in output_slides(start) if key not in sliding]

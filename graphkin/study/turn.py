@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
@@ -180,7 +180,7 @@ def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:
 def output_links(scene: Mechanism) -> tuple[str, ...]:
     """Links pivoted to the frame that no driver turns about it."""
     frame = scene.frame
-    driven = {d.link for d in scene.drivers if isinstance(d, AngleDriver) and d.relative_to == frame.name}
+    driven = {d.link for d in scene.drivers if d.turns and d.relative_to == frame.name}
     sliding = {s.link for s in scene.slidings}
     return tuple(
         link.name
@@ -272,7 +272,7 @@ def _elsewhere(reach: DriverRange, dyads: list[int], own: AssemblyRange) -> list
             some |= np.logical_and.reduce(gaps)
         return some
 
-    turning = isinstance(reach.driver, AngleDriver)
+    turning = reach.driver.turns
     if turning:
         grid = own.low + 1e-9 + np.linspace(0.0, 2 * np.pi, GRID + 1)
     else:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import tomllib
 from pathlib import Path
 
@@ -15,7 +14,6 @@ import graphkin
 from graphkin.cli.commands import app_of
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from tests.mechanisms import redriven
 from tests.scenes import four_bar
@@ -128,7 +126,7 @@ def test_what_comes_from_the_prepared_engine_is_what_the_solver_gives() -> None:
 def _own(name: str) -> float:
     scene = graphkin.read(name).mechanism
     driver = scene.drivers[0]
-    return math.degrees(driver.angle) if isinstance(driver, AngleDriver) else driver.travel / scene.units.metres
+    return scene.unit_of(driver).of(driver.value)
 
 
 def test_nothing_is_studied_that_is_not_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 import graphkin
 from graphkin import solver
 from graphkin.errors import GraphkinError, Unsolvable
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure, analyse
 from tests.bench.larger import random_larger
@@ -74,7 +74,7 @@ class Reference:
         for driver in self.structure.scene.drivers:
             value, rate, second = (self.mp.mpf(x) for x in driver.values)
             wanted = value + rate * t + second * t**2 / 2
-            if isinstance(driver, AngleDriver):
+            if driver.turns:
                 turned = self._pose(q, driver.link)[1] * self._pose(q, driver.relative_to)[1].conjugate()
                 rows.append(self.mp.arg(turned * self.mp.expj(-wanted)))
             else:
@@ -132,7 +132,7 @@ def random_driven(seed: int) -> Mechanism:
     if link == scene.frame.name:
         link, base = base, link
     angle = float(motion.angle(link)[0]) - (0.0 if base == scene.frame.name else float(motion.angle(base)[0]))
-    driver = AngleDriver(link, base, angle, round(float(rng.uniform(-9, 9)), 2), round(float(rng.uniform(-20, 20)), 2))
+    driver = Driver(link, base, angle, round(float(rng.uniform(-9, 9)), 2), round(float(rng.uniform(-20, 20)), 2))
     places = {p: complex(motion.position(p)[0]) for p in scene.holders if p not in scene.frame.points}
     return replace(scene, drivers=(driver,), sketch=places, drawn={})
 

@@ -15,7 +15,6 @@ import graphkin
 from graphkin.construction import equations, plan
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.driver_range import driver_range
 from graphkin.structure import Cluster
@@ -35,7 +34,7 @@ def over_its_range(name: str) -> tuple[list[float], float | None]:
     low, high = whole.ends
     n = LARGER if larger else POSITIONS
     inside = whole.value(low + (np.arange(n) + 0.5) / n * (high - low)).tolist()
-    unit = math.radians(1) if isinstance(whole.driver, AngleDriver) else whole.scene.units.metres
+    unit = math.radians(1) if whole.driver.turns else whole.scene.units.metres
     ends = not whole.full and whole.limited[1]  # what rolls goes on, and only does not close
     beyond = None if not ends else float(whole.value(np.array(high + 0.02 * (high - low))))
     return [value / unit for value in inside], None if beyond is None else beyond / unit

@@ -125,7 +125,7 @@ def test_a_vector_asked_for_that_stands_in_no_equation_is_drawn():
 
 def test_a_zero_velocity_is_said_not_drawn_askew():
     scene = mechanism_of("slider-crank-offset")
-    still = replace(scene, drivers=(replace(scene.drivers[0], omega=0.0, alpha=0.0),))
+    still = replace(scene, drivers=(replace(scene.drivers[0], rate=0.0, second=0.0),))
     sheet = draft(still)
     assert any(isinstance(r, ZeroVector) for r in sheet.remarks)
     assert all(abs(end) < 1e-9 for end in sheet.ends["velocity"].values())

@@ -16,7 +16,7 @@ from graphkin.construction.centres.find import Worked
 from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.structure import analyse
 from tests.construction.test_groups import HELD
 
@@ -94,7 +94,7 @@ def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
 def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> None:
     sheet = graphkin.check(HELD).sheet
     (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
-    driven = [d for d in sheet.scene.drivers if isinstance(d, AngleDriver)]
+    driven = [d for d in sheet.scene.drivers if d.turns]
     assert act.instead
     for block, link, turned in act.instead:
         assert block in act.left_out

@@ -14,7 +14,6 @@ from graphkin.drawing import svg_bytes
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.model import AngleDriver
 from tests import EVERYTHING
 from tests.drawn import figures
 
@@ -31,7 +30,7 @@ def test_no_label_is_overlapped_crossed_or_cut(
     scene = mechanism_of(name)
     driver = scene.drivers[0]
     value = driver.values[0]
-    step = 2 * math.pi / POSITIONS if isinstance(driver, AngleDriver) else 0.06 * abs(value) / POSITIONS
+    step = 2 * math.pi / POSITIONS if driver.turns else 0.06 * abs(value) / POSITIONS
     at = {driver.key: value + turn * step}
     try:
         own, on_sheet = draft(scene, at=at), draft(scene, at=at, room=sheet_room(scene))

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of_text
-from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
+from graphkin.scene.model import Driver, Mechanism
 
 from .scenes import changed
 
@@ -113,7 +113,7 @@ def test_a_point_may_be_placed_from_a_drawn_one() -> None:
 
 
 def test_the_angle_of_the_driver_follows_from_the_drawn_points() -> None:
-    assert read(FOUR_BAR).drivers == (AngleDriver("1", "4", pytest.approx(math.atan2(4, 3)), 10.0, 0.0),)
+    assert read(FOUR_BAR).drivers == (Driver("1", "4", pytest.approx(math.atan2(4, 3)), 10.0, 0.0),)
 
 
 def test_a_relative_angle_follows_from_the_drawn_points() -> None:
@@ -142,7 +142,7 @@ def test_a_guide_of_a_sliding_link_is_seen_from_the_axes_it_keeps() -> None:
 
 
 def test_the_travel_of_the_driver_follows_from_the_drawn_points() -> None:
-    assert read(CYLINDER).drivers == (SlideDriver("2/3", pytest.approx(0.5, rel=1e-14), pytest.approx(0.06), 0.0),)
+    assert read(CYLINDER).drivers == (Driver("2", "3", pytest.approx(0.5, rel=1e-14), pytest.approx(0.06), 0.0, "2/3"),)
 
 
 def test_a_cylinder_points_to_what_slides_in_it() -> None:
@@ -191,7 +191,7 @@ def test_the_travel_of_a_pin_in_a_slot_follows_from_the_drawn_points() -> None:
                    ("[driver]", '[pins.E]\nof = "2"\nin = "4.v"\n[driver]'),
                    ("guides = { u", "guides = { v = { through = [30, 0], angle = 90 }, u"))
     [driver] = mechanism_of_text(text, "x").drivers
-    assert driver == SlideDriver("E/4", pytest.approx(0.14, rel=1e-12), pytest.approx(0.001), 0.0)
+    assert driver == Driver("E/4", "4", pytest.approx(0.14, rel=1e-12), pytest.approx(0.001), 0.0, "E/4")
 
 
 def test_an_angle_beside_toward_is_kept_where_it_agrees() -> None:

@@ -85,7 +85,7 @@ def test_a_polar_point_that_has_no_place_is_told(points: dict[str, object], said
 def test_the_sense_is_a_word(sense: str, sign: int) -> None:
     points = {"A": [0, 0], "D": [400, 0]}
     (driver,) = four_bar(points, rpm=30, alpha=2, sense=sense).mechanism.drivers
-    assert (pytest.approx(sign * math.pi), sign * 2) == (driver.omega, driver.alpha)
+    assert (pytest.approx(sign * math.pi), sign * 2) == (driver.rate, driver.second)
 
 
 def test_a_sense_with_a_negative_speed_is_told() -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.model import AngleDriver, Mechanism, PinInSlot, SlideDriver, SlidingPair
+from graphkin.scene.model import Driver, Mechanism, PinInSlot, SlidingPair
 from graphkin.scene.symbol import Symbol
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
@@ -137,7 +137,7 @@ def test_a_pin_in_two_slots_is_one_constraint_for_each() -> None:
 
 
 def test_a_driven_angle_is_in_radians() -> None:
-    assert read(FOUR_BAR).drivers == (AngleDriver("1", "4", math.radians(60), 10.0, 0.0),)
+    assert read(FOUR_BAR).drivers == (Driver("1", "4", math.radians(60), 10.0, 0.0),)
 
 
 def test_rpm_is_turns_per_minute() -> None:
@@ -167,7 +167,8 @@ SLIDES = {'slide = "5"': "5/6", 'slide = "5/6"': "5/6", 'slide = "2"\nrelative_t
 @pytest.mark.parametrize("slide", SLIDES)
 def test_a_driven_slide_is_known_by_its_pair(slide: str) -> None:
     [driver] = read(SIX_BAR, ('link  = "1"\nangle = 50\nomega = -10', f"{slide}\ntravel = 5\nvelocity = 6")).drivers
-    assert driver == SlideDriver(SLIDES[slide], pytest.approx(0.005), pytest.approx(0.006), 0.0)
+    key = SLIDES[slide]
+    assert driver == Driver(*key.split("/"), pytest.approx(0.005), pytest.approx(0.006), 0.0, key)
 
 
 def test_a_pin_in_a_slot_may_be_driven() -> None:
@@ -269,7 +270,7 @@ def test_a_yoke_slides_by_its_own_origin_and_carries_a_slot() -> None:
 
 
 def test_a_cylinder_drives_by_its_travel() -> None:
-    driven = SlideDriver("2/3", pytest.approx(0.42), pytest.approx(0.06), 0.0)
+    driven = Driver("2", "3", pytest.approx(0.42), pytest.approx(0.06), 0.0, "2/3")
     assert mechanism_of_text(CYLINDER, "x").drivers == (driven,)
 
 

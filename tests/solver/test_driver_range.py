@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text, mechanism_of_text
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
 from graphkin.solver.engine import group_at
 from graphkin.structure.assembly import ways
@@ -101,7 +101,7 @@ def test_a_redundant_link_is_not_refused_for_what_rounding_makes_of_it_beside_a_
 def test_a_turning_driver_goes_straight_to_a_goal_or_where_it_stands_the_same_way(
     goal: float, found: list[float]
 ) -> None:
-    turning = [d for d in scene_of(scenes.FOUR_BAR).drivers if isinstance(d, AngleDriver)]
+    turning = [d for d in scene_of(scenes.FOUR_BAR).drivers if d.turns]
     assert [pytest.approx((x,), abs=1e-14) for x in found] == list(ways(turning, [0.0], [goal]))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.scene.model import AngleDriver, Mechanism, SlideDriver
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver import Motion, solve, sweep_in_blocks
 from tests import scenes
 
@@ -82,17 +82,21 @@ REDRIVEN = [
 ]  # fmt: skip
 
 
+def sides(scene: Mechanism, key: str) -> tuple[str, str]:
+    """The links of a sliding pair, or the block of a pin in a slot and what it slides on."""
+    sliding, _, on = key.partition("/")
+    return (sliding if sliding in scene.by_name else key), on
+
+
 def redriven(motion: Motion, key: str, base: str) -> Mechanism:
     """The scene with its first driver replaced, and every point sketched where the motion found it."""
     old = motion.scene
     if "/" in key:
         s = motion.slide(key)
-        new: AngleDriver | SlideDriver = SlideDriver(
-            key, float(s.travel[0]), float(s.velocity[0]), float(s.acceleration[0])
-        )
+        new = Driver(*sides(old, key), float(s.travel[0]), float(s.velocity[0]), float(s.acceleration[0]), key)
     else:
         rates = [float(f(key)[0] - f(base)[0]) for f in (motion.angle, motion.omega, motion.alpha)]
-        new = AngleDriver(key, base, *rates)
+        new = Driver(key, base, *rates)
     places = {p: complex(motion.position(p)[0]) for p in old.holders if p not in old.frame.points}
     return replace(old, drivers=(new, *old.drivers[1:]), sketch=places, drawn={})
 

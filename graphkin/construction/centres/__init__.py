@@ -17,7 +17,7 @@ from graphkin.construction.centres.speeds import (
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.plan import draft
 from graphkin.construction.sheet import Sheet
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, analyse, part_of
 
@@ -79,9 +79,7 @@ def _moving(scene: Mechanism) -> Mechanism:
     if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
         return scene
     driver = scene.drivers[0]
-    if isinstance(driver, AngleDriver):
-        return replace(scene, drivers=(replace(driver, omega=1.0),))
-    return replace(scene, drivers=(replace(driver, velocity=scene.size),))
+    return replace(scene, drivers=(replace(driver, rate=driver.span(scene.size)),))
 
 
 def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:

@@ -16,7 +16,7 @@ from decimal import Decimal
 from graphkin.construction.centres.find import ROUNDING, Centres
 from graphkin.construction.centres.pairs import LinkPair, Place, product, wedge
 from graphkin.plane import dot
-from graphkin.scene.model import AngleDriver, AnyDriver
+from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import driver_pair
 from graphkin.words import Phrase, written
@@ -78,13 +78,13 @@ def speeds(centres: Centres) -> dict[str, Turning]:
     return found
 
 
-def _driven(centres: Centres, driver: AnyDriver) -> dict[str, Turning]:
+def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     """The links that the driver's own pair moves, from its rate: turning about their common centre, or sliding."""
     scene, chart = centres.links.scene, centres.chart
     structure = centres.sheet.structure
     frame = scene.frame.name
     rate = driver.values[1]
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         a, b = driver.link, driver.relative_to
         place = _place(centres, a, b)
         if place is None or place[2] == 0.0:

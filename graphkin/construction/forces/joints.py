@@ -13,7 +13,7 @@ from functools import cached_property
 
 from graphkin.errors import Unsolvable
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, AnyDriver, SlideDriver
+from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, analyse
 
@@ -101,7 +101,7 @@ class BalanceForm:
         return self.symbol.kind == "M"
 
 
-def balance_of(structure: Structure, driver: AnyDriver) -> BalanceForm:
+def balance_of(structure: Structure, driver: Driver) -> BalanceForm:
     """What balances in place of a driver of a structure: what the scene says, else a moment where it turns and a force
     along the guide where it slides."""
     scene = structure.scene
@@ -110,7 +110,7 @@ def balance_of(structure: Structure, driver: AnyDriver) -> BalanceForm:
         symbol = Symbol("M" if said.kind == "moment" else "F", link=said.link)
         along = 0j if said.kind == "moment" else said.turn
         return BalanceForm(symbol, said.link, scene.frame.name, said.at, along, said.square)
-    if isinstance(driver, AngleDriver):
+    if driver.turns:
         return BalanceForm(Symbol("M", link=driver.link), driver.link, driver.relative_to)
     slide = structure.slide(driver.key)
     of = next((pin.of for pin in scene.pins if pin.key == driver.key), slide.a)
@@ -129,12 +129,12 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
         return structure.elements
     own = scene.drivers[0]
     frame = scene.frame.name
-    if isinstance(own, AngleDriver) and (own.link, own.relative_to) == (said.link, frame) and said.kind == "moment":
+    if own.turns and (own.link, own.relative_to) == (said.link, frame) and said.kind == "moment":
         return structure.elements
     slide = next((s for s in structure.slides if {s.a, s.b} == {said.link, frame}), None)
-    driver: AnyDriver = AngleDriver(said.link, frame, 0.0, 0.0, 0.0)
+    driver: Driver = Driver(said.link, frame, 0.0, 0.0, 0.0)
     if said.kind == "force" and slide is not None:
-        driver = SlideDriver(slide.key, 0.0, 0.0, 0.0)
+        driver = Driver(slide.a, slide.b, 0.0, 0.0, 0.0, slide.key)
     try:
         return analyse(replace(scene, drivers=(driver,))).elements
     except Unsolvable:
@@ -143,7 +143,7 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
         return (Cluster(members, (), (driver,), real, 3),)
 
 
-def driver_of(element: Element) -> tuple[AnyDriver, ...]:
+def driver_of(element: Element) -> tuple[Driver, ...]:
     """The drivers that act in a group."""
     if isinstance(element, Driven):
         return () if isinstance(element.driver, LawCam | Rolled) else (element.driver,)

@@ -20,7 +20,6 @@ from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
 from graphkin.scene.loads import LinkMass, LoadOn, Phase, SpringOn
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Slide, Structure
 from graphkin.words import Phrase
@@ -62,7 +61,7 @@ def _acts(sheet: Sheet, growing: Sheet, phase: Phase | None) -> bool | None:
         return _on_stroke(sheet, growing, phase)
     driver = sheet.scene.drivers[0]
     value = sheet.drivers[driver.key]
-    if not isinstance(driver, AngleDriver):
+    if not driver.turns:
         edge = EDGE * (phase.end - phase.start)
         if min(abs(value - phase.start), abs(value - phase.end)) < edge:
             return None

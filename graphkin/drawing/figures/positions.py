@@ -39,7 +39,6 @@ from graphkin.drawing.place.obstacles import obstacles_of
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.model import AngleDriver
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Neutral, Wording
 
@@ -139,7 +138,7 @@ def _position(sheet: Sheet, letters: Letters, stroke: Stroke, id: str) -> Piece:
 def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
     """Pivot and far pin of the driven crank on paper; None for another driver."""
     driver = sheet.scene.drivers[0]
-    if not isinstance(driver, AngleDriver):
+    if not driver.turns:
         return None
     link = sheet.structure.links[driver.link]
     pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)

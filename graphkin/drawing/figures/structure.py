@@ -27,7 +27,6 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
-from graphkin.scene.model import AngleDriver, Follower, SlideDriver
 from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
@@ -137,7 +136,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
 
 def _class(structure: Structure) -> int | None:
     """The class of the mechanism: the highest of its groups; None where nothing but wheels follows the driver."""
-    led = any(isinstance(e, Driven) and not _drives(e) for e in structure.elements)
+    led = any(isinstance(e, Driven) and not e.driver.given for e in structure.elements)
     return max((_order(g) for g in structure.groups), default=None if led else 1)
 
 
@@ -185,18 +184,12 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
     driver = element.driver
     if isinstance(driver, LawCam):
         return say(Phrase("structure follower", (element.link, driver.link)), language)
-    if not _drives(element):
+    if not driver.given:
         return say(Phrase("structure led", (element.link,)), language)
-    sides = (driver.link, driver.relative_to) if isinstance(driver, AngleDriver) else driver.key.split("/")
-    other = next(name for name in reversed(sides) if name != element.link)
+    other = next(name for name in reversed(driver.links) if name != element.link)
     if other == sheet.scene.frame.name:
         return say(Phrase("structure driver", (element.link,)), language)
     return say(Phrase("structure driver on link", (element.link, other)), language)
-
-
-def _drives(element: Driven) -> bool:
-    """Whether a driver of the scene moves the link, neither wheels that roll nor a cam."""
-    return isinstance(element.driver, AngleDriver | SlideDriver) and not isinstance(element.driver, Follower)
 
 
 def _blocks(sheet: Sheet) -> dict[str, str]:

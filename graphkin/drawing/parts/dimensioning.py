@@ -33,7 +33,7 @@ from graphkin.drawing.place.obstacles import obstacles_of
 from graphkin.drawing.place.piece import Piece, ink_box
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.words.written import as_given
 
@@ -229,7 +229,7 @@ def _datums(sheet: Sheet) -> Iterator[str]:
     """Fixed points from which others are measured: the pivots of drivers first."""
     scene = sheet.scene
     for driver in scene.drivers:
-        if isinstance(driver, AngleDriver):
+        if driver.turns:
             yield from (p for p in scene.by_name[driver.link].points if p in scene.frame.points)
     yield from scene.frame.points
 
@@ -315,7 +315,7 @@ def _given(level: float, given: Sequence[float]) -> float:
 def _angles(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """The angles of drivers, from the x axis or from the axis of another link."""
     for driver in sheet.scene.drivers:
-        if not isinstance(driver, AngleDriver) or driver.link not in sheet.poses:
+        if not driver.turns or driver.link not in sheet.poses:
             continue
         points = sheet.scene.by_name[driver.relative_to].points
         pivot = next((sheet.points[PointRef(p)] for p in sheet.scene.by_name[driver.link].points if p in points), None)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from graphkin.account.headings import number, once
 from graphkin.account.notation import Letters
-from graphkin.scene.model import AngleDriver, Mechanism, PlacedGuide, PlacedLink, SlidingPair
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink, SlidingPair
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["along_its_guide", "as_line", "given_shapes", "off_its_guide", "used_guides"]
@@ -107,7 +107,7 @@ def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
 
 def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
     """Whether anything is told from a link's own axis."""
-    turned = any(link.name in (d.link, d.relative_to) for d in scene.drivers if isinstance(d, AngleDriver))
+    turned = any(link.name in (d.link, d.relative_to) for d in scene.drivers if d.turns)
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
 

@@ -9,7 +9,6 @@ import math
 from cmath import phase, rect
 from collections.abc import Collection, Iterator, Sequence
 from itertools import pairwise
-from typing import Literal
 
 import numpy as np
 
@@ -38,7 +37,7 @@ from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.model import AngleDriver, SlideDriver
+from graphkin.scene.model import Driver
 
 __all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
 
@@ -505,31 +504,32 @@ def drivers(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
     """What drives, and which way."""
     pieces = [Piece({"mechanism": ()})]
     for driver in here.scene.drivers:
-        if isinstance(driver, SlideDriver):
+        if not driver.turns:
             pieces.append(_slide_arrow(here, driver))
         elif driver.link in here.sheet.poses:
-            pieces += [_driver_arc(here, clear, driver, kind) for kind in ("omega", "alpha") if getattr(driver, kind)]
+            rates = ("omega", driver.rate), ("alpha", driver.second)
+            pieces += [_driver_arc(here, clear, driver, kind, rate) for kind, rate in rates if rate]
     return joined(pieces)
 
 
 def _driver_arc(
-    here: MechanismOnPaper, clear: RateArrowClearance, driver: AngleDriver, kind: Literal["omega", "alpha"]
+    here: MechanismOnPaper, clear: RateArrowClearance, driver: Driver, kind: str, rate: float
 ) -> Piece:
     other, speed = driver.relative_to, kind == "omega"
     markup = f"{'ω' if speed else 'α'}_{{{driver.link}{'' if other == here.ground else other}}}"
     centres = _centres_of_turn(here, driver.link, other)
     place = clear.arc(centres, DRIVER_RADIUS)
-    sense = 1 if (driver.omega if speed else driver.alpha) > 0 else -1
+    sense = 1 if rate > 0 else -1
     id = f"driver-{driver.link}{'' if speed else '-alpha'}"
     piece = _arc("mechanism", place, sense, 1 if speed else 2, here.colour(driver.link), markup, id)
     return dated(piece, here.since(driver.link))
 
 
-def _slide_arrow(here: MechanismOnPaper, driver: SlideDriver) -> Piece:
+def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
     b = next((b for b in here.sliders if b.slide.key == driver.key), None)
-    if b is None or not driver.velocity:
+    if b is None or not driver.rate:
         return Piece()
-    way = b.along * (1 if driver.velocity > 0 else -1)
+    way = b.along * (1 if driver.rate > 0 else -1)
     side = 1j * b.along * 5.2
     tail, tip = on_page(b.at + side - 5 * way), on_page(b.at + side + 5 * way)
     colour, id = here.colour(b.slide.a), f"driver-{driver.key.replace('/', '-')}"

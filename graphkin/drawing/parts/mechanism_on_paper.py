@@ -22,7 +22,7 @@ from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import CircularSlot, Mechanism, SlideDriver
+from graphkin.scene.model import CircularSlot, Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Slide
 
@@ -266,7 +266,7 @@ def replaced_pairs(sheet: Sheet) -> set[str]:
 
 def sliders(sheet: Sheet) -> tuple[Slider, ...]:
     """All sliding pairs whose two links stand on paper, pins in slots too."""
-    driven = {d.key for d in sheet.scene.drivers if isinstance(d, SlideDriver)}
+    driven = {d.key for d in sheet.scene.drivers if not d.turns}
     # a follower's block stands clear of its roller
     clear = {
         cam.motion.pair: cam.roller / sheet.scales.length + PAST_ROLLER

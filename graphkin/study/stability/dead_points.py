@@ -21,7 +21,7 @@ from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import SharpCrossing
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of_text
-from graphkin.scene.model import AngleDriver, FromDeadPoint, Mechanism
+from graphkin.scene.model import FromDeadPoint, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.dead_points import dead_points
@@ -114,8 +114,7 @@ class DeadPointCase:
     def at(self, angle: float) -> Mechanism:
         """The scene with its crank at another angle."""
         driver = self.scene.drivers[0]
-        assert isinstance(driver, AngleDriver)
-        return replace(self.scene, drivers=(replace(driver, angle=angle),))
+        return replace(self.scene, drivers=(replace(driver, value=angle),))
 
     @property
     def _lengths(self) -> tuple[float, float, float]:
@@ -274,12 +273,11 @@ def _given(case: DeadPointCase, x: Sequence[float], truth: Sequence[_Exactly], s
     structure = solver.structure_of(case.scene)
     near = next(p for p in dead_points(structure) if case.side in p.sides and p.value > 0)
     driver = case.scene.drivers[0]
-    assert isinstance(driver, AngleDriver)
     error = []
     for e, right in zip(x, truth, strict=True):
         with working():
             value = near.value + Decimal(case.side * e)
-        there = replace(driver, angle=float(value), dead_point=FromDeadPoint(case.side * e, None, str(value)))
+        there = replace(driver, value=float(value), dead_point=FromDeadPoint(case.side * e, None, str(value)))
         motion = solver.solve(replace(case.scene, drivers=(there,)))
         if motion.status[0] != "ok":
             error.append(math.nan)

@@ -12,7 +12,7 @@ from graphkin.construction import EXACT, execute, plan
 from graphkin.construction.remarks import ShortArm
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of_text
-from graphkin.scene.model import AngleDriver, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.study.stability.laws import LOST, ErrorLaw, Singularity, binned, grid, in_powers, measured
@@ -48,8 +48,7 @@ omega = 10
 
 def _at(scene: Mechanism, angle: float) -> Mechanism:
     driver = scene.drivers[0]
-    assert isinstance(driver, AngleDriver)
-    return replace(scene, drivers=(replace(driver, angle=angle),))
+    return replace(scene, drivers=(replace(driver, value=angle),))
 
 
 @dataclass(frozen=True)
