@@ -13,7 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.construction import draft
-from graphkin.construction.forces import forces_on, system
+from graphkin.construction.forces import forces_on, groups
 from graphkin.construction.forces import known as acting
 from graphkin.construction.forces.cut_free import CutFree
 from graphkin.errors import Unsolvable
@@ -310,9 +310,9 @@ def test_a_moment_of_inertia_forgotten_is_found(monkeypatch):
 def test_planted_errors_are_found_in_the_drawn_system_of_a_larger_group_too(monkeypatch):
     scene = loaded(graphkin.read("double-butterfly").to_dict(), 5)
     assert set() == wrong(scene)
-    right, cross = acting._inertia, system.cross
+    right, cross = acting._inertia, groups.cross
     monkeypatch.setattr(acting, "_inertia", lambda *given: replace(one := right(*given), force=-one.force))
     assert {"M_2", "F_1/2"} <= wrong(scene)
     monkeypatch.setattr(acting, "_inertia", right)
-    monkeypatch.setattr(system, "cross", lambda a, b: -cross(a, b))  # every arm on the wrong side
+    monkeypatch.setattr(groups, "cross", lambda a, b: -cross(a, b))  # every arm on the wrong side
     assert "M_2" in wrong(scene)

@@ -18,8 +18,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentTerm,
     Part,
 )
-from graphkin.construction.forces.images import Images
-from graphkin.construction.forces.joints import JointNames, opposite
+from graphkin.construction.forces.joints import Images, JointNames, opposite
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.sizes import Direction
 from graphkin.errors import Problem, Unsolvable
@@ -28,7 +27,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.structure import Pair, Slide
 from graphkin.words import Phrase
 
-__all__ = ["NORMAL", "TANGENT", "CutFree", "HeadToTail", "across", "dead_point", "guide_letters"]
+__all__ = ["NORMAL", "TANGENT", "Chain", "CutFree", "across", "dead_point", "end_of", "guide_letters"]
 
 NORMAL, TANGENT = "n-n", "t-t"
 """The common normal and tangent of what touches, by name as a guide."""
@@ -45,12 +44,13 @@ def dead_point(links: Sequence[str]) -> Unsolvable:
     )
 
 
-@dataclass
-class HeadToTail:
-    """Vectors of a polygon laid head to tail, from its first tail on."""
+Chain = list[ForceVector]
+"""Vectors of a polygon laid head to tail, from the origin on."""
 
-    vectors: list[ForceVector] = field(default_factory=list)
-    at: complex = 0j
+
+def end_of(chain: Chain) -> complex:
+    """Where the next vector of a polygon begins (mm)."""
+    return chain[-1].tip if chain else 0j
 
 
 @dataclass
@@ -182,19 +182,16 @@ class CutFree:
 
     # -- polygons ------------------------------------------------------------------------------------------------------
 
-    def lay(self, chain: HeadToTail, one: Acting, part: Part = "", known: bool = True) -> complex:
+    def lay(self, chain: Chain, one: Acting, part: Part = "", known: bool = True) -> complex:
         """Lay off a force head to tail; what it is then in N."""
         mm = abs(one.force) / self.per_mm
-        tip = chain.at
+        tail = tip = end_of(chain)
         if mm > 0.0:
-            tip = self.hand.point(chain.at + self.hand.direction(unit(one.force)) * self.hand.length(mm))
-        chain.vectors.append(
-            ForceVector(one.symbol, part, one.link, one.at, chain.at, tip, known, one.turned)
-        )
-        chain.at = tip
-        return (tip - chain.vectors[-1].tail) * self.per_mm
+            tip = self.hand.point(tail + self.hand.direction(unit(one.force)) * self.hand.length(mm))
+        chain.append(ForceVector(one.symbol, part, one.link, one.at, tail, tip, known, one.turned))
+        return (tip - tail) * self.per_mm
 
-    def lay_known(self, chain: HeadToTail, links: Iterable[str]) -> None:
+    def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
         for one in self.forces_on(links):
             self.lay(chain, one)
 
@@ -215,10 +212,10 @@ class CutFree:
 
     def projected(self, forces: Sequence[Acting], along: complex) -> float:
         """Part of some known forces along a direction (N), laid off and projected."""
-        chain = HeadToTail()
+        chain: Chain = []
         for one in forces:
             self.lay(chain, one)
-        return dot(chain.at, along) * self.per_mm
+        return dot(end_of(chain), along) * self.per_mm
 
 
 def across(pair: Pair) -> Direction:

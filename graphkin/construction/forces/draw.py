@@ -28,11 +28,9 @@ from graphkin.construction.forces.force_sheet import (
     Lever,
     LeverRow,
 )
-from graphkin.construction.forces.groups import at_driver, of_dyad
-from graphkin.construction.forces.images import Images
-from graphkin.construction.forces.joints import BalanceForm, JointNames, balance_of, driver_of, force_groups
+from graphkin.construction.forces.groups import at_driver, of_dyad, of_larger_group
+from graphkin.construction.forces.joints import BalanceForm, Images, JointNames, balance_of, driver_of, force_groups
 from graphkin.construction.forces.known import from_outside, inertias
-from graphkin.construction.forces.system import of_larger_group
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, fitting_scale

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
-from graphkin.construction.forces.images import Images
+from graphkin.construction.forces.joints import Images
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.sheet import Sheet
