@@ -27,7 +27,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-STEP = math.radians(2.0)
+STEP, LONG_STEP = math.radians(2.0), math.radians(8.0)  # of the driver at most, with larger groups and without
 FIT = 1e-12  # what is left out fits, in the size of the mechanism
 SURPRISE = 1e-3  # so far from where it was expected a link may be found, in the size of the mechanism
 
@@ -101,9 +101,9 @@ def _walk(
     length = max(
         abs(target[d.key] - own[d.key]) / (1.0 if d.turns else scene.size) for d in scene.drivers
     )
-    longest = 1.0 / max(1, math.ceil(length / STEP))
+    longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
     # nothing says yet where the links go: the first step is small
-    pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e8)
+    pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)
 
     def near(t: float, guess: Poses, at: Poses) -> Poses | None:
         return found_near(choices, elements, _part_way(own, target, t), guess, at)

@@ -21,7 +21,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose
 from graphkin.construction.mechanism_acts import HeldStill
 from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import RATE, Polygons
-from graphkin.construction.position import branches_at, draw_position, place, rolled_position
+from graphkin.construction.position import branches_at, draw_position, place
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
@@ -486,16 +486,12 @@ def plan(
     elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | {key: value for key, value in (at or {}).items() if key in own}
-    if any(isinstance(e, Cluster) for e in elements):
+    if any(isinstance(e, Cluster) or (isinstance(e, Driven) and isinstance(e.driver, Rolled)) for e in elements):
         branches, trials, rolled = _by_trial(structure, elements, values, near)
         values |= rolled
         task = Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}, {}, ())
         return _planned(task, room)
     dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
-    if any(isinstance(e, Driven) and isinstance(e.driver, Rolled) for e in elements):
-        values, branches = rolled_position(structure, elements, own, values)
-        task = Task(structure, structure, asked, elements, values, branches, {}, {}, {}, (), {}, {}, ())
-        return _planned(task, room)
     inversions = inversions_of(structure)
     triangles: tuple[tuple[Inversion, int], ...] = ()
     chosen = None

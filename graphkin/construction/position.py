@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from graphkin.construction.dyads import Choose, Meeting, Story, assemble, assembled, drive, meet
+from graphkin.construction.follow import Choices, moved_to
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.mechanism_acts import (
@@ -24,7 +21,6 @@ from graphkin.construction.mechanism_acts import (
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.sheet import Board, Cause, Placing
 from graphkin.construction.strokes import Mark
-from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
@@ -32,26 +28,18 @@ from graphkin.structure import (
     Driven,
     Dyad,
     Element,
-    Rolled,
     Structure,
     Turn,
     links_of,
     named_with_contact,
     pick,
 )
-from graphkin.structure.assembly import follow, out_of_reach, ways
-from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
-__all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "rolled_position", "start_board"]
+__all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "start_board"]
 
-TOUCH = 2e-14  # loci that miss each other by less, in their own size, touch
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
-TURNS = 720  # positions looked at on the way round
-MOST = 12.0  # turns, or as much of another driver's way
-ROLL_STEP, SLIDE_STEP = math.radians(3.0), 0.02  # in which what rolls is followed (rad, and the mechanism's size)
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
-Placed = dict[float, tuple[int, dict[str, Pose]]]
 
 
 class TrialPlacing(Protocol):
@@ -168,21 +156,33 @@ def branches_at(
     """
     if own is None:
         own = {d.key: d.values[0] for d in structure.scene.drivers}
+    paper, branches = start_board(structure, 1.0 / structure.scene.size, own), dict(chosen or {})
     if chosen is None:
-        chosen = dict[int, int]()
-        paper = start_board(structure, 1.0 / structure.scene.size, own)
-        assembled(paper, elements, as_meant(structure, paper, chosen))
-    chosen = dict(chosen)
+        assembled(paper, elements, as_meant(structure, paper, branches))
     if all(values[k] == v for k, v in own.items()):
-        return chosen
-    limits = []
-    for way in ways(structure.scene.drivers, [*own.values()], [values[k] for k in own], structure.rolls):
-        target = dict(zip(own, way, strict=True))
-        branches, limit = _follow(structure, elements, own, target, chosen)
-        if limit is None:
-            return branches
-        limits.append({k: own[k] + limit * (target[k] - own[k]) for k in own})
-    raise Unsolvable("not assembled", out_of_reach(structure.scene, values, limits))
+        return branches
+    if chosen is not None:
+        assembled(paper, elements, in_branches(paper, branches))
+    poses = moved_to(Choices(structure, elements), elements, own, values, paper.poses)
+    paper = start_board(structure, 1.0 / structure.scene.size, values)
+
+    def nearest(i: int, element: Dyad | Cluster) -> Poses:
+        assert isinstance(element, Dyad)
+        branches[i] = meet(paper, element).nearest(poses) or 0
+        return {name: poses[name] for name in links_of(element)}
+
+    assembled(paper, elements, nearest)
+    return branches
+
+
+def in_branches(paper: PlacedLinks, branches: Branches) -> Choose:
+    """Each dyad in a known assembly."""
+
+    def choose(i: int, element: Dyad | Cluster) -> Poses:
+        assert isinstance(element, Dyad)
+        return meet(paper, element).poses[branches[i]]
+
+    return choose
 
 
 def as_meant(structure: Structure, paper: PlacedLinks, chosen: dict[int, int]) -> Choose:
@@ -197,76 +197,6 @@ def as_meant(structure: Structure, paper: PlacedLinks, chosen: dict[int, int]) -
         return meeting.poses[chosen[i]]
 
     return choose
-
-
-def _follow(
-    structure: Structure,
-    elements: Sequence[Element],
-    own: Mapping[str, float],
-    target: Mapping[str, float],
-    chosen: Mapping[int, int],
-) -> tuple[dict[int, int], float | None]:
-    """Branches at the end of a straight path of driver values, or where it is barred (0 .. 1)."""
-    turn = max(abs(target[k] - own[k]) for k in own)
-    grid = np.linspace(0.0, 1.0, max(9, math.ceil(TURNS * min(turn / (2 * math.pi), MOST)) + 1))
-    signs: dict[int, NDArray[np.float64]] = {}
-    placed: Placed = {}
-    branches = dict(chosen)
-    for i, element in enumerate(elements):
-        if not isinstance(element, Dyad):
-            continue
-
-        def gaps(ts: NDArray[np.float64], last: int = i) -> NDArray[np.float64]:
-            return np.array(
-                [_gap(structure, elements[: last + 1], own, target, chosen, signs, placed, float(t)) for t in ts]
-            )
-
-        start = gaps(np.zeros(1))[0]
-        lines = element.is_two_lines
-        way = math.copysign(1.0, start) if lines else 1.0
-        passage = follow(
-            lambda t, way=way, gaps=gaps: way * gaps(t),  # type: ignore[misc]
-            grid, flips=not lines, touch=TOUCH,
-        )
-        if passage.limit is not None:
-            return branches, passage.limit
-        signs[i] = passage.flips
-        branches[i] = chosen[i] if passage.sign(np.ones(1))[0] > 0 else 1 - chosen[i]
-    return branches, None
-
-
-def _gap(
-    structure: Structure,
-    elements: Sequence[Element],
-    own: Mapping[str, float],
-    target: Mapping[str, float],
-    chosen: Mapping[int, int],
-    flips: Mapping[int, NDArray[np.float64]],
-    placed: Placed,
-    t: float,
-) -> float:
-    """How well the loci of the last element cross at a place of the path.
-
-    ``placed`` keeps how many elements stand at a place of the path, and their links, for those that come after.
-    """
-    paper = start_board(structure, 1.0 / structure.scene.size, {k: own[k] + t * (target[k] - own[k]) for k in own})
-    first, poses = placed.get(t, (0, {}))
-    paper.poses.update(poses)
-    gap = -1.0
-
-    def choose(place: int, element: Dyad | Cluster) -> Poses | None:
-        nonlocal gap
-        assert isinstance(element, Dyad)
-        i = first + place
-        if i == len(elements) - 1:
-            placed[t] = i, dict(paper.poses)
-        meeting = meet(paper, element)
-        gap = meeting.gap
-        flipped = int(np.searchsorted(flips[i], t)) % 2 if i in flips else 0
-        return meeting.poses[(chosen[i] + flipped) % len(meeting.poses)] if meeting.poses else None
-
-    assembled(paper, elements[first:], choose)
-    return gap
 
 
 def draw_position(
@@ -355,75 +285,3 @@ def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
         return getattr(pair, "point", "") or getattr(pair, "key", "")
 
     return name(dyad.outer_first), name(dyad.inner), name(dyad.outer_second)
-
-
-# -- what rolls --------------------------------------------------------------------------------------------------------
-
-
-def rolled_position(
-    structure: Structure, elements: Sequence[Element], own: Mapping[str, float], values: Mapping[str, float]
-) -> tuple[dict[str, float], dict[int, int]]:
-    """The driver values with those of everything that rolls (rad, m), and the assembly of each dyad there.
-
-    The way is gone from the scene's own position in small steps, and how far the links have turned or slid on which it
-    rolls is read off, whole turns included.
-
-    Raises
-    ------
-    Unsolvable : "not assembled" where the motion does not go on, "not drawn" for groups larger than a dyad
-    """
-    for element in elements:
-        if isinstance(element, Cluster):
-            names = ", ".join(element.links)
-            raise Unsolvable(
-                "not drawn", Problem(Phrase("links", links=names), Phrase("a larger group beside what rolls is not"))
-            )
-    mm = 1.0 / structure.scene.size
-    paper, chosen = start_board(structure, mm, own), dict[int, int]()
-    start: dict[Coordinate, float] = {}
-
-    def begun(driver: Rolled) -> float:
-        start.update((c, coordinate_on_paper(structure, paper, c)) for c, _ in driver.factors)
-        return driver.start
-
-    assembled(paper, elements, as_meant(structure, paper, chosen), begun)
-    near = dict(start)
-    drivers = structure.scene.drivers
-    long = max(abs(values[d.key] - own[d.key]) / (ROLL_STEP if d.turns else SLIDE_STEP / mm)
-               for d in drivers)  # fmt: skip
-    count = max(1, math.ceil(long))
-    for k in range(1, count + 1):
-        here = {key: own[key] + (values[key] - own[key]) * k / count for key in own} if k < count else dict(values)
-        paper = _rolled_on(structure, elements, start_board(structure, mm, here), paper.poses, start, near, chosen)
-    return {**values, **{key: v for key, v in paper.values.items() if key not in values}}, chosen
-
-
-def _rolled_on(
-    structure: Structure, elements: Sequence[Element], paper: PlacedLinks, before: Poses,
-    start: Mapping[Coordinate, float], near: dict[Coordinate, float], chosen: dict[int, int],
-) -> PlacedLinks:  # fmt: skip
-    """All links a step further; ``near`` and ``chosen`` go on with them."""
-
-    def choose(i: int, element: Dyad | Cluster) -> Poses:
-        assert isinstance(element, Dyad)
-        meeting = meet(paper, element)
-        branch = meeting.nearest(before)
-        if branch is None:
-            wanted = Phrase("choose a driver value that the motion reaches")
-            where = Phrase("links", links=", ".join(element.links))
-            raise Unsolvable("not assembled", Problem(where, Phrase("their loci do not meet on the way"), wanted))
-        chosen[i] = branch
-        return meeting.poses[branch]
-
-    def gone(driver: Rolled) -> float:
-        value = driver.start
-        for coordinate, factor in driver.factors:
-            read = coordinate_on_paper(structure, paper, coordinate)
-            if coordinate[0] == "angle":
-                read += math.tau * round((near[coordinate] - read) / math.tau)
-            near[coordinate] = read
-            value += factor * (read - start[coordinate])
-        return value
-
-    assembled(paper, elements, choose, gone)
-    return paper
