@@ -24,8 +24,8 @@ from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.solver.cam_study import AtDegree, CamStudy
-    from graphkin.solver.contacts import DiscCam
+    from graphkin.solver.cams import AtDegree, CamStudy
+    from graphkin.solver.discs import DiscCam
     from graphkin.table import Array, Table
 
 __all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
@@ -43,7 +43,7 @@ class CamMade:
 
     @cached_property
     def study(self) -> CamStudy:
-        from graphkin.solver.cam_study import study_cam
+        from graphkin.solver.cams import study_cam
 
         return study_cam(self.cam)
 
@@ -82,7 +82,7 @@ class CamMade:
     @cached_property
     def wanted_base(self) -> float | None:
         """The least base radius of the profile (m) with which the cam is as wished; None where it is so, or none is."""
-        from graphkin.solver.cam_study import least_base
+        from graphkin.solver.cams import least_base
 
         return None if self.study.ok else least_base(self.cam)
 
@@ -208,7 +208,7 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     pitch curve, profile and pressure angle, points in the cam's own axes from its axis."""
     from graphkin.solver import structure_of
     from graphkin.solver.cams import cam_at
-    from graphkin.solver.contacts import disc_course
+    from graphkin.solver.discs import disc_course
     from graphkin.table import Column, Table, text_column
 
     metres = scene.units.metres
@@ -370,7 +370,7 @@ def cam(
     (56.3214, True)
     """
     from graphkin.solver import structure_of
-    from graphkin.solver.contacts import disc_cams
+    from graphkin.solver.discs import disc_cams
 
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:

@@ -348,7 +348,7 @@ def _plain(value: float) -> float:
 
 def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
     """The exact centre of two links as the chart sees it, and the strength of their relative motion: its length."""
-    from graphkin.solver.centres import instant_centre
+    from graphkin.solver.motion import instant_centre
 
     q, omega = instant_centre(motion, *pair)
     chart, turn = centres.chart, float(omega[0])

@@ -24,7 +24,7 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
-    from graphkin.solver.centres import Centrode
+    from graphkin.solver.motion import Centrode
     from graphkin.table import Table
 
 __all__ = ["Centroded", "centrodes"]
@@ -155,7 +155,7 @@ def centrodes(
     Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
     """
     from graphkin.solver import solve
-    from graphkin.solver.centres import centrode
+    from graphkin.solver.motion import centrode
     from graphkin.study.centre_paths import steady
 
     known_words(formats, language, convention, known_languages=ON_SHEETS)

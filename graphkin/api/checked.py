@@ -266,7 +266,7 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     scale, lost, forces = 0.0, 0.0, None
     if sheet.has_forces:
         from graphkin.construction.forces import forces_on
-        from graphkin.solver.force_values import force_values
+        from graphkin.solver.values import force_values
 
         of_motion = value
         of_force, lost = force_values(motion)

@@ -21,7 +21,7 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
 from graphkin.scene.file_keys import path_of_key, value_at
 from graphkin.scene.model import Mechanism
-from graphkin.solver.joints import turned
+from graphkin.solver.pose import turned
 from graphkin.study.designs import applied
 from graphkin.words import Phrase
 

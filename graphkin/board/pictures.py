@@ -30,7 +30,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.source import parsed
 from graphkin.scene.written import resolved
 from graphkin.solver import Motion
-from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.driver_range import DriverRange
+from graphkin.solver.solve import driver_range
 from graphkin.structure import Structure, mobility_of
 from graphkin.words import Phrase, Wording, languages, say
 from graphkin.words.written import in_markup

@@ -19,7 +19,7 @@ from graphkin.papers.lesson import plain_words
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
-from graphkin.solver.centres import instant_centre
+from graphkin.solver.motion import instant_centre
 from graphkin.solver.pose import Array
 
 __all__ = ["FRAMES", "motion_data"]

@@ -39,7 +39,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.solver.force_values import force_values
+from graphkin.solver.values import force_values
 from graphkin.structure import Structure
 from graphkin.words import languages
 

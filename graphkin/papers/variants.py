@@ -260,7 +260,7 @@ def _uncut(scene: Mechanism) -> Iterator[str]:
     """The cams whose profile turns back on itself."""
     if not scene.cams:
         return
-    from graphkin.solver.cam_study import study_cam
+    from graphkin.solver.cams import study_cam
 
     for cam in scene.cams:
         for start, end in study_cam(cam).undercut:

@@ -18,7 +18,8 @@ from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code
 from graphkin.solver.expressions import Name
 from graphkin.solver.pose import Array
-from graphkin.solver.program import formulas, program_of
+from graphkin.solver.prepared import formulas
+from graphkin.solver.program import program_of
 from graphkin.study.equations import Equations, Solution
 
 __all__ = ["Numeric", "closed_forms", "complex_step", "copy_time", "differences", "newton", "one_by_one"]

@@ -41,12 +41,12 @@ def last_true(
         low, high = float(at[i]), float(at[i + 1])
 
 
-def changes(holds: Callable[[Array], Array], grid: Array) -> list[float]:
+def changes(holds: Callable[[Array], Array], grid: Array, within: float = 0.0) -> list[float]:
     """Where a condition begins or ceases to hold along a grid that is fine enough to see every change, to the last
-    digit: places where it still holds."""
+    digit (as near as ``within``): places where it still holds."""
     true = holds(grid)
     pairs = ((k, k + 1) if true[k] else (k + 1, k) for k in np.flatnonzero(true[1:] != true[:-1]))
-    return [last_true(holds, float(grid[inside]), float(grid[outside])) for inside, outside in pairs]
+    return [last_true(holds, float(grid[inside]), float(grid[outside]), within=within) for inside, outside in pairs]
 
 
 def intervals(holds: Callable[[Array], Array], grid: Array) -> list[tuple[float, float]]:

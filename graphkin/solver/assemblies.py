@@ -10,14 +10,14 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.model import Mechanism
 from graphkin.search import last_true
+from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.joints import Drive, driver_text
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.quantities import Posed
+from graphkin.solver.sentences import driver_text
 from graphkin.structure import (
     Cluster,
     Driven,
@@ -38,7 +38,7 @@ from graphkin.words import Phrase, Wording
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import ClusterSolved, System
 
-__all__ = ["choose_forms", "new_places", "own_values", "reading"]
+__all__ = ["choose_forms", "new_places", "reading"]
 
 STARTS = 360
 ROUNDS = 80
@@ -48,11 +48,6 @@ FOUND = 1e-13
 FLAT, HOPELESS = 1e-7, 1e-5
 """Where the constraints are open all the same and no step closes them better, relatively, nothing more is found; the
 second where they are further open than NEAR, since towards such a place steps only creep."""
-
-
-def own_values(scene: Mechanism) -> Array:
-    """The drivers' values in the scene's own position, shape (drivers,)."""
-    return np.array([d.values[0] for d in scene.drivers])
 
 
 def reading(structure: Structure, poses: Mapping[str, Pose], coordinate: Coordinate) -> Array:

@@ -15,11 +15,10 @@ from typing import Protocol
 
 from graphkin.plane import cross
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.solver.dyads import DyadSolution, Joints
-from graphkin.solver.expressions import ExpressionGraph, PoseFormula, Real, Vec, fmax, root
-from graphkin.solver.joints import Frames, body_shape
-from graphkin.solver.pose import FIELDS, Pose
-from graphkin.solver.rounding import ErrorBound, Rounding
+from graphkin.solver.dyads import DyadSolution, Frames, Joints, PoseFormula, body_shape
+from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
+from graphkin.solver.pose import FIELDS, ErrorBound, Pose
+from graphkin.solver.rounding import Rounding
 from graphkin.structure import Driven, Dyad, DyadKind, Element, Pair, Rolled, links_of
 from graphkin.structure.model import Coordinate
 

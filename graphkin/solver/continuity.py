@@ -12,14 +12,15 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.solver.discriminant import least_closes
+from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import group_at, positions
-from graphkin.solver.joints import Drive
+from graphkin.solver.engine import group_at, least_closes, positions
 from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
+from graphkin.solver.sentences import limit_why
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages
 from graphkin.structure.assembly import ChangePoint, Passage, follow
+from graphkin.words import Phrase
 
 __all__ = ["FAR", "Path", "follow_path"]
 
@@ -243,6 +244,11 @@ class Path:
             if t < self.reach and isinstance(element, Dyad | Cluster):
                 found.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
         return tuple(found)
+
+    def why_ended(self, between: tuple[float, float] | None = None) -> Phrase:
+        """Why it ends, and between which values the motion runs, where that is known."""
+        end = self.values(np.array([self.reach]))[0].tolist()
+        return limit_why(self.structure, self.by or 0, np.flatnonzero(self.end != self.start).tolist(), end, between)
 
     @cached_property
     def last_forms(self) -> dict[int, Array]:

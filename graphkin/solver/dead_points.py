@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal
 from itertools import product
 
 import numpy as np
 
-from graphkin.errors import GraphkinError, Problem, Unsolvable
-from graphkin.scene.model import Mechanism
+from graphkin.errors import Problem, Unsolvable
 from graphkin.search import last_true, least_value
-from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.decimals import PI, meant_value, working
-from graphkin.solver.discriminant import Discriminant, newton, touch
+from graphkin.solver.decimals import meant_value, working
+from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import positions
-from graphkin.solver.joints import Drive, driver_text
+from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton, positions, touch
+from graphkin.solver.larger_groups import ClusterSolved
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Structure, analyse, in_stages
-from graphkin.words import Phrase, Wording, clauses, listed
+from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
+from graphkin.structure import Cluster, Dyad, Structure, in_stages
+from graphkin.words import Phrase, Wording
 
-__all__ = ["DeadPoint", "dead_points", "from_dead_point", "nearest_dead_point"]
+__all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "singular", "without_singular"]
 
 GRID = 1440
 FAR = 4.0
@@ -60,7 +59,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     """
     for element in structure.elements:
         if isinstance(element, Cluster):
-            where = Phrase("links", links=", ".join(element.links))
+            where = links_words(element.links)
             raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
     if in_stages(structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
@@ -167,80 +166,172 @@ _ONE = np.asarray(1.0)
 def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> Discriminant:
     return Discriminant(structure, i, {j: np.asarray(s) for j, s in signs.items()})
 
+OPEN = 1e-9
+CERTIFIED = 0.5
+CLOSE = 1e-9
+"""Where a discriminant is less, sixteen digits may not tell on which side of a limit a position lies."""
+WEAK = 1e-3
+"""Sine below which a group is near its dead point."""
+HIDDEN = 1e-8
+"""Where a group passes on errors by one over this, they hide how far its dead point is."""
+ASIDE = 1e-4
+"""How far a group is put aside to see how its constraints bend."""
+HAIR, FAR_OFF = 1e-7, 1e2
+"""A step of a driver (rad, or of the size), and what is far away (of the size)."""
 
-def from_dead_point(structure: Structure) -> Structure:
-    """The structure of the same scene with the value of its driver, which is given from a dead point.
 
-    Raises
-    ------
-    Unsolvable : "dead point": there is none of that kind, or there are several and none is named
+def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
+    """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
+    dyads = [i for i, solved in state.groups.items() if isinstance(solved, DyadSolution)]
+    if state.bounds is not None and dyads:
+        lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))
+        sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
+        weakest = np.argmin(np.nan_to_num(sines, nan=0.0), axis=0)
+        for k, i in enumerate(dyads):
+            # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
+            yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
+    for i, solved in state.groups.items():
+        if isinstance(solved, DyadSolution):
+            yield i, np.broadcast_to(~(np.abs(solved.sine) >= state.singular), (n,))
+        else:
+            refused = ~(solved.residual < OPEN) | ~(solved.certificate < CERTIFIED)
+            yield i, ~(solved.condition * SINGULAR <= 1) | refused
+
+
+def without_singular(
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, why: Sequence[Wording]
+) -> tuple[Array, list[Wording]]:
+    """Status and reasons of positions, those told apart that are ok but for a group in a singular position.
+
+    Parameters
+    ----------
+    values, forms : of the drivers and assemblies that were solved, shapes (n, drivers) and (n, ...)
+    status, why : as far as known
     """
+    status, reasons = status.copy(), list(why)
+    _beyond_limits(structure, state, values, forms, status, reasons)
+    for i, dead in singular(structure, state, len(status)):
+        for k in np.flatnonzero(dead & (status == "ok")):
+            own = {j: f[k : k + 1] for j, f in forms.items()}
+            apart = _apart(structure, i, values[k], own)
+            status[k] = "not assembled" if apart else "dead point"
+            reasons[k] = apart or _dead_why(structure, i, values[k], own)
+    return status, reasons
+
+
+def _beyond_limits(
+    structure: Structure, state: State, values: Array, forms: Mapping[int, Array], status: Array, reasons: list[Wording]
+) -> None:
+    """Positions so near to a limit of the motion that sixteen digits do not tell on which side: refused where fifty
+    digits say that the links do not reach each other, put on the limit where the file leaves it open.
+
+    ``status`` and ``reasons`` are changed.
+    """
+
+    n = len(status)
+    for i, solved in state.groups.items():
+        group = structure.elements[i]
+        if not isinstance(solved, DyadSolution) or not isinstance(group, Dyad) or group.is_two_lines:
+            continue
+        discriminant = np.broadcast_to(solved.discriminant, (n,))
+        near = np.flatnonzero((np.abs(discriminant) < CLOSE) & (status == "ok"))
+        if not len(near):
+            continue
+        own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in forms.items() if j <= i}
+        if in_stages(structure.elements[:i]):
+            side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
+        else:
+            one = np.ones((len(near), values.shape[1]))
+            side, left_open = closes(structure, i, own, Drive(values[near], one, 0 * one))
+        for k, s, either in zip(near.tolist(), side.tolist(), left_open.tolist(), strict=True):
+            here = {j: f[k : k + 1] for j, f in forms.items() if j <= i}
+            if s < 0:
+                links, place = links_words(group.links), _where(structure, i, values[k], here)
+                status[k] = "not assembled"
+                reasons[k] = Phrase("just beyond the end of their motion", links=links, place=place)
+            elif either:
+                why = _dead_why(structure, i, values[k], here)
+                status[k], reasons[k] = "dead point", Phrase("as far as the digits of the file tell", why=why)
+
+
+def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
+    """What to say of a dyad whose guides are parallel and not one line, so that they meet nowhere; "" of any other:
+    a hair further on it would lie far away."""
+    group = structure.elements[i]
+    if not (isinstance(group, Dyad) and group.is_two_lines):
+        return ""
+    one = np.ones((1, len(values)))
+    size = structure.scene.size
+    for driver, turns in enumerate(d.turns for d in structure.scene.drivers):
+        nudged = values[None].copy()
+        nudged[0, driver] += HAIR * (1.0 if turns else size)
+        solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
+        assert isinstance(solved, DyadSolution)
+        if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:
+            links = links_words(group.links)
+            return Phrase("have parallel guides that lie apart", links=links)
+    return ""
+
+
+def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Phrase:
+    """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
+    from graphkin.solver.larger_groups import ClusterSolved
+
     scene = structure.scene
-    driver = scene.drivers[0]
-    dead = driver.dead_point
-    assert dead is not None
-    with working():
-        distance = meant_value(driver, dead.distance)
-    side = 1 if distance > 0 else -1
-    known: list[tuple[DeadPoint, int]] = []
-    found: list[tuple[DeadPoint, Structure]] = []
-    for point in dead_points(structure, dead.near or 0.0):
-        for way in point.sides:
-            with working():
-                value = point.value + way * abs(distance)
-            here = _at(structure, value)
-            try:
-                forms = choose_forms(here)
-            except GraphkinError:
-                continue
-            if all(float(forms[j]) == s for j, s in point.signs.items()):
-                known.append((point, way))
-                found += [(point, here)] if way == side else []
-    what = Phrase("driver of key", key=driver.key)
-    others = _listed(scene, known)
-    if not found:
-        key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
-        wanted = [Phrase("change the sign of the distance or give"), *others]
-        if missing := not_searched(structure):
-            wanted.append(Phrase("links were not looked at", links=", ".join(missing), most=MOST_GROUPS))
-        raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
-    if dead.near is None and len(found) > 1:
-        names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
-        raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
-                                               Phrase("write near to tell which one")))
-    turn = float(2 * PI) if driver.turns else math.inf
-
-    def away(point: DeadPoint) -> float:
-        off = abs(float(point.value) - (dead.near or 0.0))
-        return min(off, abs(turn - off))
-
-    taken = min(found, key=lambda pair: away(pair[0]))
-    nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
-    if dead.near is not None and away(nearest) < away(taken[0]) - SAME:
-        wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
-        key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
-        raise Unsolvable("dead point", Problem(
-            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *others])))
-    return taken[1]
+    group = structure.elements[i]
+    assert isinstance(group, Dyad | Cluster)
+    one = np.ones((1, len(scene.drivers)))
+    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
+    links = group_words(structure, group)
+    if isinstance(solved, ClusterSolved):
+        if not solved.residual[0] < OPEN:
+            return Phrase("no position was found here", links=links)
+        u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
+        branch = abs(float(u[:, -1] @ solved.right_side[0])) <= 1e-5 * float(np.linalg.norm(solved.right_side[0]))
+        where = "" if branch else _fold_where(structure, solved, values)
+        if not solved.certificate[0] < CERTIFIED and solved.condition[0] * SINGULAR <= 1:
+            key = "so near to where two assemblies meet" if branch else "so near to their dead point"
+            return Phrase(key, links=links, place=where)
+        ending = Phrase("have a singular position")
+    else:
+        e1, e2, right_side = (complex(np.ravel(x)[0]) for x in (solved.e1, solved.e2, solved.right_side))
+        along = e1 if abs(e1) > abs(e2) or not np.isfinite(abs(e2)) else e2
+        across = abs((along.conjugate() * right_side).imag) / (abs(along) or 1.0)
+        branch = not across > 1e-5 * abs(right_side)
+        assert isinstance(group, Dyad)
+        if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
+            first, second = (getattr(p, "point", "") for p in group.outer)
+            ending, branch = Phrase("have no direction of their own", first=first, second=second), True
+        else:
+            ending = dyad_words(group).dead
+    end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
+    if not isinstance(solved, ClusterSolved):
+        where = _where(structure, i, values, forms)
+    return Phrase("stand at a dead point", links=links, ending=ending, end=end, place=where)
 
 
-def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
-    """The dead points of a scene in words, and what the motion does there."""
-    ends: dict[Wording, list[int]] = {}
-    for point, way in known:
-        ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
-    said = [
-        Phrase(
-            "the motion passes" if len(set(ways)) > 1 else "it begins there" if ways[0] > 0 else "it ends there", at=at
-        )
-        for at, ways in ends.items()
-    ]
-    return [Phrase("dead points", points=listed(said))] if said else []
+def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> Wording:
+    """Where the dead point of a larger group lies by the bend of its constraints, as they are beside it: along the
+    motion that would be free there they open as sigma s + a s2, against the b t of the driver (Seydel, Practical
+    Bifurcation and Stability Analysis, ch. 2).  Nothing of several drivers, and where rounding has moved it as far."""
+    if len(structure.scene.drivers) != 1 or solved.condition[0] * HIDDEN > 1:
+        return ""
+    u, sigma, free = np.linalg.svd(solved.matrix[0])
+    place = solved.place[:, : len(solved.system.group.members)]
+    way = ASIDE * solved.system.scaled(free[None, -1])
+    ahead, behind = (solved.system.matrix(solved.system.at(place + side))[0] for side in (way, -way))
+    bend = float(u[:, -1] @ (ahead - behind) @ free[-1]) / (4 * ASIDE)
+    off = float(sigma[-1] ** 2 / (4 * bend * (u[:, -1] @ solved.right_side[0])))
+    return lies_at(structure, float(values[0]) + off, abs(off), about=True)
 
 
-def _at(structure: Structure, value: Decimal) -> Structure:
-    scene = structure.scene
-    driver = scene.drivers[0]
-    assert driver.dead_point is not None
-    exact = replace(driver.dead_point, exact=str(value))
-    return analyse(replace(scene, drivers=(replace(driver, value=float(value), dead_point=exact),)))
+def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
+    """Where the dead point lies, and how far away."""
+
+    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if isinstance(structure.elements[j], Dyad) and j < i}
+    value = float(values[0])
+    point = nearest_dead_point(structure, i, signs, value)
+    if point is None:
+        return ""
+    away = float(abs(point.value - meant_value(structure.scene.drivers[0], value)))
+    return lies_at(structure, float(point.value), away if away > 1e-30 else 0.0)

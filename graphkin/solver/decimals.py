@@ -8,16 +8,7 @@ from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOp
 
 from graphkin.scene.model import Driver
 
-__all__ = [
-    "DIGITS",
-    "PI",
-    "cos_sin",
-    "meant",
-    "meant_angle",
-    "meant_direction",
-    "meant_value",
-    "working",
-]
+__all__ = ["DIGITS", "PI", "cos_sin", "meant", "meant_angle", "meant_direction", "meant_value", "working"]
 
 DIGITS = 50
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899863")

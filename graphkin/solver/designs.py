@@ -14,17 +14,15 @@ import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
 from graphkin.scene.dimensions import Dimension, with_dimensions
-from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.code import Code
-from graphkin.solver.compiled import Kernel
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.code import Code, Kernel
 from graphkin.solver.driver_range import range_from
-from graphkin.solver.driver_values import GivenValues, UniformGrid
+from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
 from graphkin.solver.engine import SINGULAR
 from graphkin.solver.expressions import Name
-from graphkin.solver.joints import turned
-from graphkin.solver.pose import Array
-from graphkin.solver.prepared import CLEAR, PreparedMechanism, prepare
-from graphkin.solver.program import GIVEN, bounds, formulas, program_of
+from graphkin.solver.pose import Array, turned
+from graphkin.solver.prepared import CLEAR, PreparedMechanism, bounds, formulas, prepare
+from graphkin.solver.program import GIVEN, program_of
 from graphkin.structure import Dyad, analyse
 
 __all__ = ["PreparedMechanisms"]

@@ -3,42 +3,51 @@ closes, which assembly stands at each place of it, and the motion there; and the
 
 Whatever goes over the driver's range goes this way: a solution elsewhere and over a turn, prepared mechanisms, the
 study of a turn, the positions of a handout.
+
+Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variation.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping
+import math
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
+from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.solver.assemblies import choose_forms, own_values
-from graphkin.solver.diagnosis import assembly_words, limit_why
-from graphkin.solver.driver_values import UniformGrid
+from graphkin.scene.symbol import Symbol
+from graphkin.search import last_true
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.cams import beginning
+from graphkin.solver.dead_points import singular, without_singular
+from graphkin.solver.drivers import Drive, UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
-from graphkin.solver.joints import Drive
-from graphkin.solver.mobility import structure_of
-from graphkin.solver.motion import BLOCK, Motion, goal_values, joined, motion_of
-from graphkin.solver.pose import Array
+from graphkin.solver.motion import Motion
+from graphkin.solver.pose import FIELDS, Array, ErrorBound, Pose, rest
+from graphkin.solver.redundant import all_slides, place_redundant
+from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
+from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
     from graphkin.solver.continuity import Path
 
-__all__ = ["DriverRange", "driver_range", "range_from", "stopped_why", "way_to"]
+__all__ = ["DriverRange", "Extremes", "extremes", "joined", "motion_of", "range_from", "stopped_why", "way_to"]
 
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
 
 
-def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = None) -> DriverRange:
+def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> DriverRange:
     """Follow a mechanism from its own position, or from other driver values, over as many turns of its first driver as
     it takes until every link lies where it lay; or to both limits of the motion, be they more than a turn apart.
 
@@ -49,10 +58,9 @@ def driver_range(scene: Mechanism | Structure, at: Mapping[str, float] | None = 
     Raises
     ------
     SceneError : a group has several assemblies and no sketch tells which
-    Unsolvable : wrong mobility, the start cannot be assembled or reached
+    Unsolvable : the start cannot be assembled or reached
     CallError : ``at`` names no driver
     """
-    structure = structure_of(scene)
     forms, own, start = choose_forms(structure), own_values(structure.scene), goal_values(structure.scene, at)
     if not np.array_equal(own, start):
         path = way_to(structure, forms, start)
@@ -141,11 +149,11 @@ def stopped_why(structure: Structure, forms: Mapping[int, Array], start: Array, 
     """Why a way from the values of ``start`` ends, and between which values the motion runs."""
     moved = np.flatnonzero(path.end != path.start)
     if len(moved) > 1:
-        return limit_why(structure, path)
+        return path.why_ended()
     which = int(moved[0]) if len(moved) else 0
     whole = range_from(structure, forms, start, which)
     low, high = sorted(float(start[which] + end * whole.sense) for end in whole.ends)
-    return limit_why(structure, path, (low, high))
+    return path.why_ended((low, high))
 
 
 def way_to(structure: Structure, forms: Mapping[int, Array], goal: Array) -> Path:
@@ -221,7 +229,7 @@ class DriverRange:
         """Why the motion ends."""
         path = self.ahead if self.ahead.limit is not None else self.behind
         low, high = sorted(self.value(np.array(self.ends)).tolist())
-        return "" if path.limit is None else limit_why(self.structure, path, (low, high))
+        return "" if path.limit is None else path.why_ended((low, high))
 
     # offsets and values of the driver
 
@@ -261,6 +269,14 @@ class DriverRange:
             return np.asarray(2 * np.pi * k / n)
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
+
+    def stroke(self, pair: str) -> tuple[float, float]:
+        """Least and greatest travel of a sliding pair over a turn (m).  Raises Unsolvable where there is no turn."""
+        if pair not in self.kept:
+            turn = extremes(self, Symbol.parse(f"stroke_{pair}"))
+            self.kept[pair] = turn.low, turn.high
+        stroke: tuple[float, float] = self.kept[pair]
+        return stroke
 
     def grid(self, n: int, first: int = 0, last: int | None = None) -> UniformGrid:
         """Values of the first driver at positions ``first`` to ``last`` (not included) of a table of n: a turn from the
@@ -403,3 +419,279 @@ class _Turned(Mapping[str, Array]):
 
     def __reduce__(self) -> tuple[type, tuple[dict[str, Array]]]:
         return dict, (dict(self),)
+
+BLOCK = 16384
+"""Positions that are computed together."""
+
+
+def motion_of(
+    structure: Structure,
+    drive: Drive,
+    forms: Mapping[int, Array],
+    assembly: tuple[Phrase, ...],
+    good: Array,
+    why: Wording = "",
+    fine: bool = True,
+) -> Motion:
+    """Positions in one pass over all driver values, their status, redundant links placed and checked.
+
+    Parameters
+    ----------
+    forms : the form of each group at each position, as for ``positions``
+    assembly : in words
+    good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
+    fine : False leaves 16 digits where they are rough, and the reasons away
+    """
+    n = len(drive)
+    if n > BLOCK:
+        blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
+        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
+        return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
+    state = positions(structure, drive, forms, fine=fine, each=not fine)
+    status = np.where(good, "ok", "not assembled").astype("<U13")
+    reasons: list[Wording] = ["" if g else why for g in good]
+    if fine:
+        status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
+    else:
+        for _, dead in singular(structure, state, n):
+            status[dead & good] = "dead point"
+    ok = status == "ok"
+    assert state.bounds is not None
+    bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
+    of_links = {name: ErrorBound(*(np.where(ok, b, np.nan) for b in own)) for name, own in state.each.items()}
+    rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
+    poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
+    poses[structure.scene.frame.name] = rest().still(n)
+    place_redundant(structure, poses, ok, bound)
+    slides = all_slides(structure)
+    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough,
+                  partial(range_of, structure), bounds=of_links)  # fmt: skip
+
+
+def joined(blocks: Iterable[Motion], n: int) -> Motion:
+    """Motions of blocks of positions, one after the other, as one of n positions.
+
+    Each block is let go before the next is found, and what is the same at all positions, or for two links (the angle of
+    a block on its guide), is kept once: fields may be read-only, or be the memory of another.
+    """
+    columns: dict[tuple[str, str], _Column] = {}
+    reasons = list[Wording]([""] * n)
+    first, some = 0, None
+    for some in blocks:
+        rows = slice(first, first + len(some))
+        parts = {(name, f): np.broadcast_to(getattr(p, f), len(some)) for name, p in some.poses.items() for f in FIELDS}
+        parts |= {("bound", str(k)): b for k, b in enumerate((*some.bound, *some.rough))}
+        parts |= {("", "status"): some.status, ("", "values"): some.values}
+        if not columns:
+            columns = {key: _Column(n) for key in parts}
+        for key, values in parts.items():
+            columns[key].put(rows, values, [c for other, c in columns.items() if other[1] == key[1]])
+        reasons[rows] = some.reasons
+        first = rows.stop
+    assert some is not None
+    kept = {key: column.array for key, column in columns.items()}
+    numbers = [kept["bound", str(k)] for k in range(8)]
+    return replace(
+        some,
+        values=kept["", "values"],
+        status=kept["", "status"],
+        reasons=tuple(reasons),
+        poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
+        bound=ErrorBound(*numbers[:6]),
+        bounds={},
+        rough=(numbers[6], numbers[7]),
+    )
+
+
+class _Column:
+    """A column of n rows that is filled from the top: one row for all as long as they are the same, bit by bit, nothing
+    of its own as long as another column is the same."""
+
+    def __init__(self, n: int) -> None:
+        self.n = n
+        self.like: _Column | None = None
+        self.own: Array | None = None
+
+    @property
+    def array(self) -> Array:
+        if self.like is not None:
+            return self.like.array
+        assert self.own is not None
+        return self.own if len(self.own) == self.n else np.broadcast_to(self.own, (self.n, *self.own.shape[1:]))
+
+    def put(self, rows: slice, values: Array, others: Iterable[_Column]) -> None:
+        """The next rows; ``others`` that come before this one have theirs already."""
+        if rows.start == 0:
+            one = values[:1]
+            if _same(values, np.broadcast_to(one, values.shape)):
+                self.own = one.copy()
+                return
+            before = takewhile(lambda c: c is not self, others)
+            self.like = next((c for c in before if c.like is None and _same(values, c.array[rows])), None)
+            if self.like is None:
+                self._spread(values[:0])[rows] = values
+            return
+        if self.own is not None and len(self.own) == self.n:
+            self.own[rows] = values
+        elif not _same(values, self.array[rows]):
+            self._spread(self.array[: rows.start])[rows] = values
+
+    def _spread(self, above: Array) -> Array:
+        self.own, self.like = np.empty((self.n, *above.shape[1:]), dtype=above.dtype), None
+        self.own[: len(above)] = above
+        return self.own
+
+
+def _same(one: Array, other: Array) -> bool:
+    """Whether two arrays are the same bit by bit: minus zero is not zero, and NaN is NaN."""
+    return one.dtype == other.dtype and one.tobytes() == other.tobytes()
+
+
+# -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------
+
+
+Course = Callable[[Array], tuple[Array, Array, Array]]
+
+SAMPLES = 720
+EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
+STEPS = 6
+NEAR = 1e-14
+"""Within this (rad) of what Newton's method gives a rate's sign is looked for digit by digit."""
+ROUNDED = 1e-11
+"""An angle (rad) between limit positions that is nothing but rounding."""
+WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """The least and the greatest value of an output over a turn (m, rad), and the driver's offsets there."""
+
+    low: float
+    high: float
+    low_offset: float
+    high_offset: float
+
+    @property
+    def stroke(self) -> float:
+        return self.high - self.low
+
+    @property
+    def lag(self) -> float:
+        """The angle theta between the crank's two limit positions (rad), what the longer way lacks to half a turn."""
+        way = abs(self.high_offset - self.low_offset)
+        lag = max(way, math.tau - way) - math.pi
+        return lag if lag > ROUNDED else 0.0
+
+    @property
+    def ratio(self) -> float:
+        """K = (180 + theta) / (180 - theta): the longer way of the crank over the shorter (coefficient of travel speed
+        variation, 行程速比系数; time ratio, Norton, Design of Machinery, ch. 3)."""
+        return (math.pi + self.lag) / (math.pi - self.lag)
+
+
+def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
+    """The extremes of the sliding pair or link that a symbol is of, over one turn of the driver.
+
+    Raises
+    ------
+    Unsolvable : the driver slides or does not turn fully, the motion does not repeat after one turn, or the output has
+        no limit positions
+    CallError : there is no such sliding pair
+    """
+    if not reach.driver.turns:
+        raise _without(symbol, Phrase("belongs to a whole turn but the driver"), WHERE_ELSE)
+    if reach.turns != 1:
+        why = reach.limit_why or Phrase("the motion does not repeat after one turn")
+        raise _without(symbol, Phrase("belongs to a whole turn which the driver", why=why), WHERE_ELSE)
+    if symbol.other:
+        sliding_pair(reach.structure, symbol)
+    cam = next((c for c in reach.scene.cams if symbol.pair in (c.follower, getattr(c.motion, "pair", ""))), None)
+    if cam is not None and (reach.driver.link, reach.driver.relative_to) == (cam.link, reach.scene.frame.name):
+        return _of_follower(reach, cam)
+
+    def course(offset: Array) -> tuple[Array, Array, Array]:
+        """Value, rate and second rate by the driver's own angle."""
+        motion = reach.motion(offset, unit=True)
+        if symbol.other:
+            slide = motion.slide(symbol.pair)
+            return slide.travel, slide.velocity, slide.acceleration
+        return reach.angle(motion, symbol.link), motion.omega(symbol.link), motion.alpha(symbol.link)
+
+    grid = np.linspace(0.0, math.tau, SAMPLES + 1)
+    values, rates, _ = course(grid)
+    pair = symbol.pair
+    if not symbol.other and abs(values[-1] - values[0]) > 1.0:
+        raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
+    size = reach.scene.size if symbol.other else 1.0
+    if np.ptp(values) < 1e-12 * size:
+        raise _without(
+            symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
+        )
+    (low_at, low), (high_at, high) = (
+        _best(course, grid, values, rates, sign, lambda offset: float(reach.value(np.array(offset))))
+        for sign in (-1.0, 1.0)
+    )
+    return Extremes(low, high, low_at, high_at)
+
+
+def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
+    """The extremes of a follower by its law; where it stands still, the end of the dwell."""
+    law, motion = cam.law, cam.motion
+    if law.least == law.greatest:
+        raise _without(
+            Symbol("stroke"),
+            Phrase("does not move of follower", follower=cam.follower),
+            Phrase("ask for an output that moves"),
+        )
+    ends = []
+    for lift in (law.least, law.greatest):
+        offset = reach.sense * (cam.leaves(lift, int(reach.sense)) - float(reach.start[0])) % math.tau
+        if isinstance(motion, SlidingFollower):
+            ends.append((motion.travel + beginning(cam) + lift, offset))
+        else:
+            ends.append((motion.side * lift, offset))
+    low, high = sorted(ends)
+    return Extremes(low[0], high[0], low[1], high[1])
+
+
+def _turning_point(course: Course, sign: float, places: Array, rates: Array) -> float:
+    """Where between two places, with the rates there, a rate of this sign changes it: by Newton's method, beside its
+    answer to the last digit."""
+    low, high = places.tolist()
+
+    def before(offset: Array) -> Array:
+        return np.asarray(sign * course(offset)[1] >= 0.0)
+
+    at = low + (high - low) * float(rates[0] / (rates[0] - rates[1]))
+    for _ in range(STEPS):
+        _, rate, slope = (float(found[0]) for found in course(np.array([at])))
+        if not slope or not low <= (last := at) - rate / slope <= high:
+            return last_true(before, low, high)
+        at = last - rate / slope
+        if abs(at - last) < 1e-7:
+            break
+    found = last_true(before, at - NEAR, at + NEAR)
+    return found if abs(found - at) < 0.9 * NEAR else last_true(before, low, high)
+
+
+def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
+    return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
+
+
+def _best(
+    course: Course, grid: Array, values: Array, rates: Array, sign: float, angle: Callable[[float], float]
+) -> tuple[float, float]:
+    """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there.
+    ``angle`` is the crank's at an offset."""
+    n = len(grid) - 1
+    tops = [k for k in range(n) if sign * rates[k] >= 0.0 > sign * rates[k + 1]]
+    best = max((sign * values[k] for k in tops), default=0.0)
+    found = []
+    for k in tops:
+        if max(sign * values[k], sign * values[k + 1]) < best - 0.05 * float(np.ptp(values)):
+            continue
+        c = _turning_point(course, sign, grid[k : k + 2], rates[k : k + 2])
+        found.append((c, float(course(np.array([c]))[0][0])))
+    most = max(sign * value for _, value in found)
+    equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]
+    return min(equal, key=lambda one: (angle(one[0]) + EQUAL) % math.tau)

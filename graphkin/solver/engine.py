@@ -1,5 +1,11 @@
 """All elements of a structure in their order, at many driver values at once; positions that 16 digits leave too rough,
 near dead points, are computed again in 50.
+
+Whether a group of two links closes, decided in fifty digits where sixteen cannot tell; and where it just does.
+
+The discriminant of a dyad is positive where it closes, zero where its two assemblies meet, negative where its links do
+not reach each other.  Beside it stands how far the digits that the file leaves open may move it: a number that is
+written as a short decimal is taken to be that decimal.
 """
 
 from __future__ import annotations
@@ -16,19 +22,22 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.code import Code
-from graphkin.solver.decimals import cos_sin, meant, meant_angle, working
+from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
+from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import Name, Real, Vec
-from graphkin.solver.joints import Drive, turned
-from graphkin.solver.pose import FIELDS, Array, Pose, rest
+from graphkin.solver.pose import FIELDS, UNIT, Array, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
-from graphkin.solver.rounding import UNIT, ErrorBound
+from graphkin.solver.rounding import Rounding
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
 
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import ClusterSolved
 
-__all__ = ["SINGULAR", "ExtendedPrecision", "State", "extended_precision_of", "group_at", "known_exactly", "positions"]
+__all__ = [
+    "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "extended_precision_of", "group_at",
+    "known_exactly", "least_closes", "newton", "positions", "touch",
+]  # fmt: skip
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
@@ -462,3 +471,113 @@ def _ends(group: Cluster) -> set[str]:
     for relation in group.rolling:
         found |= {*relation.links}
     return found
+
+
+# -- whether a group of two links closes, decided in fifty digits where sixteen cannot tell; and where it --------------
+
+
+SMALL = Decimal(10) ** -20
+BESIDE = Decimal("1e-5")
+"""A least value farther away, of the path, is another one."""
+LAST_DIGITS = Decimal(10) ** -48
+ROUNDING = Decimal(10) ** -36
+"""What fifty digits leave open of a discriminant at a place that is found from it."""
+
+
+class Discriminant:
+    """The discriminant of a dyad in fifty digits, behind dyads only.
+
+    Parameters
+    ----------
+    i : the dyad, by its place among the elements
+    forms : the assembly of the groups before it
+    drive : positions whose driver values are taken as they are written; the scene's own if None
+    """
+
+    def __init__(self, structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None) -> None:
+        known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
+        self._extended = extended_precision_of(structure, known, ("closing", i), lambda p: _with_doubt(p, i), drive)
+
+    def __call__(self, *values: Decimal) -> Decimal:
+        """At values of the drivers.  Raises ArithmeticError where the groups before it have no place."""
+        value, _ = self._extended.row(0, dict(enumerate(values)))
+        return value
+
+    def with_doubt(self, values: Sequence[Decimal]) -> tuple[Decimal, Decimal]:
+        """The same, and how far the file leaves it open: wholly where the groups before it have no place."""
+        try:
+            value, doubt = self._extended.row(0, dict(enumerate(values)))
+        except ArithmeticError:
+            return Decimal(0), Decimal("Infinity")
+        return value, doubt
+
+    def written(self, k: int) -> tuple[Decimal, Decimal]:
+        """The same at a position."""
+        value, doubt = self._extended.row(k)
+        return value, doubt
+
+
+def _with_doubt(program: Program, i: int) -> list[Real]:
+    found = program.groups[i].discriminant
+    return [found, Rounding(program.graph, program.bounds.error_of, program.bounds.unit).of(found)]
+
+
+def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:
+    """Whether a dyad closes at values of the drivers as they are written: 1, -1, or 0 where it stands at its limit as
+    far as can be told; and whether it is the file that leaves it open.  Shapes (n,)."""
+    discriminant = Discriminant(structure, i, forms, drive)
+    found, open_ = np.zeros(len(drive), dtype=int), np.zeros(len(drive), dtype=bool)
+    with working():
+        for k in range(len(drive)):
+            try:
+                value, doubt = discriminant.written(k)
+            except ArithmeticError:
+                continue
+            found[k] = _sign(value, doubt)
+            open_[k] = found[k] == 0 and doubt > ROUNDING
+    return found, open_
+
+
+def least_closes(
+    structure: Structure, i: int, forms: Mapping[int, Array], start: Sequence[float], end: Sequence[float], about: float
+) -> tuple[float, int] | None:
+    """Where the discriminant of a dyad is least on a straight path of driver values (rad, m), near a parameter of it,
+    and what ``closes`` says there; None where there is no such place."""
+    discriminant = Discriminant(structure, i, forms)
+    with working():
+        first = [meant_value(d, x) for d, x in zip(structure.scene.drivers, start, strict=True)]
+        way = [meant_value(d, x) - a for d, x, a in zip(structure.scene.drivers, end, first, strict=True)]
+
+        def at(t: Decimal) -> list[Decimal]:
+            return [a + t * w for a, w in zip(first, way, strict=True)]
+
+        place = touch(lambda t: discriminant(*at(t)), about)
+        if place is None or abs(place - Decimal(about)) > BESIDE:
+            return None
+        return float(place), _sign(*discriminant.with_doubt(at(place)))
+
+
+def _sign(value: Decimal, doubt: Decimal) -> int:
+    return 0 if abs(value) <= max(doubt, ROUNDING) else 1 if value > 0 else -1
+
+
+def touch(function: Callable[[Decimal], Decimal], about: float) -> Decimal | None:
+    """Where a function is least: its derivative is zero."""
+    step = SMALL.sqrt()
+    return newton(lambda x: (function(x + step) - function(x - step)) / (2 * step), about)
+
+
+def newton(function: Callable[[Decimal], Decimal], about: float | Decimal) -> Decimal | None:
+    """A zero of a function in fifty digits, its derivative by differences; None where there is none near."""
+    with working():
+        x = Decimal(about)
+        try:
+            for _ in range(60):
+                slope = (function(x + SMALL) - function(x - SMALL)) / (2 * SMALL)
+                move = function(x) / slope
+                x = x - move
+                if abs(move) < LAST_DIGITS * (1 + abs(x)):
+                    return x if abs(x) > 100 * LAST_DIGITS else Decimal(0)
+        except ArithmeticError:
+            return None
+    return None

@@ -9,16 +9,12 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, TypeAlias, TypeVar, overload
+from typing import Any, TypeVar, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphkin.solver.pose import Array, Pose
-
-__all__ = [
-    "FLOATS", "LEAVES", "ExpressionGraph", "Line", "PoseFormula", "Real", "Vec", "fmax", "fmin", "operands", "root",
-    "two_sum",
-]  # fmt: skip
+__all__ = ["FLOATS", "LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root", "two_sum"]
 
 Line = tuple[Any, ...]
 """One operation: ("add", i, j), ("root", i), ("const", 2.0), ("param", name), ("input", name)."""
@@ -341,10 +337,7 @@ class Vec:
         return Vec(self.real, -self.imag)
 
 
-PoseFormula: TypeAlias = "Pose[Vec, Real]"
-"""A pose given by formulas."""
-
-
+Array = NDArray[Any]
 Number = TypeVar("Number", Real, Array)
 
 

@@ -18,12 +18,11 @@ import numpy as np
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
 from graphkin.solver.cams import follower_inputs, greatest_jerk
+from graphkin.solver.drivers import Drive
 from graphkin.solver.expressions import Name
-from graphkin.solver.joints import Drive, joint_place
-from graphkin.solver.larger_groups import System
+from graphkin.solver.larger_groups import System, joint_place
 from graphkin.solver.linear_blocks import solve_all
-from graphkin.solver.pose import Array, Pose, rest
-from graphkin.solver.rounding import UNIT, ErrorBound
+from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, rest
 from graphkin.structure import Driven, Pair, Rolled, RollingRelation, Structure, Turn
 
 __all__ = ["Rows", "bounds"]

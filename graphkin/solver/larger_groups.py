@@ -15,13 +15,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.solver.joints import Drive, joint_place, turned
+from graphkin.solver.drivers import Drive
 from graphkin.solver.linear_blocks import solve_all
-from graphkin.solver.pose import FIELDS, Array, Pose, rest, together
-from graphkin.solver.rounding import UNIT
+from graphkin.solver.pose import FIELDS, UNIT, Array, Pose, rest, together, turned
 from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Slide, Structure, Turn
 
-__all__ = ["ClusterSolved", "System", "as_place", "form_of", "solve_cluster"]
+__all__ = ["ClusterSolved", "System", "as_place", "form_of", "joint_place", "solve_cluster"]
 
 class _Ends(NamedTuple):
     """One side of some joints: columns of their links, place and direction of the joint's frame in the link's axes."""
@@ -513,3 +512,12 @@ def as_place(poses: Mapping[str, Pose], names: tuple[str, ...]) -> Array:
     return np.stack(
         [np.stack([poses[k].z.real, poses[k].z.imag, np.angle(poses[k].u)], axis=-1) for k in names], axis=1
     )
+
+
+def joint_place(structure: Structure, pair: Pair, link: str) -> tuple[complex, complex]:
+    """Origin and direction of the joint's frame in the axes of one of its links (at a sliding pair: of the guide)."""
+    if isinstance(pair, Turn):
+        return structure.links[link].points[pair.point], 1 + 0j
+    if link == pair.a:
+        return 0j, pair.turn.conjugate()
+    return pair.guide.through, pair.guide.direction

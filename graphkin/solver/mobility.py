@@ -8,8 +8,10 @@ links that hang on it reach each other only the other way round, and in one way 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from decimal import Decimal
 from itertools import combinations
 
 import numpy as np
@@ -17,14 +19,16 @@ import numpy as np
 from graphkin.errors import GraphkinError, Problem, Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.solver.assemblies import choose_forms, new_places, own_values
+from graphkin.solver.assemblies import choose_forms, new_places
 from graphkin.solver.cams import meeting_followers
-from graphkin.solver.diagnosis import singular
+from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
+from graphkin.solver.decimals import PI, meant_value, working
+from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
+from graphkin.solver.sentences import driver_text
 from graphkin.structure import (
     Cluster,
     Driven,
@@ -39,9 +43,9 @@ from graphkin.structure import (
 )
 from graphkin.structure.assembly import TOUCH
 from graphkin.structure.replacement import with_cams
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording, clauses, listed
 
-__all__ = ["structure_of"]
+__all__ = ["from_dead_point", "structure_of"]
 
 NEARBY = 0.01
 
@@ -66,7 +70,6 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
             raise
         raise Unsolvable("mobility", *stop.problems, found) from None
     if any(d.dead_point and not d.dead_point.exact for d in scene.drivers):
-        from graphkin.solver.dead_points import from_dead_point
 
         structure = from_dead_point(structure)
     structure = with_sensible_slots(structure)
@@ -254,3 +257,81 @@ def at_given_speed(structure: Structure) -> Structure:
             ),
         )
     return analyse(replace(scene, drivers=(replace(driver, rate=speed / once, given_speed=None),)))
+
+
+def from_dead_point(structure: Structure) -> Structure:
+    """The structure of the same scene with the value of its driver, which is given from a dead point.
+
+    Raises
+    ------
+    Unsolvable : "dead point": there is none of that kind, or there are several and none is named
+    """
+    scene = structure.scene
+    driver = scene.drivers[0]
+    dead = driver.dead_point
+    assert dead is not None
+    with working():
+        distance = meant_value(driver, dead.distance)
+    side = 1 if distance > 0 else -1
+    known: list[tuple[DeadPoint, int]] = []
+    found: list[tuple[DeadPoint, Structure]] = []
+    for point in dead_points(structure, dead.near or 0.0):
+        for way in point.sides:
+            with working():
+                value = point.value + way * abs(distance)
+            here = _at(structure, value)
+            try:
+                forms = choose_forms(here)
+            except GraphkinError:
+                continue
+            if all(float(forms[j]) == s for j, s in point.signs.items()):
+                known.append((point, way))
+                found += [(point, here)] if way == side else []
+    what = Phrase("driver of key", key=driver.key)
+    others = _listed(scene, known)
+    if not found:
+        key = "no dead point at which the motion begins" if side > 0 else "no dead point at which the motion ends"
+        wanted = [Phrase("change the sign of the distance or give"), *others]
+        if missing := not_searched(structure):
+            wanted.append(Phrase("links were not looked at", links=", ".join(missing), most=MOST_GROUPS))
+        raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
+    if dead.near is None and len(found) > 1:
+        names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
+        raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
+                                               Phrase("write near to tell which one")))
+    turn = float(2 * PI) if driver.turns else math.inf
+
+    def away(point: DeadPoint) -> float:
+        off = abs(float(point.value) - (dead.near or 0.0))
+        return min(off, abs(turn - off))
+
+    taken = min(found, key=lambda pair: away(pair[0]))
+    nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))
+    if dead.near is not None and away(nearest) < away(taken[0]) - SAME:
+        wish, at = (driver_text(scene, driver, x) for x in (dead.near, float(nearest.value)))
+        key = "nearest dead point where the motion begins" if way > 0 else "nearest dead point where the motion ends"
+        raise Unsolvable("dead point", Problem(
+            what, Phrase(key, wish=wish, at=at), clauses([Phrase("change the sign of the distance or near"), *others])))
+    return taken[1]
+
+
+def _listed(scene: Mechanism, known: Sequence[tuple[DeadPoint, int]]) -> list[Phrase]:
+    """The dead points of a scene in words, and what the motion does there."""
+    ends: dict[Wording, list[int]] = {}
+    for point, way in known:
+        ends.setdefault(driver_text(scene, scene.drivers[0], float(point.value)), []).append(way)
+    said = [
+        Phrase(
+            "the motion passes" if len(set(ways)) > 1 else "it begins there" if ways[0] > 0 else "it ends there", at=at
+        )
+        for at, ways in ends.items()
+    ]
+    return [Phrase("dead points", points=listed(said))] if said else []
+
+
+def _at(structure: Structure, value: Decimal) -> Structure:
+    scene = structure.scene
+    driver = scene.drivers[0]
+    assert driver.dead_point is not None
+    exact = replace(driver.dead_point, exact=str(value))
+    return analyse(replace(scene, drivers=(replace(driver, value=float(value), dead_point=exact),)))

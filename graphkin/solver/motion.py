@@ -1,179 +1,36 @@
 """The motion found: position, velocity and acceleration of every link, point and sliding pair, by name and by symbol;
 and how it is found at given values of the drivers: what stands there, and where and why nothing does.
+
+Instant centres from the analytic motion: where two links have the same velocity.
+
+Centrodes: the paths of a link's instant centre in the frame and in the link itself.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import takewhile
-from typing import NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
-from graphkin.solver.assemblies import own_values
-from graphkin.solver.diagnosis import singular, without_singular
-from graphkin.solver.engine import positions
-from graphkin.solver.joints import Drive
-from graphkin.solver.pose import FIELDS, Array, Pose, rest
-from graphkin.solver.quantities import Posed, value_of_symbol
-from graphkin.solver.redundant import all_slides, place_redundant
-from graphkin.solver.rounding import ErrorBound
+from graphkin.solver.pose import Array, ErrorBound, Pose
+from graphkin.solver.quantities import Posed, pole, value_of_symbol
 from graphkin.structure import Slide, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
-__all__ = ["BLOCK", "SLIGHT", "Motion", "Sliding", "goal_values", "joined", "motion_of"]
-
-BLOCK = 16384
-"""Positions that are computed together."""
-
-
-def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
-    """The scene's driver values, but for those given by driver key, shape (drivers,).
-
-    Raises
-    ------
-    CallError : a key that is no driver, a value that is no number
-    """
-    goal = own_values(scene)
-    keys = [d.key for d in scene.drivers]
-    for key, value in (at or {}).items():
-        if key not in keys:
-            raise CallError(Problem(f'at "{key}"', Phrase("there is no such driver"), did_you_mean(key, keys)))
-        if not np.isfinite(value):
-            raise CallError(Problem(f'at "{key}"', Phrase("is no driver value of value", value=value)))
-        goal[keys.index(key)] = value
-    return goal
-
-
-def motion_of(
-    structure: Structure,
-    drive: Drive,
-    forms: Mapping[int, Array],
-    assembly: tuple[Phrase, ...],
-    good: Array,
-    why: Wording = "",
-    fine: bool = True,
-) -> Motion:
-    """Positions in one pass over all driver values, their status, redundant links placed and checked.
-
-    Parameters
-    ----------
-    forms : the form of each group at each position, as for ``positions``
-    assembly : in words
-    good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
-    fine : False leaves 16 digits where they are rough, and the reasons away
-    """
-    n = len(drive)
-    if n > BLOCK:
-        blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
-        own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
-        return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
-    state = positions(structure, drive, forms, fine=fine, each=not fine)
-    status = np.where(good, "ok", "not assembled").astype("<U13")
-    reasons: list[Wording] = ["" if g else why for g in good]
-    if fine:
-        status, reasons = without_singular(structure, state, drive.value, forms, status, reasons)
-    else:
-        for _, dead in singular(structure, state, n):
-            status[dead & good] = "dead point"
-    ok = status == "ok"
-    assert state.bounds is not None
-    bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
-    of_links = {name: ErrorBound(*(np.where(ok, b, np.nan) for b in own)) for name, own in state.each.items()}
-    rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
-    poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
-    poses[structure.scene.frame.name] = rest().still(n)
-    place_redundant(structure, poses, ok, bound)
-    slides = all_slides(structure)
-    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough,
-                  bounds=of_links)  # fmt: skip
-
-
-def joined(blocks: Iterable[Motion], n: int) -> Motion:
-    """Motions of blocks of positions, one after the other, as one of n positions.
-
-    Each block is let go before the next is found, and what is the same at all positions, or for two links (the angle of
-    a block on its guide), is kept once: fields may be read-only, or be the memory of another.
-    """
-    columns: dict[tuple[str, str], _Column] = {}
-    reasons = list[Wording]([""] * n)
-    first, some = 0, None
-    for some in blocks:
-        rows = slice(first, first + len(some))
-        parts = {(name, f): np.broadcast_to(getattr(p, f), len(some)) for name, p in some.poses.items() for f in FIELDS}
-        parts |= {("bound", str(k)): b for k, b in enumerate((*some.bound, *some.rough))}
-        parts |= {("", "status"): some.status, ("", "values"): some.values}
-        if not columns:
-            columns = {key: _Column(n) for key in parts}
-        for key, values in parts.items():
-            columns[key].put(rows, values, [c for other, c in columns.items() if other[1] == key[1]])
-        reasons[rows] = some.reasons
-        first = rows.stop
-    assert some is not None
-    kept = {key: column.array for key, column in columns.items()}
-    numbers = [kept["bound", str(k)] for k in range(8)]
-    return replace(
-        some,
-        values=kept["", "values"],
-        status=kept["", "status"],
-        reasons=tuple(reasons),
-        poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
-        bound=ErrorBound(*numbers[:6]),
-        bounds={},
-        rough=(numbers[6], numbers[7]),
-    )
-
-
-class _Column:
-    """A column of n rows that is filled from the top: one row for all as long as they are the same, bit by bit, nothing
-    of its own as long as another column is the same."""
-
-    def __init__(self, n: int) -> None:
-        self.n = n
-        self.like: _Column | None = None
-        self.own: Array | None = None
-
-    @property
-    def array(self) -> Array:
-        if self.like is not None:
-            return self.like.array
-        assert self.own is not None
-        return self.own if len(self.own) == self.n else np.broadcast_to(self.own, (self.n, *self.own.shape[1:]))
-
-    def put(self, rows: slice, values: Array, others: Iterable[_Column]) -> None:
-        """The next rows; ``others`` that come before this one have theirs already."""
-        if rows.start == 0:
-            one = values[:1]
-            if _same(values, np.broadcast_to(one, values.shape)):
-                self.own = one.copy()
-                return
-            before = takewhile(lambda c: c is not self, others)
-            self.like = next((c for c in before if c.like is None and _same(values, c.array[rows])), None)
-            if self.like is None:
-                self._spread(values[:0])[rows] = values
-            return
-        if self.own is not None and len(self.own) == self.n:
-            self.own[rows] = values
-        elif not _same(values, self.array[rows]):
-            self._spread(self.array[: rows.start])[rows] = values
-
-    def _spread(self, above: Array) -> Array:
-        self.own, self.like = np.empty((self.n, *above.shape[1:]), dtype=above.dtype), None
-        self.own[: len(above)] = above
-        return self.own
-
-
-def _same(one: Array, other: Array) -> bool:
-    """Whether two arrays are the same bit by bit: minus zero is not zero, and NaN is NaN."""
-    return one.dtype == other.dtype and one.tobytes() == other.tobytes()
-
+__all__ = [
+    "SLIGHT", "Centrode", "ContactMotion", "Motion", "Sliding", "centrode", "contact_motion", "instant_centre",
+    "listed_points", "own_slides", "pitch_point",
+]  # fmt: skip
 
 SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
 
@@ -185,6 +42,19 @@ class Sliding(NamedTuple):
     velocity: Array
     acceleration: Array
     coriolis: Array
+
+
+class Reach(Protocol):
+    """The range of the driver that a motion is a part of, as far as its forces ask for it."""
+
+    def offsets(self, value: Array) -> Array:
+        """Where the first driver has these values (rad, m)."""
+
+    def motion(self, offset: Array, unit: bool = False) -> Motion:
+        """The motion there, with the rates of the scene or by the first driver's own value."""
+
+    def stroke(self, pair: str) -> tuple[float, float]:
+        """Least and greatest travel of a sliding pair (m)."""
 
 
 @dataclass(frozen=True)
@@ -200,6 +70,7 @@ class Motion:
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
     bound : how far rounding may have moved any point, and the angles of links and their rates; NaN where not ok
     rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
+    reach : finds the range of the first driver; raises Unsolvable where there is none
     bounds : the same of each link alone, along curves of a mechanism of dyads; else empty
     passed : the change points on the way here from the scene's own position
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
@@ -215,14 +86,26 @@ class Motion:
     assembly: tuple[Phrase, ...]
     bound: ErrorBound[Array]
     rough: tuple[Array, Array]
+    reach: Callable[[], Reach]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
     bounds: Mapping[str, ErrorBound[Array]] = field(default_factory=dict)
     onward: Mapping[str, float] = field(default_factory=dict)
 
+    @cached_property
+    def kept(self) -> dict[str, Any]:
+        """What was found of it and is asked for again: the forces."""
+        return {}
+
     @property
     def scene(self) -> Mechanism:
         return self.structure.scene
+
+    @property
+    def growing(self) -> Motion:
+        """The same positions with the value of the first driver growing at a unit rate."""
+        reach = self.reach()
+        return reach.motion(reach.offsets(self.values[:, 0]), unit=True)
 
     @property
     def ok(self) -> Array:
@@ -380,3 +263,140 @@ class Motion:
         Raises CallError where the symbol names nothing here.
         """
         return value_of_symbol(self.posed, symbol)
+
+STANDS = 1e-12
+"""A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
+ROUNDED = 1e-12
+"""An angle (rad) between a normal and a way that fall together."""
+
+
+@dataclass(frozen=True)
+class ContactMotion:
+    """A contact at n positions.
+
+    place : complex, shape (n,) (m)
+    normal : unit complex, out of the first body
+    slip : complex, velocity of the first body's point minus that of the second's (m/s)
+    pressure : for each moving body the angle between normal and velocity of its point at the contact, 0 .. pi/2 (rad),
+        NaN where it stands
+    """
+
+    place: Array
+    normal: Array
+    slip: Array
+    pressure: dict[str, Array]
+
+
+def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
+    """Place, normal, slip and pressure angles of a contact."""
+    place = motion.position(contact.name)
+    if contact.discs[0] is not None:
+        disc = contact.discs[0]
+        normal = (place - motion.position(disc.centre, disc.link)) / disc.radius
+    else:
+        assert contact.discs[1] is not None
+        disc = contact.discs[1]
+        normal = (motion.position(disc.centre, disc.link) - place) / disc.radius
+    with np.errstate(invalid="ignore"):  # of positions that are none
+        normal = normal / np.abs(normal)
+    one, two = (motion.velocity(contact.name, link) for link in contact.links)
+    ground = motion.scene.frame.name
+    rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)
+    fast = np.maximum(np.abs(one), np.abs(two)) + rates * motion.scene.size
+    pressure = {}
+    for link, v in zip(contact.links, (one, two), strict=True):
+        if link != ground:
+            pressure[link] = np.where(np.abs(v) > STANDS * fast, _between(normal, v), np.nan)
+    return ContactMotion(place, normal, np.asarray(one - two), pressure)
+
+
+def _between(normal: Array, way: Array) -> Array:
+    """The angle from the line of a normal to that of a way (rad), 0 .. pi/2; one that is nothing but rounding is 0."""
+    across = np.conj(normal) * way
+    angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
+    return np.where(angle > ROUNDED, angle, 0.0)
+
+
+def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
+    """Where the pitch circles of a gear touch, complex, shape (n,) (m), and their radii with the signs of the teeth (m;
+    None for a rack)."""
+    axis = motion.position(gear.axes[0], gear.carrier)
+    if gear.is_rack:
+        rack = motion.link(gear.wheels[1])
+        line = motion.poses[rack.name].fixed(rack.guides[gear.guide].through, rack.guides[gear.guide].direction)
+        foot = line.z + line.u * ((axis - line.z) * np.conj(line.u)).real
+        return np.asarray(foot), (float(np.abs(foot - axis).flat[0]), None)
+    z1, z2 = gear.teeth
+    assert z2 is not None
+    way = motion.position(gear.axes[1], gear.carrier) - axis
+    held = motion.link(gear.carrier).points
+    far = abs(held[gear.axes[1]] - held[gear.axes[0]]) / abs(z1 + z2)
+    return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
+
+
+# -- instant centres from the analytic motion: where two links have the same velocity ----------------------------------
+
+
+def instant_centre(motion: Motion, a: str, b: str) -> tuple[Array, Array]:
+    """The relative rotation of link a against link b, as homogeneous coordinates of their instant centre.
+
+    Returns
+    -------
+    q : complex, shape (n,), m rad/s
+    omega : real, shape (n,), rad/s
+        the centre is q / omega; at infinity in the direction of q where omega is 0; none where both are 0.  With the
+        velocity v0 of the point at the world's origin, 0 = v0 + i omega z gives q = i v0.
+    """
+    return pole(motion.poses[a], motion.poses[b])
+
+
+@dataclass(frozen=True)
+class Centrode:
+    """The instant centre of a link against the frame over a sweep of the driver.
+
+    fixed : complex, shape (n,), its place in the frame (m); NaN where the mechanism does not stand or the link does
+        not turn
+    moving : complex, shape (n,), its place in the link's own axes (m)
+    joined : bool, shape (n - 1,), whether the curves go on from one place to the next: not where the link ceases to
+        turn between the two, so that the centre passes through infinity
+    """
+
+    fixed: NDArray[np.complex128]
+    moving: NDArray[np.complex128]
+    joined: NDArray[np.bool_]
+
+
+def centrode(motion: Motion, link: str) -> Centrode:
+    """The centrodes of a link from a sweep.
+
+    The centre lies at z + i v / omega, where no point of the link has a velocity; in the link's axes that is
+    i v / (omega u) (Bottema and Roth, Theoretical Kinematics, ch. VIII; Norton, Design of Machinery, 6.6).
+    """
+    pose = motion.poses[link]
+    turns = motion.ok & (np.abs(pose.omega) > 0.0)
+    omega = np.where(turns, pose.omega, np.nan)
+    with np.errstate(invalid="ignore"):
+        arm = 1j * pose.v / omega
+    fixed, moving = pose.z + arm, arm * np.conj(pose.u)
+    joined = (omega[:-1] * omega[1:] > 0.0) & turns[:-1] & turns[1:]
+    return Centrode(np.asarray(fixed), np.asarray(moving), np.asarray(joined))
+
+
+def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
+    """Every point of a moving link, on every link that has it, every coincident point under a sliding pin, and the
+    points of both bodies at a contact: (point, link) in the order of the file."""
+    found = [(p, link.name) for link in scene.links for p in link.points]
+    moving = {link.name for link in scene.links}
+    found += [(c.name, link) for c in scene.contacts for link in c.links if link in moving]
+    for pair in own_slides(scene, slides):
+        if pair.pin and pair.b in moving and (pair.pin, pair.b) not in found:
+            found.append((pair.pin, pair.b))
+    place = {link.name: i for i, link in enumerate(scene.links)}
+    return tuple(sorted(found, key=lambda ref: place[ref[1]]))
+
+
+def own_slides(scene: Mechanism, slides: Sequence[Slide]) -> tuple[Slide, ...]:
+    """The sliding pairs and pins in slots of the scene, and of a contact with a face its disc's centre along it; not
+    that of what rolls."""
+    blocks = {c.block for c in scene.contacts if c.rolling}
+    return tuple(s for s in slides if s.key not in blocks)

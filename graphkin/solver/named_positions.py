@@ -13,10 +13,9 @@ from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.scene.model import Driver, Mechanism, NamedPositions, OnStroke
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
-from graphkin.solver.driver_range import DriverRange, driver_range
+from graphkin.solver.driver_range import DriverRange, Extremes, extremes, range_of
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import Array
-from graphkin.solver.whole_turn import Extremes, extremes
 from graphkin.words import Phrase
 
 __all__ = ["PlacesByName", "named_positions", "standing"]
@@ -97,7 +96,7 @@ def named_positions(scene: Mechanism) -> PlacesByName | None:
     """The positions that a scene names; None where it names none.  Raises Unsolvable."""
     if scene.positions is None:
         return None
-    return PlacesByName(scene.positions, driver_range(structure_of(scene)))
+    return PlacesByName(scene.positions, range_of(structure_of(scene)))
 
 
 def standing(scene: Mechanism) -> Mechanism:

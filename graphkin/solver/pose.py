@@ -5,8 +5,8 @@ The drawing board has a pose of its own (``construction.sheet.Pose``, on paper, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Generic, Protocol
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from graphkin.plane import Values
 
-__all__ = ["FIELDS", "Array", "Number", "Pose", "R", "V", "rest", "together"]
+__all__ = ["FIELDS", "UNIT", "Array", "ErrorBound", "Number", "Pose", "rest", "together", "turned"]
 
 Array = NDArray[Any]
 
@@ -184,3 +184,73 @@ def together(poses: Sequence[Pose], n: int) -> Pose:
         for field in FIELDS:
             getattr(made, field)[:, k] = getattr(pose, field)
     return made
+
+
+def turned(angle: Array) -> Array:
+    """Unit complex numbers at angles, exact at multiples of 90 degrees (within the rounding of the angle itself)."""
+    u = np.empty(np.shape(angle), dtype=np.complex128)
+    zero = np.abs(angle) * 4e-16
+    for part, function in ((u.real, np.cos), (u.imag, np.sin)):
+        function(angle, part)
+        part[np.abs(part) <= zero] = 0.0
+    return u
+
+UNIT = 2.0**-53
+
+
+@dataclass(frozen=True)
+class ErrorBound(Generic[R]):
+    """Bounds of the errors of a frame of axes: of its origin, or the most of any point that moves with it, and of its
+    direction.  Arrays of shape (n,), or formulas; infinite where nothing is known.
+
+    position, velocity, acceleration : of the origin, or of any point (m, m/s, m/s2)
+    angle, omega, alpha : of the direction and of its rates (rad, rad/s, rad/s2)
+    """
+
+    position: R
+    velocity: R
+    acceleration: R
+    angle: R
+    omega: R
+    alpha: R
+
+    def __iter__(self) -> Iterator[R]:
+        return iter((self.position, self.velocity, self.acceleration, self.angle, self.omega, self.alpha))
+
+    def __add__(self, other: ErrorBound[R]) -> ErrorBound[R]:
+        return ErrorBound(*(a + b for a, b in zip(self, other, strict=True)))
+
+    @property
+    def of_point(self) -> tuple[R, R, R]:
+        """Of position, velocity, acceleration."""
+        return self.position, self.velocity, self.acceleration
+
+    @property
+    def of_turning(self) -> tuple[R, R, R]:
+        """Of the angle and its first and second rate."""
+        return self.angle, self.omega, self.alpha
+
+    def turning_as(self, angle: R, omega: R, alpha: R) -> ErrorBound[R]:
+        """The same origin, with another direction."""
+        return replace(self, angle=angle, omega=omega, alpha=alpha)
+
+    def within(self, r: R, origin: tuple[R, R, R], spin: R, bend: R, rounding: R | float) -> ErrorBound[R]:
+        """The most of any point within a radius of the origin.
+
+        Parameters
+        ----------
+        r : the radius (m)
+        origin : sizes of the origin's place, velocity and acceleration
+        spin, bend : sizes of the angular velocity, and of the angular acceleration with the square of that
+        rounding : relative error of adding a point to the origin
+        """
+        place, speed, push = origin
+        few = rounding
+        return replace(
+            self,
+            position=self.position + r * self.angle + few * (place + r),
+            velocity=self.velocity + r * (self.omega + spin * self.angle) + few * (speed + spin * r),
+            acceleration=self.acceleration
+            + r * (self.alpha + bend * self.angle + (2.0 * spin + self.omega) * self.omega)
+            + few * (push + bend * r),
+        )

@@ -6,29 +6,32 @@ import math
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
+from typing import cast
 
 import numpy as np
 
+from graphkin.errors import CallError, Problem
 from graphkin.scene.dimensions import Dimension, dimensions
+from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
-from graphkin.solver.code import Code
-from graphkin.solver.compiled import LONG, Kernel
-from graphkin.solver.diagnosis import singular
-from graphkin.solver.driver_range import DriverRange, driver_range
-from graphkin.solver.driver_values import GivenValues, UniformGrid, quarter
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver.bounds import FrameError
+from graphkin.solver.code import LONG, Code, Kernel
+from graphkin.solver.dead_points import singular
+from graphkin.solver.driver_range import DriverRange, range_of
+from graphkin.solver.drivers import Drive, GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, positions
-from graphkin.solver.expressions import Name, Real
-from graphkin.solver.force_values import force_heads, force_rows
-from graphkin.solver.joints import Drive, turned
+from graphkin.solver.expressions import Name, Real, Vec, fmax
+from graphkin.solver.forces import forces_of
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.pose import FIELDS, Array
-from graphkin.solver.program import GIVEN, DimensionedProgram, Units, bounds, formulas, program_of
-from graphkin.solver.rounding import UNIT
+from graphkin.solver.pose import FIELDS, UNIT, Array, turned
+from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
+from graphkin.solver.quantities import VALUES, Posed
 from graphkin.structure import Cluster, Structure, in_stages
+from graphkin.words import Phrase
 
-__all__ = ["PreparedMechanism", "prepare"]
+__all__ = ["Column", "PreparedMechanism", "Units", "bounds", "force_heads", "force_rows", "formulas", "prepare"]
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
@@ -423,5 +426,156 @@ def prepare(
     found = formulas(dimensioned.program, structure, asked, units)
     names = (*found, *(column for name in loads for column in force_heads(structure.scene, name)))
     formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
-    along = along or driver_range(structure)
+    along = along or range_of(structure)
     return PreparedMechanism(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded, loads)
+
+Units = tuple[float, float, float]
+"""What one metre, one radian and one metre in rates are in the units of the columns."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """What a name of a prepared mechanism asks for: "B", "B@3" (place of a point), "v_B", "a_B@3", "v_C/B", "theta_3",
+    "omega_3", "alpha_3", "s_2/3" (travel of a sliding pair).  Raises CallError for what is none of these."""
+
+    program: Program
+    structure: Structure
+    name: str
+
+    def __post_init__(self) -> None:
+        if self.symbol.kind not in _ORDERS:
+            hint = Phrase("ask for places v_ a_ theta_ omega_ alpha_")
+            raise CallError(Problem(f'"{self.name}"', Phrase("is no column"), hint))
+
+    @cached_property
+    def symbol(self) -> Symbol:
+        kind, mark, rest = self.name.partition("_")
+        if not mark:
+            point, _, link = self.name.partition("@")
+            return Symbol("place", PointRef(point, link))
+        if kind in ("s", "theta"):
+            link, _, other = rest.partition("/")
+            return Symbol(kind, link=link, other=other) if kind == "s" else Symbol(kind, link=rest)
+        try:
+            return Symbol.parse(self.name)
+        except ValueError as error:
+            raise CallError(Problem(f'"{self.name}"', error.args[0])) from None
+
+    @cached_property
+    def posed(self) -> Posed[Vec, Real]:
+        program = self.program
+        structure = self.structure
+        return Posed(structure, program.poses, structure.slides, program.number, program.angle)
+
+    @cached_property
+    def formula(self) -> Real | Vec:
+        """In SI."""
+        formula: Real | Vec = VALUES[self.symbol.kind](self.posed, self.symbol)
+        return formula
+
+    def scale(self, units: Units) -> Real | float:
+        """What the formula in SI is to be multiplied by."""
+        if self.symbol.kind in ("omega", "alpha"):
+            return 1.0
+        param, factor = ("per metre", units[0])
+        if self.symbol.kind in ("v", "a"):
+            param, factor = "per metre of rates", units[2]
+        elif self.symbol.kind == "theta":
+            param, factor = "per radian", units[1]
+        return 1.0 if factor == 1.0 else self.program.graph.param((param,))
+
+    def bound(self) -> Real:
+        """How far rounding may have moved it, in SI."""
+        unit, symbol, order = self.program.bounds.unit, self.symbol, _ORDERS[self.symbol.kind]
+        if symbol.kind == "s":
+            slide = self.structure.slide(symbol.pair)
+            block, guide = self._bounds_of(slide.a), self._bounds_of(slide.b)
+            return block.position + guide.position + abs(cast(Real, self.formula)) * (guide.angle + 4.0 * unit)
+        if symbol.of is None:
+            self.posed.pose(symbol.link)
+            bound = self._bounds_of(symbol.link).of_turning[order]
+            return bound + 16.0 * unit if symbol.kind == "theta" else bound
+        bound = self._bounds_of_point(symbol.of)[order]
+        if symbol.to is None:
+            return bound
+        both = cast(Vec, self.formula)
+        return bound + self._bounds_of_point(symbol.to)[order] + unit * fmax(abs(both.real), abs(both.imag))
+
+    def _bounds_of(self, link: str) -> FrameError:
+        """Of any point of a link and of its turning."""
+        if in_stages(self.structure.elements):
+            return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
+        return self.program.bounds.of_link(link)
+
+    def _bounds_of_point(self, ref: PointRef) -> tuple[Real, ...]:
+        if not self.posed.is_under(ref):
+            return self._bounds_of(ref.link or self.posed.holder(ref.point)).of_point
+        pin = self.posed.point(PointRef(ref.point))
+        own, moved = self._bounds_of(ref.link), self._bounds_of(self.posed.holder(ref.point)).position
+        return moved, *self.program.bounds.under(ref.link, own, pin.z - self.posed.pose(ref.link).z, moved)
+_ORDERS = {"place": 0, "s": 0, "theta": 0, "v": 1, "omega": 1, "a": 2, "alpha": 2}
+"""How often a quantity is derived by the time."""
+
+
+def formulas(
+    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
+) -> dict[str, Real]:
+    """A formula for each column.
+
+    Parameters
+    ----------
+    asked : names as in ``Column``; of points two columns each, "B.x" and "B.y"
+    units : of lengths, of angles and of lengths in rates; rates of angles are in radians always
+
+    Raises
+    ------
+    CallError : a name that is no column, or names nothing in this mechanism
+    """
+    made: dict[str, Real] = {}
+    for column in (Column(program, structure, name) for name in asked):
+        formula = column.formula * column.scale(units)
+        if isinstance(formula, Vec):
+            made[f"{column.name}.x"], made[f"{column.name}.y"] = formula.real, formula.imag
+        else:
+            made[column.name] = formula
+    return made
+
+
+def bounds(
+    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
+) -> dict[str, Real]:
+    """For each name how far rounding may have moved its columns, in their units.
+
+    With a larger group they are made from the bounds of the whole mechanism, inputs ("bound", 0) to ("bound", 5).
+    """
+    columns = [Column(program, structure, name) for name in asked]
+    return {column.name: SLACK * (column.bound() * column.scale(units)) for column in columns}
+
+
+def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:
+    """The heads of the columns of a force (two, ``F_5/6.x`` and ``F_5/6.y``) or a moment; none for what is neither."""
+    known, plain = force_names(scene), name.removesuffix("+")
+    kind = known.get(plain) or known.get(opposite(plain))
+    return (f"{name}.x", f"{name}.y") if kind == "force" else (name,) if kind else ()
+
+
+def force_rows(
+    reach: DriverRange, names: Sequence[str], values: Array, bounded: bool = False
+) -> tuple[list[Array], list[Array], Array]:
+    """Forces and moments at values of the first driver (rad, m), shape (n,).
+
+    Returns
+    -------
+    rows : one for each head of each name, in the scene's units
+    bounds : for each name how far rounding may have moved its rows, where that is wanted (``bounded``)
+    ok : bool, shape (n,): where the motion comes, and its balance does work
+    """
+    forces, per = forces_of(reach.motion(reach.offsets(values))), reach.scene.units.newtons
+    rows, bounds = [], []
+    for name in names:
+        value = forces.value(name)
+        assert value is not None
+        vector = np.iscomplexobj(value)
+        rows += [part / per for part in ((value.real, value.imag) if vector else (value,))]
+        bounds += [forces.bound[0 if vector else 1] / per] if bounded else []
+    return rows, bounds, forces.ok

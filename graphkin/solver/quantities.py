@@ -188,7 +188,7 @@ def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
 
 def pole(one: Pose, two: Pose) -> tuple[Array, Array]:
     """The relative rotation of one link against another, as homogeneous coordinates of their instant centre (see
-    `graphkin.solver.centres.instant_centre`)."""
+    `graphkin.solver.motion.instant_centre`)."""
     v0 = (one.v - 1j * one.omega * one.z) - (two.v - 1j * two.omega * two.z)
     return np.asarray(1j * v0), np.asarray(one.omega - two.omega)
 

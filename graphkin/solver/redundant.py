@@ -11,8 +11,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
-from graphkin.solver.pose import Array, Pose, rest
-from graphkin.solver.rounding import ErrorBound
+from graphkin.solver.pose import Array, ErrorBound, Pose, rest
 from graphkin.structure import Slide, Structure
 from graphkin.words import Phrase
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from graphkin.scene.model import Mechanism
 from graphkin.scene.over_time import moves_by_law
 from graphkin.solver import Motion, driver_range, structure_of
-from graphkin.solver.centres import instant_centre
+from graphkin.solver.motion import instant_centre
 
 __all__ = ["FRAMES", "CentrePaths", "centre_paths", "steady"]
 

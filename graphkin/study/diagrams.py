@@ -29,7 +29,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
-from graphkin.solver.flywheel import FlywheelStudy
+from graphkin.solver.values import FlywheelStudy
 from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of
 from graphkin.study.driver_axis import (
     HEIGHT,

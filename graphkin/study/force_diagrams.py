@@ -32,8 +32,7 @@ from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
-from graphkin.solver.external_forces import load_edges
-from graphkin.solver.flywheel import FlywheelStudy, MomentArea, needed_moment
+from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
 from graphkin.study.diagram_panels import EMPTY, span_of
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
 from graphkin.study.quantities import Quantity, force_quantity

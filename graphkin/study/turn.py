@@ -18,10 +18,10 @@ from graphkin.scene.symbol import Symbol
 from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.continuity import FAR
+from graphkin.solver.driver_range import Extremes, extremes
+from graphkin.solver.drivers import Drive
 from graphkin.solver.engine import positions
-from graphkin.solver.flywheel import FlywheelStudy, flywheel_of
-from graphkin.solver.joints import Drive
-from graphkin.solver.whole_turn import Extremes, extremes
+from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Cluster, Dyad
 from graphkin.study.extremes import Extreme, Least, Traced, trace
 from graphkin.study.grashof import BasicLoop, loops

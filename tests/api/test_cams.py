@@ -15,8 +15,7 @@ from graphkin.checking.closed_form import compare_cam
 from graphkin.construction.cam_sheet import cam_sheet
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
-from graphkin.solver.cam_study import study_cam
-from graphkin.solver.cams import cam_at
+from graphkin.solver.cams import cam_at, study_cam
 from tests.command import run
 from tests.solver.test_cams import LIBRARY, random_cam
 

@@ -21,11 +21,11 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import engine
-from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
+from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.expressions import Vec
-from graphkin.solver.joints import Drive
 from graphkin.solver.pose import FIELDS
 from graphkin.structure import Structure, analyse
 

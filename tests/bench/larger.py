@@ -17,12 +17,12 @@ import numpy as np
 from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
-from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.continuity import Path, follow_path
+from graphkin.solver.dead_points import singular
 from graphkin.solver.decimals import meant, meant_direction
-from graphkin.solver.diagnosis import singular
+from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.engine import State, positions
-from graphkin.solver.joints import Drive
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from graphkin.study.equations import Arithmetic, Equations
 from graphkin.study.reference import context

@@ -13,11 +13,10 @@ import pytest
 from graphkin.scene import mechanism_of
 from graphkin.solver import solve
 from graphkin.solver.bounds import carried
+from graphkin.solver.drivers import Drive
 from graphkin.solver.group_errors import Rows
-from graphkin.solver.joints import Drive
 from graphkin.solver.larger_groups import System
-from graphkin.solver.pose import Array, Pose
-from graphkin.solver.rounding import ErrorBound
+from graphkin.solver.pose import Array, ErrorBound, Pose
 from tests import EVERYTHING, rolling_linkages
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger

@@ -8,9 +8,9 @@ import pytest
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import driver_range, solve, structure_of
 from graphkin.solver import larger_groups as cluster
-from graphkin.solver.assemblies import choose_forms, own_values
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.engine import positions
-from graphkin.solver.joints import Drive
 from tests import scenes
 
 

@@ -14,7 +14,7 @@ import pytest
 import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.solver.cams import contact_of
-from graphkin.solver.contacts import pitch_point
+from graphkin.solver.motion import pitch_point
 from tests import with_tables
 from tests.command import run
 from tests.mechanisms import KINDS, random_scene

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, mechanism_of, mechanism_of_text
-from graphkin.solver import entries, head, json_text, motion_data, solve, to_json
+from graphkin.solver import entries, head, json_text, solve, to_json, values
 from tests import scenes
 from tests.construction.test_contours import ON_A_GUIDE, THROUGH_A_BLOCK
 
@@ -27,7 +27,7 @@ def test_a_sweep_of_any_scene_is_json(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["sixbar-AE70", "shaper-scheme-2", "hydraulic-cylinder"])
 def test_what_is_written_as_it_goes_is_the_object(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(motion_data, "BLOCK", 5)
+    monkeypatch.setattr(values, "BLOCK", 5)
     motion = solve(mechanism_of(name), sweep=12)
     whole = json.dumps(to_json(motion), ensure_ascii=False, allow_nan=False) + "\n"
     assert whole == "".join(json_text(head(motion), entries(motion)))

@@ -10,7 +10,7 @@ import pytest
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
-from graphkin.solver.whole_turn import extremes
+from graphkin.solver.driver_range import extremes
 from tests import scenes
 
 CRANK, COUPLER, ROCKER, GROUND, ROD = 30.0, 100.0, 60.0, 90.0, 120.0

@@ -14,8 +14,7 @@ import graphkin
 from graphkin.api.report_text import verdict
 from graphkin.scene import mechanism_of
 from graphkin.solver import driver_range
-from graphkin.solver.external_forces import load_edges
-from graphkin.solver.flywheel import flywheel_of, needed_moment
+from graphkin.solver.values import flywheel_of, load_edges, needed_moment
 from graphkin.study.driver_axis import driver_axis
 from graphkin.study.force_diagrams import force_over_turn
 

@@ -26,8 +26,8 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.drivers import Drive
 from graphkin.solver.engine import positions
-from graphkin.solver.joints import Drive
 from graphkin.solver.pose import Array
 from graphkin.study.equations import Equations
 from graphkin.study.reference import reference, refined

@@ -10,87 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.contacts import PlacedContact, PlacedGear
+from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import least_value
-from graphkin.solver.driver_range import DriverRange, driver_range
-from graphkin.solver.motion import Motion
+from graphkin.solver.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.motion import _between, contact_motion
 from graphkin.solver.pose import Array
-from graphkin.solver.whole_turn import extremes
 from graphkin.structure import Structure
 
-__all__ = ["ContactMotion", "DiscCam", "DiscCourse", "contact_motion", "disc_cams", "disc_course", "pitch_point"]
-
-STANDS = 1e-12
-"""A point stands that is slower than this beside the other of the two, or beside the drivers' rate times the size."""
-ROUNDED = 1e-12
-"""An angle (rad) between a normal and a way that fall together."""
-
-
-@dataclass(frozen=True)
-class ContactMotion:
-    """A contact at n positions.
-
-    place : complex, shape (n,) (m)
-    normal : unit complex, out of the first body
-    slip : complex, velocity of the first body's point minus that of the second's (m/s)
-    pressure : for each moving body the angle between normal and velocity of its point at the contact, 0 .. pi/2 (rad),
-        NaN where it stands
-    """
-
-    place: Array
-    normal: Array
-    slip: Array
-    pressure: dict[str, Array]
-
-
-def contact_motion(motion: Motion, contact: PlacedContact) -> ContactMotion:
-    """Place, normal, slip and pressure angles of a contact."""
-    place = motion.position(contact.name)
-    if contact.discs[0] is not None:
-        disc = contact.discs[0]
-        normal = (place - motion.position(disc.centre, disc.link)) / disc.radius
-    else:
-        assert contact.discs[1] is not None
-        disc = contact.discs[1]
-        normal = (motion.position(disc.centre, disc.link) - place) / disc.radius
-    with np.errstate(invalid="ignore"):  # of positions that are none
-        normal = normal / np.abs(normal)
-    one, two = (motion.velocity(contact.name, link) for link in contact.links)
-    ground = motion.scene.frame.name
-    rates = max((abs(d.values[1]) for d in motion.scene.drivers), default=0.0)
-    fast = np.maximum(np.abs(one), np.abs(two)) + rates * motion.scene.size
-    pressure = {}
-    for link, v in zip(contact.links, (one, two), strict=True):
-        if link != ground:
-            pressure[link] = np.where(np.abs(v) > STANDS * fast, _between(normal, v), np.nan)
-    return ContactMotion(place, normal, np.asarray(one - two), pressure)
-
-
-def _between(normal: Array, way: Array) -> Array:
-    """The angle from the line of a normal to that of a way (rad), 0 .. pi/2; one that is nothing but rounding is 0."""
-    across = np.conj(normal) * way
-    angle = np.arctan2(np.abs(across.imag), np.abs(across.real))
-    return np.where(angle > ROUNDED, angle, 0.0)
-
-
-def pitch_point(motion: Motion, gear: PlacedGear) -> tuple[Array, tuple[float, float | None]]:
-    """Where the pitch circles of a gear touch, complex, shape (n,) (m), and their radii with the signs of the teeth (m;
-    None for a rack)."""
-    axis = motion.position(gear.axes[0], gear.carrier)
-    if gear.is_rack:
-        rack = motion.link(gear.wheels[1])
-        line = motion.poses[rack.name].fixed(rack.guides[gear.guide].through, rack.guides[gear.guide].direction)
-        foot = line.z + line.u * ((axis - line.z) * np.conj(line.u)).real
-        return np.asarray(foot), (float(np.abs(foot - axis).flat[0]), None)
-    z1, z2 = gear.teeth
-    assert z2 is not None
-    way = motion.position(gear.axes[1], gear.carrier) - axis
-    held = motion.link(gear.carrier).points
-    far = abs(held[gear.axes[1]] - held[gear.axes[0]]) / abs(z1 + z2)
-    return np.asarray(axis + way * (z1 / (z1 + z2))), (far * z1, far * z2)
-
+__all__ = ["DiscCam", "DiscCourse", "disc_cams", "disc_course"]
 
 SAMPLES = 720
 
@@ -145,7 +74,7 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
     found = [(c, *sides) for c in scene.contacts if (sides := _sides(scene, c)) is not None]
     if not found:
         return ()
-    reach = driver_range(structure)
+    reach = range_of(structure)
     return tuple(_measured(reach, *one) for one in found)
 
 
@@ -196,7 +125,7 @@ def _measured(reach: DriverRange, contact: PlacedContact, side: int, of: str) ->
 
 def disc_course(structure: Structure, disc: DiscCam, angle: Array) -> DiscCourse:
     """What a measured disc does at angles of the driver (rad), shape (n,)."""
-    scene, reach = structure.scene, driver_range(structure)
+    scene, reach = structure.scene, range_of(structure)
     contact = next(c for c in scene.contacts if c.name == disc.contact)
     sides = _sides(scene, contact)
     assert sides is not None

@@ -1,16 +1,53 @@
-"""Values of the first driver: given ones, or at even steps; with their cosines and sines."""
+"""The drivers of a mechanism: their values with rates, in words, at even steps with cosines and sines."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.solver.joints import turned
-from graphkin.solver.pose import Array
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene.model import Mechanism
+from graphkin.solver.pose import Array, turned
+from graphkin.structure import Structure
+from graphkin.words import Phrase
 
-__all__ = ["GivenValues", "UniformGrid", "quarter"]
+__all__ = ["Drive", "GivenValues", "UniformGrid", "goal_values", "own_values", "quarter"]
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Values of the drivers and their rates: arrays of shape (positions, drivers), SI."""
+
+    value: Array
+    rate: Array
+    second: Array
+
+    @classmethod
+    def at(cls, structure: Structure, value: Array) -> Drive:
+        """The drivers at these values, with the rates of the scene."""
+        given = np.array([d.values for d in structure.scene.drivers]).reshape(-1, 3)
+        shape = value.shape
+        return cls(value, np.broadcast_to(given[:, 1], shape), np.broadcast_to(given[:, 2], shape))
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def followed(self, structure: Structure) -> Drive:
+        """With the columns of what follows the drivers by rolling."""
+        if self.value.shape[1] == len(structure.drivers):
+            return self
+        ratios = np.array([f.ratios for f in structure.followers]).T
+        own = np.array([d.values[0] for d in structure.scene.drivers])
+        start = np.array([f.values[0] for f in structure.followers])
+        columns = (self.value, start + (self.value - own) @ ratios), (self.rate, self.rate @ ratios)
+        return Drive(*(np.concatenate(pair, axis=1) for pair in (*columns, (self.second, self.second @ ratios))))
+
+    def __getitem__(self, which: Array | slice) -> Drive:
+        return Drive(self.value[which], self.rate[which], self.second[which])
+
 
 NEAR = 1e-14
 HALF_PI = math.pi / 2
@@ -111,3 +148,26 @@ def quarter(angle: float) -> tuple[float, float]:
     """Cosine and sine, as ``turned`` gives them."""
     c, s, zero = math.cos(angle), math.sin(angle), 4e-16 * abs(angle)
     return 0.0 if abs(c) <= zero else c, 0.0 if abs(s) <= zero else s
+
+
+def own_values(scene: Mechanism) -> Array:
+    """The drivers' values in the scene's own position, shape (drivers,)."""
+    return np.array([d.values[0] for d in scene.drivers])
+
+
+def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
+    """The scene's driver values, but for those given by driver key, shape (drivers,).
+
+    Raises
+    ------
+    CallError : a key that is no driver, a value that is no number
+    """
+    goal = own_values(scene)
+    keys = [d.key for d in scene.drivers]
+    for key, value in (at or {}).items():
+        if key not in keys:
+            raise CallError(Problem(f'at "{key}"', Phrase("there is no such driver"), did_you_mean(key, keys)))
+        if not np.isfinite(value):
+            raise CallError(Problem(f'at "{key}"', Phrase("is no driver value of value", value=value)))
+        goal[keys.index(key)] = value
+    return goal

@@ -1,0 +1,160 @@
+"""What the solver has to say in words: values of drivers, where the motion ends, which assembly was taken."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import reduce
+from typing import NamedTuple
+
+import numpy as np
+
+from graphkin.scene.model import Driver, Mechanism
+from graphkin.solver.pose import Array
+from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, named_with_contact
+from graphkin.words import Phrase, Wording
+
+__all__ = ["assembly_words", "driver_text", "dyad_words", "group_words", "lies_at", "limit_why", "links_words"]
+
+
+def limit_why(
+    structure: Structure, by: int, moved: Sequence[int], values: Sequence[float],
+    between: tuple[float, float] | None = None,
+) -> Phrase:  # fmt: skip
+    """Why a way of the drivers ends.
+
+    Parameters
+    ----------
+    by : the group that ends it, by its place among the elements
+    moved, values : which drivers move, and the values of all where it ends (rad, m)
+    between : values between which the motion runs; None where more than one driver moves
+    """
+    scene, group = structure.scene, structure.elements[by]
+    assert isinstance(group, Dyad | Cluster)
+    column = moved[0] if len(moved) else 0
+    driver = scene.drivers[column]
+    where = {"links": group_words(structure, group), "ending": _ending(group), "driver": driver.key,
+             "value": driver_text(scene, driver, values[column])}  # fmt: skip
+    if between is None:
+        return Phrase("end on the straight way there", **where)
+    low, high = (driver_text(scene, driver, value) for value in between)
+    return Phrase("end between which the motion reaches", **where, low=low, high=high)
+
+
+def group_words(structure: Structure, group: Dyad | Cluster) -> Phrase:
+    """The links of a group by name, of a dyad with the contact that it stands for."""
+    return named_with_contact(structure, group) if isinstance(group, Dyad) else links_words(group.links)
+
+
+def links_words(links: Sequence[str]) -> Phrase:
+    """Links by name."""
+    return Phrase("links", links=", ".join(links))
+
+
+def _ending(group: Dyad | Cluster) -> Phrase:
+    if isinstance(group, Dyad) and group.is_two_lines:
+        return dyad_words(group).dead
+    return Phrase("reach the end of their motion")
+
+
+def lies_at(structure: Structure, value: float, away: float, about: bool = False) -> Phrase:
+    """Where a dead point lies: the value of the driver, and how far away it is (rad, m)."""
+    scene, driver = structure.scene, structure.scene.drivers[0]
+    key, figures = ("it lies at about", 2) if about else ("it lies at", 3)
+    distance: Wording = f"{away / scene.units.metres:.{figures}g} {scene.units.length}"
+    if driver.turns:
+        distance = Phrase("so many degrees", value=f"{np.degrees(away):.{figures}g}")
+    return Phrase(key, driver=driver.key, value=driver_text(scene, driver, value), distance=distance)
+
+
+def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Phrase, ...]:
+    """For each group which assembly was taken, in the order of ``structure.groups``."""
+    words: list[Phrase] = []
+    for i, element in enumerate(structure.elements):
+        if isinstance(element, Dyad):
+            said = dyad_words(element)
+            words.append(said.positive if float(forms[i]) > 0 else said.negative)
+        elif isinstance(element, Cluster):
+            words.append(_cluster_words(structure, element, np.asarray(forms[i])))
+    return tuple(words)
+
+
+def _cluster_words(structure: Structure, group: Cluster, place: Array) -> Phrase:
+    """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
+    and where the first of them lies: two assemblies may have all sides in common."""
+    row = (place if place.ndim == 2 else place[0])[: len(group.members)]
+    at = {name: (complex(x, y), np.exp(1j * angle)) for name, (x, y, angle) in zip(group.members, row, strict=True)}
+
+    def world(link: str, point: str) -> complex:
+        origin, turned = at[link]
+        return complex(origin + turned * structure.links[link].points[point])
+
+    def other(link: str, point: str) -> str | None:
+        turns = (p.point for p in group.pairs if isinstance(p, Turn) and link in (p.a, p.b))
+        return next((p for p in turns if p != point), None)
+
+    said: list[Phrase] = []
+    where: Phrase | None = None
+    for pair in group.pairs:
+        if not {pair.a, pair.b} <= set(group.members):
+            continue
+        if isinstance(pair, Slide):
+            origin, turned = at[pair.b]
+            along = (at[pair.a][0] - origin) / turned - pair.guide.through
+            positive = (along / pair.guide.direction).real > 0
+            side_key = "assembled with it positive" if positive else "assembled with it negative"
+            said.append(Phrase(side_key, (pair.a, _guide(pair))))
+            continue
+        first, second = other(pair.a, pair.point), other(pair.b, pair.point)
+        if first is None or second is None:
+            continue
+        inner, one, two = world(pair.a, pair.point), world(pair.a, first), world(pair.b, second)
+        z = inner / structure.scene.units.metres
+        where = where or Phrase("assembled at", (pair.point, f"{z.real:.5g}", f"{z.imag:.5g}"))
+        side = ((two - one).conjugate() * (inner - one)).imag
+        said.append(_beside(side > 0, pair.point, first, second))
+    said += [where] if where else []
+    return reduce(lambda one, other: Phrase("listed", (one, other)), said or [Phrase("assembled as in the scene")])
+
+
+def _beside(left: bool, inner: str, first: str, second: str) -> Phrase:
+    return Phrase("assembled left" if left else "assembled right", (inner, first, second))
+
+
+class DyadWords(NamedTuple):
+    """What a dyad is said to be: in its positive and in its negative assembly, and at a dead point."""
+
+    positive: Phrase
+    negative: Phrase
+    dead: Phrase
+
+
+def dyad_words(dyad: Dyad) -> DyadWords:
+    """What a dyad is said to be."""
+    first, inner, second = (getattr(p, "point", "") for p in (dyad.outer_first, dyad.inner, dyad.outer_second))
+    guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if isinstance(p, Slide)), "")
+    only = Phrase("assembled only so")
+    return {
+        "RRR": DyadWords(
+            _beside(True, inner, first, second), _beside(False, inner, first, second),
+            Phrase("have in line", first=f"{first}{inner}", second=f"{inner}{second}"),
+        ),
+        "RRP": DyadWords(
+            Phrase("assembled further along", (guide,)), Phrase("assembled less far along", (guide,)),
+            Phrase("have square to the guide", bar=f"{first}{inner}"),
+        ),
+        "RPR": DyadWords(
+            Phrase("assembled on the positive side", (guide,)), Phrase("assembled on the negative side", (guide,)),
+            Phrase("have square to the guide", bar=f"{second}{first}"),
+        ),
+    }.get(dyad.kind, DyadWords(only, only, Phrase("have parallel guides")))  # fmt: skip
+
+
+def _guide(pair: Slide) -> str:
+    return f"{pair.b}.{pair.guide.name}" if pair.guide.name else pair.b
+
+
+def driver_text(scene: Mechanism, driver: Driver, value: float) -> Wording:
+    """A driver value in its own unit."""
+    if driver.turns:
+        return Phrase("so many degrees", value=f"{np.degrees(value):.10g}")
+    return f"{value / scene.units.metres:.10g} {scene.units.length}"

@@ -1,0 +1,612 @@
+"""Exact values by symbol: of the motion, of the whole turn, of forces and moments, and of the flywheel that keeps a
+machine even; and a motion as plain data for programs, in the scene's length unit.
+
+The driving moment on a flywheel is constant and does in a cycle the work that the balance does: where it is less than
+the balance needs, kinetic energy falls, where it is more, it rises.  The greatest difference of it is the excess work
+W, and a flywheel of J_F = W / (delta omega^2) keeps the coefficient of speed fluctuation (Sun Huan, Mechanical
+Principles, ch. 7; Norton, Design of Machinery, ch. 11).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import islice, pairwise
+
+import numpy as np
+
+from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.files import Json
+from graphkin.files import json_text as one_line
+from graphkin.plane import dot
+from graphkin.scene.cams import SwingingFollower
+from graphkin.scene.force_names import no_force
+from graphkin.scene.loads import Phase
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol, Value
+from graphkin.search import changes
+from graphkin.solver.cams import contact_of
+from graphkin.solver.driver_range import DriverRange, extremes, range_of
+from graphkin.solver.forces import Action, Forces, balances, forces_of, without_line
+from graphkin.solver.mobility import structure_of
+from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
+from graphkin.solver.pose import Array, Pose
+from graphkin.solver.redundant import all_slides
+from graphkin.structure import Cluster, Dyad
+from graphkin.structure.assembly import ChangePoint
+from graphkin.words import Phrase, Wording, say
+
+__all__ = [
+    "FlywheelStudy", "MomentArea", "entries", "exact_values", "flywheel_of", "force_values", "head", "json_text",
+    "load_edges", "needed_moment", "senses_along", "to_json", "value_of",
+]  # fmt: skip
+
+
+def value_of(motion: Motion, symbol: Symbol) -> Array:
+    """A quantity of the motion or a force by its symbol: complex for vectors, real for others (SI), shape (n,).
+
+    Raises
+    ------
+    CallError : the symbol names nothing here
+    Unsolvable : a load acts on a part of a stroke, or a flywheel is asked for, and the driver makes no whole turn
+    """
+    if symbol.scope not in ("force", "cycle"):
+        return motion.value(symbol)
+    problem = no_force(motion.scene, str(symbol), symbol)
+    if problem is not None:
+        raise CallError(problem)
+    if symbol.scope == "cycle":
+
+        wheel = flywheel_of(range_of(structure_of(motion.structure)))
+        return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
+
+    found = forces_of(motion).value(str(symbol.here))
+    if found is None:
+        raise CallError(Problem(str(symbol), Phrase("is read off the drawing alone"), Phrase("ask check for it")))
+    return found
+
+
+def senses_along(motion: Motion, symbol: Symbol) -> Array | None:
+    """Unit vectors of the positive sense of a velocity or acceleration that lies along the straight guide of a sliding
+    pair, shape (n,): of a point of what slides in the frame, and of coincident points relative to each other; None for
+    any other symbol."""
+    of, to, frame = symbol.of, symbol.to, motion.scene.frame.name
+    if of is None or symbol.seen or symbol.kind not in ("v", "a", "ar"):
+        return None
+    for slide in motion.slides:
+        if slide.guide.curvature:
+            continue
+        if to is None:
+            mine = motion.structure.links[slide.a].points if slide.a in motion.structure.links else {}
+            along = slide.b == frame and (of.link == slide.a or (not of.link and of.point in mine))
+        else:
+            along = slide.pin == of.point == to.point and {of.link, to.link} - {""} <= {slide.a, slide.b}
+        if along:
+            return np.asarray(motion.poses[slide.b].u * slide.guide.direction)
+    return None
+
+
+def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symbol], Value]:
+    """What gives the exact value of a symbol at the one position of a motion (SI), those of the whole turn among the
+    asked too.  Raises Unsolvable where there is no whole turn."""
+    scene = motion.scene
+    values = {d.key: float(v) for d, v in zip(scene.drivers, motion.values[0], strict=True)}
+    of_turn: Mapping[Symbol, float] = {}
+    if any(s.scope == "turn" for s in asked):
+        reach = range_of(structure_of(motion.structure), values)
+        of_turn = {s: _of_turn(reach, s) for s in asked if s.scope == "turn"}
+
+    @cache
+    def of_forces() -> Callable[[Symbol], Value]:
+
+        return force_values(motion)[0]
+
+    def value(symbol: Symbol) -> Value:
+        if symbol in of_turn:
+            return of_turn[symbol]
+        if symbol.scope == "force" and no_force(scene.instead_of or scene, str(symbol), symbol) is None:
+            return of_forces()(symbol)
+        found = value_of(motion, symbol)[0]
+        if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
+            found = _growing(motion).value(symbol)[0]
+        return complex(found) if symbol.is_vector else float(found.real)
+
+    return value
+
+
+def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
+
+    found = extremes(reach, symbol)
+    return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
+
+
+def _growing(motion: Motion) -> Motion:
+    """The same one position with the first driver's value growing at a unit rate, the others held."""
+    values = {d.key: float(v) for d, v in zip(motion.scene.drivers, motion.values[0], strict=True)}
+    return range_of(structure_of(motion.structure), values).motion(np.zeros(1), unit=True)
+
+
+def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
+    """What gives the exact force (N), moment (N m), shift of an inertia force (m) or arm on Zhukovsky's lever (m/s: the
+    power of a force over its size) of a symbol at the one position of a motion; and how far rounding may have moved any
+    force (N).
+
+    At rest an arm is that of the driver's value growing at a unit rate.
+
+    Raises
+    ------
+    Unsolvable : "dead point": the balance does no work
+    """
+    motion = _of_cams(motion)
+    forces = forces_of(motion)
+    for name, where in without_line(motion).items():
+        if where[0]:
+            found = Phrase("its two points coincide in this position so")
+            raise Unsolvable(
+                "dead point", Problem(f"springs.{name}", found, Phrase("move the driver off this position"))
+            )
+    if not forces.ok[0]:
+        drivers = ", ".join(d.key for d in motion.scene.drivers)
+        raise Unsolvable(
+            "dead point",
+            Problem(
+                Phrase("driver of driver", driver=drivers),
+                Phrase("the balance does no work in this position of nothing"),
+            ),
+        )
+    moving = motion if any(d.values[1] for d in motion.scene.drivers) else _growing(motion)
+
+    def value(symbol: Symbol) -> Value:
+        if symbol.kind == "h":
+            return _shift(forces, symbol.link)
+        if symbol.kind == "arm":
+            return _arm(moving, forces, symbol.name)
+        bare = replace(symbol, plus=False, at="")
+        if symbol.plus and (found := _beside(forces, bare)) is not None:
+            return found
+        known = forces.value(str(bare))
+        return float("nan") if known is None else _number(known)
+
+    return value, float(forces.bound[0][0])
+
+
+def _of_cams(motion: Motion) -> Motion:
+    """The motion of a mechanism with cams itself, where another stands in its place; the links move alike."""
+    whole = motion.scene.instead_of
+    if whole is None:
+        return motion
+    structure = structure_of(whole)
+    return replace(motion, structure=structure, slides=all_slides(structure))
+
+
+def _number(value: np.ndarray) -> Value:
+    return complex(value[0]) if np.iscomplexobj(value) else float(value[0])
+
+
+def _beside(forces: Forces, symbol: Symbol) -> Value | None:
+    """A value with the loads that begin or end exactly here; None where they change nothing."""
+    for name, sign in ((symbol, 1.0), (replace(symbol, link=symbol.other, other=symbol.link), -1.0)):
+        found = forces.beside.get(str(name))
+        if found is not None and not np.isnan(found[0]):
+            return _number(np.asarray(sign * found))
+    return None
+
+
+def _shift(forces: Forces, link: str) -> float:
+    force, moment = abs(_number(forces.forces[f"Fi_{link}"])), forces.moments[f"Mi_{link}"]
+    return float(moment[0]) / force if force else 0.0
+
+
+def _arm(moving: Motion, forces: Forces, name: str) -> float:
+    kind, _, rest = name.partition("_")
+    loading = moving.scene.loading
+    pose: Pose
+    if kind == "P":
+        acting = [(one.name, (one.link, one.at)) for one in loading.loads]
+        acting += [(one.name, one.ends[0]) for one in loading.springs]
+        link, at = next(place for named, place in acting if named == rest)
+        pose = moving.poses[link].fixed(at)
+    elif kind == "F":
+        return _of_balance(moving, forces, name)
+    else:
+        mass = next(one for one in loading.masses if one.link == rest)
+        pose = moving.poses[mass.link].fixed(mass.at)
+    force = _number(forces.forces[name])
+    if not force:
+        force = _number(forces.beside.get(name, forces.forces[name]))
+    return _along(complex(np.ravel(pose.v)[0]), complex(force))
+
+
+def _along(velocity: complex, force: complex) -> float:
+    return dot(velocity, force / abs(force)) if force else 0.0
+
+
+def _of_balance(moving: Motion, forces: Forces, name: str) -> float:
+    """Of a balancing force: the part of its point's velocity along its line, positive in the line's own sense."""
+    scene, said = moving.scene, moving.scene.loading.balance
+    if said is not None:
+        pose = moving.poses[said.link]
+        along = 1j * complex(np.ravel(pose.u)[0]) if said.square else said.turn
+        return dot(complex(np.ravel(pose.fixed(said.at).v)[0]), along)
+    return float(moving.slide(scene.drivers[0].key).velocity[0])
+
+
+PANEL = np.radians(10.0)
+"""Between two edges of loads the moment is smooth: over so much of the driver twelve nodes give its work to the last
+digits (Gauss and Legendre)."""
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
+
+
+@dataclass(frozen=True)
+class MomentArea:
+    """An area between the two moments over the driver, from one crossing to the next, offsets growing; ``work`` is that
+    of the driving moment beyond the needed one (J), below zero where it is less."""
+
+    first: float
+    last: float
+    work: float
+
+
+@dataclass(frozen=True)
+class FlywheelStudy:
+    """A flywheel on a link.
+
+    driving : constant driving moment on the driver (N m), in its sense positive
+    work : of a cycle (J)
+    areas : between driving and needed moment, over one cycle from the start on
+    excess : the greatest difference of kinetic energy (J)
+    slowest, fastest : offsets of the driver where the speed is least and greatest
+    speed : mean angular velocity of the link (rad/s)
+    inertia : of the flywheel (kg m2)
+    """
+
+    link: str
+    delta: float
+    driving: float
+    work: float
+    areas: tuple[MomentArea, ...]
+    excess: float
+    slowest: float
+    fastest: float
+    speed: float
+    inertia: float
+
+
+def needed_moment(reach: DriverRange, offset: Array) -> Array:
+    """What the balance comes to as a moment on the driver, in its sense positive (N m), shape (n,)."""
+    motion, moved = reach.motion(offset), reach.motion(offset, unit=True, fine=False)
+    forces = forces_of(motion)
+    made = np.zeros(len(motion))
+    for one in balances(motion):
+        value = forces.moments[one.key] if one.along is None else forces.forces[one.key]
+        place = None if one.along is None else one.at
+        for link, sign in ((one.second, 1.0), (one.first, -1.0)):
+            made = made + Action("", link, place, sign * value).power(moved)
+    return np.asarray(made)
+
+
+def flywheel_of(reach: DriverRange) -> FlywheelStudy:
+    """The flywheel that a scene asks for.
+
+    Raises
+    ------
+    Unsolvable : the driver makes no whole turn, the link does not turn on and on, or nothing moves
+    """
+    if "flywheel" not in reach.kept:
+        reach.kept["flywheel"] = _found(reach)
+    study: FlywheelStudy = reach.kept["flywheel"]
+    return study
+
+
+def _found(reach: DriverRange) -> FlywheelStudy:
+    wanted = reach.scene.loading.flywheel
+    assert wanted is not None
+    if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
+        raise _without(Phrase("the mechanism runs through no cycle one driver"), "leave [flywheel] out")
+    speed = _mean_speed(reach, wanted.link)
+    if not speed:
+        rests = not reach.driver.rate
+        found = Phrase("the driver rests") if rests else Phrase("link does not turn on and on", link=wanted.link)
+        raise _without(found, Phrase("give it a speed") if rests else Phrase("put the flywheel on one that does"))
+    edges = _panels(reach)
+    work = _work(reach, edges[:-1], edges[1:])
+    if not np.isfinite(work).all():
+        raise _without(Phrase("the balance does no work in some position"), Phrase("balance at the driver"))
+    cycle = float(edges[-1] - edges[0])
+    driving = float(work.sum()) / cycle
+    crossings = _balanced(reach, edges, driving)
+    places = np.array(sorted({0.0, cycle, *crossings}))
+    stored = np.concatenate([[0.0], np.cumsum(driving * np.diff(edges) - work)])
+    energy = np.array([_stored(reach, edges, stored, driving, x) for x in places])
+    areas = tuple(MomentArea(float(a), float(b), float(d)) for a, b, d in
+                  zip(places[:-1], places[1:], np.diff(energy), strict=True))  # fmt: skip
+    low, high = int(np.argmin(energy)), int(np.argmax(energy))
+    excess = float(energy[high] - energy[low])
+    inertia = excess / (wanted.delta * speed**2)
+    return FlywheelStudy(
+        wanted.link, wanted.delta, driving, driving * cycle, areas, excess, float(places[low]), float(places[high]),
+        speed, inertia,
+    )  # fmt: skip
+
+
+def _without(found: Wording, wanted: Wording) -> Unsolvable:
+    return Unsolvable("no flywheel", Problem("flywheel", found, wanted))
+
+
+def _mean_speed(reach: DriverRange, link: str) -> float:
+    """Mean angular velocity of a link over a cycle (rad/s)."""
+    ends: Motion = reach.motion(np.array(reach.ends))
+    turned = float(np.diff(reach.angle(ends, link))[0])
+    driver = reach.driver
+    return float(np.rint(turned / (2 * np.pi)) * 2 * np.pi / abs(reach.wide) * abs(driver.rate))
+
+
+def _panels(reach: DriverRange) -> Array:
+    """Ends of panels over one cycle, edges of loads among them."""
+    low, high = reach.ends
+    hard = np.unique(np.concatenate([[low, high], np.clip(load_edges(reach), low, high)]))
+    parts = [np.linspace(a, b, int(np.ceil((b - a) / PANEL)) + 1)[:-1] for a, b in pairwise(hard.tolist())]
+    return np.concatenate([*parts, [high]])
+
+
+def _work(reach: DriverRange, first: Array, last: Array) -> Array:
+    """Work that the balance does over panels (J)."""
+    half = (last - first) / 2
+    nodes = (first + last)[:, None] / 2 + half[:, None] * NODES
+    needed = needed_moment(reach, nodes.ravel()).reshape(nodes.shape)
+    return np.asarray((needed * WEIGHTS).sum(axis=1) * half)
+
+
+def _balanced(reach: DriverRange, edges: Array, driving: float) -> list[float]:
+    """Where the needed moment crosses the driving one; where it jumps across it, too."""
+    inside = (edges[:-1, None] + np.diff(edges)[:, None] * np.linspace(1e-6, 1 - 1e-6, 24)).ravel()
+    crossed = changes(lambda offset: needed_moment(reach, offset) > driving, inside, within=1e-9)
+    nearest = [float(edges[np.argmin(np.abs(edges - offset))]) for offset in crossed]
+    # between an edge and the first place inside beside it
+    return [edge if abs(edge - offset) < 2e-6 else offset for edge, offset in zip(nearest, crossed, strict=True)]
+
+
+def _stored(reach: DriverRange, edges: Array, stored: Array, driving: float, at: float) -> float:
+    """Kinetic energy gained since the start (J)."""
+    k = min(int(np.searchsorted(edges, at, side="right")) - 1, len(edges) - 2)
+    rest = float(_work(reach, edges[k : k + 1], np.array([at]))[0])
+    return float(stored[k] + driving * (at - edges[k]) - rest)
+
+SAMPLES = 720
+
+
+def load_edges(reach: DriverRange) -> Array:
+    """The offsets at which a load begins, ends or turns round, growing; those at the ends of the range among them.
+
+    Raises
+    ------
+    Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
+    """
+    low, high = reach.ends
+    found: list[float] = []
+    for load in reach.scene.loading.loads:
+        if load.against:
+            found += _crossings(reach, _speed(reach, load.against))
+        if load.phase is not None:
+            found += _begins_and_ends(reach, load.phase)
+    kept = sorted(offset for offset in found if low - 1e-9 <= offset <= high + 1e-9)
+    apart = 1e-9 * (high - low)
+    return np.array([x for i, x in enumerate(kept) if i == 0 or x - kept[i - 1] > apart])
+
+
+def _begins_and_ends(reach: DriverRange, phase: Phase) -> Iterator[float]:
+    low, high = reach.ends
+    if not phase.stroke:
+        for value in (phase.start, phase.end):
+            at = float(reach.sense * (value - reach.start[0]))
+            if reach.driver.turns:
+                first = at + np.ceil((low - 1e-9 - at) / (2 * np.pi)) * 2 * np.pi
+                yield from np.arange(first, high + 1e-9, 2 * np.pi).tolist()
+            else:
+                yield at
+        return
+    least, most = reach.stroke(phase.stroke)
+
+    def part(edge: float) -> Callable[[Array], Array]:
+        wanted = least + (most - least) * (edge if phase.sense > 0 else 1.0 - edge)
+        return lambda offset: reach.motion(offset, fine=False).slide(phase.stroke).travel - wanted
+
+    speed = _speed(reach, phase.stroke)
+    for edge in (phase.start, phase.end):
+        if edge < 1e-9 or edge > 1.0 - 1e-9:  # where the slide turns back
+            yield from _crossings(reach, speed)
+        else:
+            yield from (x for x in _crossings(reach, part(edge)) if np.sign(speed(np.array([x]))[0]) == phase.sense)
+
+
+def _speed(reach: DriverRange, pair: str) -> Callable[[Array], Array]:
+    return lambda offset: reach.motion(offset, unit=True, fine=False).slide(pair).velocity
+
+
+def _crossings(reach: DriverRange, value: Callable[[Array], Array]) -> list[float]:
+    """Where something changes its sign over the range."""
+    grid = np.linspace(*reach.ends, SAMPLES + 1)
+    return changes(lambda offset: value(offset) >= 0.0, grid)
+
+
+BLOCK = 1024
+"""Positions that are made into objects at once."""
+
+
+def to_json(motion: Motion, forces: Forces | None = None) -> dict[str, Json]:
+    """The object that ``solve --json`` prints: numbers in the scene's length unit, seconds, radians; forces, where
+    there are any, in its force unit, moments in that times metre."""
+    return {**head(motion), "positions": list(entries(motion, forces))}
+
+
+def json_text(first: Mapping[str, Json], positions: Iterable[Mapping[str, Json]]) -> Iterator[str]:
+    """A head and the entries of positions as one object in the text of JSON, with a line feed at its end, piece by
+    piece: of a long sweep only some entries are in memory.  What would command a terminal is escaped."""
+    yield one_line(first)[:-1] + ', "positions": ['
+    between, rest = "", iter(positions)
+    while block := list(islice(rest, BLOCK)):
+        yield between + one_line(block)[1:-1]
+        between = ", "
+    yield "]}\n"
+
+
+def head(motion: Motion) -> dict[str, Json]:
+    """What is said of a motion before its positions: title, units, mobility, change points passed, groups."""
+    scene = motion.scene
+    force = {"force": scene.units.force} if scene.loading else {}
+    speed = {"speed": scene.units.speed} if scene.units.speed else {}
+    return {
+        "title": scene.title,
+        "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
+        "mobility": motion.structure.mobility.value,
+        **({"passed": [_change_point(motion.scene, one) for one in motion.passed]} if motion.passed else {}),
+        "groups": [_group(g, words) for g, words in zip(motion.structure.groups, motion.assembly, strict=True)],
+    }
+
+
+def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
+    """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
+    values = zip(scene.drivers, one.values, strict=True)
+    at = {d.key: v / (scene.units.metres if not d.turns else 1.0) for d, v in values}
+    return {"links": list(one.links), "driver": at}
+
+
+def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
+    """What is said of each position, one after the other; some thousand are made at a time."""
+    scene = motion.scene
+    metres = scene.units.metres
+    flywheel = _flywheel(motion)
+    angles = {link.name: motion.angle(link.name) for link in scene.links}
+    drivers = {
+        d.key: motion.values[:, i] / (metres if not d.turns else 1.0)
+        for i, d in enumerate(scene.drivers)
+    }
+    for first in range(0, len(motion), BLOCK):
+        some = slice(first, first + BLOCK)
+        columns = _columns(motion.rows(some), {name: angle[some] for name, angle in angles.items()})
+        cells = {
+            part: {key: {what: _plain(v) for what, v in row.items()} for key, row in table.items()}
+            for part, table in columns.items()
+        }
+        own = {key: v[some].tolist() for key, v in drivers.items()}
+        touching = _touching(motion.rows(some)) if scene.contacts or scene.gears else [{}] * BLOCK
+        for k, status in enumerate(motion.status[some].tolist()):
+            entry: dict[str, Json] = {"driver": {key: v[k] for key, v in own.items()}, "status": status}
+            if status != "ok":
+                yield {**entry, "why": motion.why[first + k]}
+                continue
+            for part, table in cells.items():
+                entry[part] = {key: {what: v[k] for what, v in row.items()} for key, row in table.items()}
+            entry |= touching[k]
+            entry["error_bound"] = _bounds(motion, first + k)
+            if forces is not None:
+                found = _forces(scene, forces, first + k)
+                found["moments"] |= flywheel
+                entry |= found
+            yield entry
+
+
+def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str, dict[str, Array]]]:
+    """Every number of some positions, in the scene's units."""
+    scene = motion.scene
+    metres, fast = scene.units.metres, scene.units.rates.metres
+    columns: dict[str, dict[str, dict[str, Array]]] = {"links": {}, "points": {}, "slides": {}}
+    for name, angle in angles.items():
+        columns["links"][name] = {"angle": angle, "omega": motion.omega(name), "alpha": motion.alpha(name)}
+    for point, name in listed_points(scene, motion.slides):
+        # a pin is the same on each of its links
+        at = motion.point(point, "" if point in scene.by_name[name].points else name)
+        found = at.z / metres, at.v / fast, at.a / fast
+        columns["points"][f"{point}@{name}"] = dict(zip(("position", "velocity", "acceleration"), found, strict=True))
+    for pair in own_slides(scene, motion.slides):
+        kinds, each = ("travel", "velocity", "acceleration", "coriolis"), (metres, fast, fast, fast)
+        values = zip(motion.slide(pair.key), each, strict=True)
+        columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
+    for cam in scene.cams:
+        turn = motion.poses[cam.link]
+        touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
+        unit = 1.0 if isinstance(cam.motion, SwingingFollower) else metres
+        columns.setdefault("cams", {})[cam.link] = {
+            "lift": touching.lift / unit, "contact": touching.contact / metres, "normal": touching.normal,
+            "slip": touching.slip / fast, "pressure": touching.pressure,
+        }  # fmt: skip
+    return columns
+
+
+def _touching(motion: Motion) -> list[dict[str, dict[str, Json]]]:
+    """Contacts and gears of each position."""
+    scene, metres = motion.scene, motion.scene.units.metres
+    found: list[dict[str, dict[str, Json]]] = [{} for _ in range(len(motion))]
+    for contact in scene.contacts:
+        at = contact_motion(motion, contact)
+        kind = "rolling" if contact.rolling else "sliding"
+        columns = {"position": at.place / metres, "normal": at.normal, "slip": at.slip / scene.units.rates.metres}
+        cells = {what: _plain(column) for what, column in columns.items()}
+        for k, entry in enumerate(found):
+            pressure = {link: float(angle[k]) for link, angle in at.pressure.items() if np.isfinite(angle[k])}
+            own = {"kind": kind, **{what: cell[k] for what, cell in cells.items()}, "pressure": pressure}
+            entry.setdefault("contacts", {})[contact.name] = own
+    for gear in scene.gears:
+        place, radii = pitch_point(motion, gear)
+        shown = [None if r is None else r / metres for r in radii]
+        for entry, cell in zip(found, _plain(place / metres), strict=True):
+            entry.setdefault("gears", {})[gear.name] = {"pitch_point": cell, "radii": shown}
+    return found
+
+
+def _forces(scene: Mechanism, forces: Forces, k: int) -> dict[str, dict[str, Json]]:
+    """Forces and moments at one position; a key with + is the value with the loads that begin or end exactly here."""
+    found: dict[str, dict[str, Json]] = {"forces": {}, "moments": {}}
+    for part, table in (("forces", forces.forces), ("moments", forces.moments)):
+        for key, values in table.items():
+            here = {key: values[k]}
+            if key in forces.beside and not np.isnan(forces.beside[key][k]):
+                here[f"{key}+"] = forces.beside[key][k]
+            for name, value in here.items():
+                shown = value / scene.units.newtons
+                plain = [float(shown.real) + 0.0, float(shown.imag) + 0.0]  # no minus before nought
+                found[part][name] = plain if part == "forces" else plain[0]
+    bound: dict[str, Json] = {}
+    for name, b in zip(found, forces.bound, strict=True):
+        bound[name] = float(b[k]) / scene.units.newtons
+    return {**found, "force_bound": bound}
+
+
+def _flywheel(motion: Motion) -> dict[str, Json]:
+    """Excess work and inertia of the flywheel that the scene asks for, where it has one."""
+    units = motion.scene.units
+    if motion.scene.loading.flywheel is None or not motion.ok.any():
+        return {}
+    try:
+        found = flywheel_of(range_of(structure_of(motion.structure)))
+    except Unsolvable:
+        return {}
+    return {"excess_W": found.excess / units.newtons, "J_F": found.inertia / units.inertias}
+
+
+def _plain(values: Array) -> list[Json]:
+    """Numbers, or pairs of numbers for complex ones; no minus before nought."""
+    parts = np.stack([values.real, values.imag], axis=1) if np.iscomplexobj(values) else values
+    found: list[Json] = (parts + 0.0).tolist()
+    return found
+
+
+def _bounds(motion: Motion, k: int) -> dict[str, Json]:
+    metres, fast = motion.scene.units.metres, motion.scene.units.rates.metres
+    moving, turning = motion.bound.of_point, motion.bound.of_turning
+    found: dict[str, Json] = {
+        name: float(b[k]) / per if np.isfinite(b[k]) else None
+        for name, b, per in zip(("position", "velocity", "acceleration"), moving, (metres, fast, fast), strict=True)
+    }
+    for name, b in zip(("angle", "omega", "alpha"), turning, strict=True):
+        found[name] = float(b[k]) if np.isfinite(b[k]) else None
+    if None in found.values():
+        found["why"] = "the worst case of rounding, multiplied along so many groups, says nothing"
+    return found
+
+
+def _group(group: Dyad | Cluster, words: Phrase) -> dict[str, Json]:
+    order = group.order if isinstance(group, Cluster) else 2
+    return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}
