@@ -140,7 +140,7 @@ def residues(scene):
             pose = motion.poses[link]
             act(link, sign * forces.forces[f"P_{spring.name}"], pose.z + pose.u * own)
     for driver in mechanism.drivers:
-        angle = hasattr(driver, "relative_to")
+        angle = driver.turns
         link = driver.key.split("/")[0]
         if angle:
             moment = forces.moments[f"M_{link}"]
