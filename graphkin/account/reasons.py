@@ -9,7 +9,7 @@ from graphkin.construction.polygon_acts import SeenFrom, TrialDrawn
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Slide
+from graphkin.structure import Cluster, Pair
 from graphkin.words import Phrase
 from graphkin.words.written import pointing
 
@@ -89,7 +89,7 @@ def _is_seen(sheet: Sheet, held: str) -> bool:
     return any(isinstance(s.act, SeenFrom) and s.act.held == held for s in sheet.steps)
 
 
-def _coincident(of: PointRef, to: PointRef, slide: Slide) -> Phrase:
+def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
     """Two points that coincide under a sliding pair, or under a pin in a slot, of which no link slides."""
     if slide.slot and slide.pin is not None:
         return Phrase("why in slot", (of, to, PointRef(slide.pin), slide.b))

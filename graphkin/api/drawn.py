@@ -34,7 +34,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_li
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Dyad, Structure, Turn
+from graphkin.structure import Dyad, Structure
 from graphkin.structure.analysis import driven_by
 from graphkin.structure.transmission import TransmissionAngle, joint_of_dyad
 from graphkin.table import Table
@@ -392,7 +392,7 @@ def _least(
     structure: Structure, turn: TurnOfCrank, drawn: Callable[[float], Sheet]
 ) -> tuple[Sheet, float, tuple[complex, complex, complex]] | None:
     """Where the transmission angle of the last group with a pin inside is least."""
-    group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and isinstance(g.inner, Turn)), None)
+    group = next((g for g in reversed(structure.groups) if isinstance(g, Dyad) and g.inner.turns), None)
     if group is None:
         return None
     joint = joint_of_dyad(structure, group)
@@ -411,7 +411,6 @@ def _least(
         best = min([best, *near], key=gamma)
     sheet = drawn(best.value)
     inner = group.inner
-    assert isinstance(inner, Turn)
     pose = sheet.poses[inner.a]
     at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
     first, second = _ways(structure, joint, best)

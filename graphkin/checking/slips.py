@@ -27,7 +27,7 @@ from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of, solve, value_of
-from graphkin.structure import Slide
+from graphkin.structure import Pair
 from graphkin.words import Phrase
 
 __all__ = ["CANCELLING", "NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
@@ -53,7 +53,7 @@ def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
     return None
 
 
-def _along(sheet: Sheet, slide: Slide, symbol: Symbol) -> bool:
+def _along(sheet: Sheet, slide: Pair, symbol: Symbol) -> bool:
     """Whether a vector lies along a guide."""
     of, to, frame = symbol.of, symbol.to, sheet.scene.frame.name
     assert of is not None

@@ -36,7 +36,7 @@ from graphkin.construction.mechanism_acts import (
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver
-from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled, Slide, Turn
+from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled
 
 __all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meet"]
 
@@ -85,11 +85,9 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
             to = driver.relative_to if own else driver.link
             base = paper.poses[to].axis
         axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
-        assert isinstance(pair, Turn)
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
         return pose, ((LaidOffAngle(name, value if own else -value, pair.point, to), ()),)
-    assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
     start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
@@ -99,8 +97,6 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
 
 def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, outer2 = dyad.outer_first, dyad.outer_second
-    assert isinstance(outer1, Turn)
-    assert isinstance(outer2, Turn)
     (p1, local1), (p2, local2) = hinge(paper, one, outer1), hinge(paper, two, outer2)
     letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
     r1, r2 = paper.instrument.compass(abs(inner1 - local1)), paper.instrument.compass(abs(inner2 - local2))
@@ -121,8 +117,6 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
 
 def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, slide = dyad.outer_first, dyad.outer_second
-    assert isinstance(outer, Turn)
-    assert isinstance(slide, Slide)
     p, local = hinge(paper, one, outer)
     letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
     start, step = rail(paper, two, slide)
@@ -148,9 +142,6 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
 
 def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer1, slide, outer2 = dyad.outer_first, dyad.inner, dyad.outer_second
-    assert isinstance(outer1, Turn)
-    assert isinstance(slide, Slide)
-    assert isinstance(outer2, Turn)
     (p1, local1), (p2, local2) = hinge(paper, one, outer1), hinge(paper, two, outer2)
     # the sliding body as seen from the guiding one, at travel 0
     at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, paper.mm)
@@ -189,8 +180,6 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
 
 def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     slide1, slide2 = dyad.outer_first, dyad.outer_second
-    assert isinstance(slide1, Slide)
-    assert isinstance(slide2, Slide)
     letter, inner1, inner2 = inner_hinge(paper, dyad, one, two)
     (start1, step1), (start2, step2) = rail(paper, one, slide1), rail(paper, two, slide2)
     q1, q2 = start1.place(inner1), start2.place(inner2)
@@ -205,9 +194,6 @@ def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
 
 def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
     outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
-    assert isinstance(outer, Turn)
-    assert isinstance(inner, Slide)
-    assert isinstance(slide, Slide)
     p, local = hinge(paper, one, outer)
     start, step = rail(paper, two, slide)
     resting = two.placed(start)

@@ -19,7 +19,7 @@ from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, Dyad, Rolled, Slide, Turn, links_of
+from graphkin.structure import Driven, Dyad, Pair, Rolled, links_of
 from graphkin.words import Phrase
 
 __all__ = ["draw_element"]
@@ -46,15 +46,14 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
         base = plot.rates[order][other].value
         plot.rates[order][name] = Rate(name, base + sign * rate, mm=mm)
-    elif isinstance(pair, Turn):
+    elif pair.turns:
         plot.rates[order][name] = Rate(name, rate, mm=mm)
-    if isinstance(pair, Turn) and name in plot.rates[order]:
+    if pair.turns and name in plot.rates[order]:
         pivot = PointRef(pair.point)
         for end in first_ends(plot, name, pair.point):
             way = Direction("square", (pivot.point, end.point))
             draw_equation(plot, order, element, ClosingVector((Edge(pivot, end, (pivot, end), way, link=name),)))
         return
-    assert isinstance(pair, Slide)
     known = pair.b if name == pair.a else pair.a
     share_rate(plot, order, known, name)
     point = pair.pin or next(iter([*plot.links[name].points, *plot.places]), "")
@@ -103,7 +102,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     return dot(slip, along) * plot.scales.of(order)
 
 
-def _slide_edge(plot: Polygons, slide: Slide, point: str) -> Edge:
+def _slide_edge(plot: Polygons, slide: Pair, point: str) -> Edge:
     a, b = node(plot.links, point, slide.a), node(plot.links, point, slide.b)
     labels = (PointRef(point, slide.b), PointRef(point, slide.a))
     return Edge(b, a, labels, Direction("along", plot.guide_names(slide)), slide=slide)
@@ -112,7 +111,7 @@ def _slide_edge(plot: Polygons, slide: Slide, point: str) -> Edge:
 def _found(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
     welds = tuple(w for body in dyad.bodies for w in body.welds)
     pairs = (dyad.outer_first, dyad.inner, dyad.outer_second, *(w.pair for w in welds))
-    slides = [p for p in pairs if isinstance(p, Slide)]
+    slides = [p for p in pairs if not p.turns]
     joined = Joined(links_of(dyad), pairs, welds)
     chain = equation_of(
         plot.links,

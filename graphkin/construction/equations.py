@@ -48,7 +48,7 @@ from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Turn, Weld, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Weld, links_of
 
 __all__ = [
     "at_contacts", "draw_equation", "draw_parallel_legs", "draw_relative", "first_ends", "known_turns", "links_alike",
@@ -103,16 +103,16 @@ def _turned_alike(
     """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
     which = 0 if order == "velocity" else 1
     if isinstance(group, Cluster):
-        slides = [p for p in group.pairs if isinstance(p, Slide)]
+        slides = [p for p in group.pairs if not p.turns]
         given = [
             (d.relative_to, d.link, rates[d.key][which] if rates else 0.0)
             for d in group.drivers if d.turns
         ]  # fmt: skip
         return [*((s.a, s.b, 0.0) for s in slides), *given]
-    slides = [p for p in (group.outer_first, group.inner, group.outer_second) if isinstance(p, Slide)]
+    slides = [p for p in group.pairs if not p.turns]
     welds = [w for body in group.bodies for w in body.welds]
     held = [
-        (w.a, w.b, _turn_sign(w) * rates[w.driver.key][which] if rates and isinstance(w.pair, Turn) else 0.0)
+        (w.a, w.b, _turn_sign(w) * rates[w.driver.key][which] if rates and w.pair.turns else 0.0)
         for w in welds
     ]
     return [*((s.a, s.b, 0.0) for s in slides), *held]
@@ -497,7 +497,7 @@ def _slip_read(plot: Polygons, edge: Edge) -> tuple[complex, float]:
     return slip, plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
 
 
-def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Slide) -> list[Component]:
+def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[Component]:
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
     given = _given(plot, slide.key, order)
     fixed = plot.fixed(edge.start)
@@ -591,7 +591,7 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     return [Component(symbol_of(plot, "an", edge), "normal", unit(span or normal), span, way, size)]
 
 
-def _bent_parts(plot: Polygons, edge: Edge, slide: Slide, sense: complex) -> list[Component]:
+def _bent_parts(plot: Polygons, edge: Edge, slide: Pair, sense: complex) -> list[Component]:
     """The normal part that a curved guide adds: the square of the sliding velocity over the radius of curvature,
     towards the centre of curvature of the guide; against the guide's motion it is turned round."""
     bends = slide.guide.curvature
@@ -616,7 +616,7 @@ def _given(plot: Polygons, key: str, order: Order) -> float | None:
 
 def _weld_parts(plot: Polygons, order: Order, edge: Edge, weld: Weld) -> list[Component]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
-    hinge = weld.pair.point  # type: ignore[union-attr]
+    hinge = weld.pair.point
     arm = plot.places[edge.end.point] - plot.places[hinge]
     way = 1 if edge.forward else -1
     speed, rate = plot.given[weld.driver.key]

@@ -18,7 +18,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, travel
 from graphkin.construction.position import Branches, as_meant, branches_at, place, start_board
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Slide, Structure, analyse, pick
+from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Structure, analyse, pick
 from graphkin.words import Phrase
 
 __all__ = ["Inversion", "inversions_of", "opened_at_triangles", "own_assembly"]
@@ -59,7 +59,6 @@ class Inversion:
         pair, equivalent = self.triangle.pair, self.triangle.equivalent
         if equivalent.turns:
             return cmath.phase(paper.poses[equivalent.link].axis / paper.poses[equivalent.relative_to].axis)
-        assert isinstance(pair, Slide)
         return travel(pair, paper.poses, paper.mm) / paper.mm
 
 

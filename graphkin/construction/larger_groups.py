@@ -54,7 +54,7 @@ from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Slide, Turn, Weld, driver_pair, links_of
+from graphkin.structure import Cluster, Pair, Weld, driver_pair, links_of
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -260,7 +260,7 @@ def _plans(plot: Polygons, group: Cluster, wide: bool = False) -> Iterator[Group
 
 
 def _net_of(plot: Polygons, group: Cluster, wide: bool) -> Net:
-    slides = [p for p in group.pairs if isinstance(p, Slide)]
+    slides = [p for p in group.pairs if not p.turns]
     welds = []
     for driver in group.drivers:
         pair = driver_pair(driver, plot.links, plot.structure.slides)
@@ -308,7 +308,7 @@ def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> com
         return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
     if edge.contact:
         return -1j * plot.contact(edge.contact)[2]
-    if edge.weld is not None and isinstance(edge.weld.pair, Turn):  # both ends lie at one place, off the hinge
+    if edge.weld is not None and edge.weld.pair.turns:  # both ends lie at one place, off the hinge
         return 1j * unit(places[edge.end.point] - places[edge.weld.pair.point])
     return 1j * unit(places[edge.end.point] - places[edge.start.point])
 
@@ -347,12 +347,12 @@ def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
     inside = set(group.members)
     keys = {d.key for d in group.drivers if not d.turns}
     held = [driver_pair(d, plot.links, plot.structure.slides) for d in group.drivers]
-    hinged = {frozenset((p.a, p.b)) for p in held if isinstance(p, Turn)}
+    hinged = {frozenset((p.a, p.b)) for p in held if p is not None and p.turns}
     joints = []
     for pair in group.pairs:
         if not {pair.a, pair.b} <= inside:
             continue
-        if isinstance(pair, Slide):
+        if not pair.turns:
             along = plot.paper.poses[pair.b].axis * pair.guide.direction
             at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
             joints.append(Joint((pair.a, pair.b), at, along, pair.key in keys))
@@ -380,7 +380,7 @@ def _rests_on(plot: Polygons, group: Cluster, contour: Sequence[str]) -> list[tu
 
 def _turn_driven(plot: Polygons, order: Order, rest: Cluster) -> None:
     """Lay off points of links that turn at known rates about hinges of the held link."""
-    for pair in (p for p in rest.pairs if isinstance(p, Turn) and plot.ground in (p.a, p.b)):
+    for pair in (p for p in rest.pairs if p.turns and plot.ground in (p.a, p.b)):
         name, pivot = pair.b if pair.a == plot.ground else pair.a, PointRef(pair.point)
         if name not in plot.rates[order] or name in plot.still:
             continue
@@ -422,7 +422,7 @@ def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> Non
             plot.board.do("mechanism", step.act, *step.strokes)
 
 
-def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Slide]) -> Cluster:
+def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Pair]) -> Cluster:
     """The links of a contour besides the held one, as a group of their own."""
     rest = tuple(n for n in contour if n != held)
     within = set(contour)

@@ -23,7 +23,7 @@ from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits, Scales
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Element, Slide, Structure, links_of
+from graphkin.structure import Element, Pair, Structure, links_of
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
@@ -106,7 +106,7 @@ class TurnOfCrank:
         values = {**self.values, self.structure.scene.drivers[0].key: value}
         return found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
 
-    def limits(self, output: Slide | str, why: str) -> tuple[Turned, Turned, float]:
+    def limits(self, output: Pair | str, why: str) -> tuple[Turned, Turned, float]:
         """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
         goes from one to the other (mm of paper, or rad).  Raises Unsolvable for a link that turns on and on.
         """
@@ -121,7 +121,7 @@ class TurnOfCrank:
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
         return low[0], high[0], high[1] - low[1]
 
-    def _extreme(self, output: Slide | str, travels: Sequence[float], sign: float) -> tuple[Turned, float]:
+    def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[Turned, float]:
         n = len(travels) - 1
         height = [sign * value for value in travels]
         tops = [k for k in range(n) if height[k] >= max(height[k - 1 if k else n - 1], height[k + 1])]
@@ -132,7 +132,7 @@ class TurnOfCrank:
         equal = [one for one in found if sign * one[1] > most - EQUAL * (max(travels) - min(travels))]
         return min(equal, key=lambda one: (one[0].value + EQUAL) % math.tau)
 
-    def _refined(self, output: Slide | str, k: int, travels: Sequence[float]) -> tuple[Turned, float]:
+    def _refined(self, output: Pair | str, k: int, travels: Sequence[float]) -> tuple[Turned, float]:
         """The place where a curve through the positions about the k-th is at rest."""
         base = self.positions[k]
         middle, half = base.value, 2 * STEP
@@ -226,7 +226,7 @@ def _short(why: str, link: str, value: float) -> Problem:
     return Problem(why, found, Phrase("ask for s_ theta_ or d_ at single"))
 
 
-def _along(output: Slide | str, here: Turned, near: float) -> float:
+def _along(output: Pair | str, here: Turned, near: float) -> float:
     """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle that lies nearest to a
     known one."""
     if isinstance(output, str):
@@ -235,7 +235,7 @@ def _along(output: Slide | str, here: Turned, near: float) -> float:
     return travel(output, here.poses, 0.0)  # from wherever the guide has its origin: only differences are of interest
 
 
-def _travels(output: Slide | str, positions: Sequence[Turned]) -> list[float]:
+def _travels(output: Pair | str, positions: Sequence[Turned]) -> list[float]:
     travels: list[float] = []
     for here in positions:
         travels.append(_along(output, here, travels[-1] if travels else 0.0))

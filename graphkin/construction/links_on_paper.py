@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.plane import added_up, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.structure import Body, Dyad, Slide, Structure, Turn
+from graphkin.structure import Body, Dyad, Pair, Structure
 
 __all__ = [
     "LinkMotion", "PlacedLinks", "Pose", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
@@ -122,7 +122,7 @@ class RigidBody:
         for weld in body.welds:
             value = paper.values[weld.driver.key]
             base = self.rel[weld.a]
-            if isinstance(weld.pair, Turn):
+            if weld.pair.turns:
                 turned = (weld.driver.link == weld.b) if weld.driver.turns else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
                 hinge = base.place(self._local(weld.a, weld.pair.point))
@@ -152,7 +152,7 @@ class RigidBody:
         return self.placed(Pose(world[0] - axis * local[0], axis))
 
 
-def travel(slide: Slide, poses: Poses, mm: float) -> float:
+def travel(slide: Pair, poses: Poses, mm: float) -> float:
     """How far what slides has gone along its guide, from the guide's origin to its own (mm); ``mm`` of paper for one m.
     """
     guide = poses[slide.b]
@@ -160,7 +160,7 @@ def travel(slide: Slide, poses: Poses, mm: float) -> float:
     return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
 
 
-def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Pose:
+def across(slide: Pair, link: str, other: Pose, travel: float, mm: float) -> Pose:
     """Pose of one side of a sliding pair from the other and the travel (mm)."""
     g, start = slide.guide.direction, slide.guide.through * mm
     if link == slide.a:
@@ -169,7 +169,7 @@ def across(slide: Slide, link: str, other: Pose, travel: float, mm: float) -> Po
     return Pose(other.origin - axis * (start + travel * g), axis)
 
 
-def hinge(paper: PlacedLinks, shape: RigidBody, pair: Turn) -> tuple[complex, complex]:
+def hinge(paper: PlacedLinks, shape: RigidBody, pair: Pair) -> tuple[complex, complex]:
     """An outer turning pair: its place on paper and in the body's axes."""
     return paper.point(pair.b, pair.point), shape.point(pair.a, pair.point)
 
@@ -180,7 +180,7 @@ def _holder(body: Body, paper: PlacedLinks, point: str) -> str:
 
 def inner_hinge(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
     """The inner turning pair: its letter and its place in each body's axes."""
-    point = dyad.inner.point  # type: ignore[union-attr]
+    point = dyad.inner.point
     return (
         point,
         one.point(_holder(dyad.first, paper, point), point),
@@ -188,7 +188,7 @@ def inner_hinge(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) 
     )
 
 
-def rail(paper: PlacedLinks, shape: RigidBody, slide: Slide) -> tuple[Pose, complex]:
+def rail(paper: PlacedLinks, shape: RigidBody, slide: Pair) -> tuple[Pose, complex]:
     """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
     mine = slide.a if slide.a in shape.rel else slide.b
     known = slide.b if mine == slide.a else slide.a

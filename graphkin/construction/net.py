@@ -24,7 +24,7 @@ from graphkin.construction.sizes import Direction
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Dyad, Pair, Slide, Structure, Turn, Weld, links_of
+from graphkin.structure import Cluster, Dyad, Pair, Structure, Weld, links_of
 
 __all__ = [
     "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
@@ -72,7 +72,7 @@ class Edge:
     labels: tuple[PointRef, PointRef]
     direction: Direction
     link: str = ""
-    slide: Slide | None = None
+    slide: Pair | None = None
     weld: Weld | None = None
     contact: str = ""
     rolling: str = ""
@@ -184,15 +184,15 @@ class Net:
         self.links, self.frame, self.places, self.tiny = links, frame, places, tiny
         self.inside, pairs, welds = joined.inside, joined.pairs, joined.welds
         self.shares = same_turn
-        slides = [p for p in pairs if isinstance(p, Slide)]
-        turns = [p for p in pairs if isinstance(p, Turn)]
-        driven = {w.pair.key for w in welds if isinstance(w.pair, Slide)} | joined.driven
+        slides = [p for p in pairs if not p.turns]
+        turns = [p for p in pairs if p.turns]
+        driven = {w.pair.key for w in welds if not w.pair.turns} | joined.driven
         touching = [c.name for c in joined.contacts]
         letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns] + touching))
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
         self.natural |= {PointRef(c.name, side) for c in joined.contacts for side in c.links}
-        between = [*((p.a, p.b) for p in (*pairs, *welds)), *(c.links for c in joined.contacts)]
+        between = [*((p.a, p.b) for p in pairs), *((w.a, w.b) for w in welds), *(c.links for c in joined.contacts)]
         around = list(dict.fromkeys([*self.inside, *(n for both in between for n in both)]))
         on = _near(links, joined, around, letters) if joined.near else {}
         self.owners: dict[PointRef, list[str]] = {}
@@ -214,7 +214,7 @@ class Net:
         for s in slides:
             self._sliding(s, letters, guide_names[s.key], None if s.key in driven else Sliding(s.key))
         for w in welds:
-            if isinstance(w.pair, Turn):
+            if w.pair.turns:
                 self._welded(w, letters)
         for c in joined.contacts:
             self._touching(c)
@@ -255,7 +255,7 @@ class Net:
                     way = Direction("square", (a.point, b.point))
                     self._add(Edge(a, b, (a, b), way, link=name, unknown=unknown))
 
-    def _sliding(self, s: Slide, letters: Sequence[str], written: tuple[str, ...], unknown: Unknown | None) -> None:
+    def _sliding(self, s: Pair, letters: Sequence[str], written: tuple[str, ...], unknown: Unknown | None) -> None:
         for letter in letters:
             a, b = node(self.links, letter, s.a), node(self.links, letter, s.b)
             if a in self.owners and b in self.owners and a != b:
@@ -267,7 +267,7 @@ class Net:
             a, b = node(self.links, letter, w.a), node(self.links, letter, w.b)
             if a in self.owners and b in self.owners and a != b:
                 labels = (PointRef(letter, w.a), PointRef(letter, w.b))
-                hinge = w.pair.point  # type: ignore[union-attr]
+                hinge = w.pair.point
                 self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), weld=w))
 
     def _seen(self, held: str, other: str, letters: Sequence[str]) -> None:
@@ -316,7 +316,7 @@ class Net:
                 labels = PointRef(letter, sides[0]), PointRef(letter, sides[1])
                 way = edge.direction
                 if edge.weld is not None:
-                    way = Direction("square", (edge.weld.pair.point, letter))  # type: ignore[union-attr]
+                    way = Direction("square", (edge.weld.pair.point, letter))
                 self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=way))
                 left.remove(edge)
                 grown = True
@@ -363,7 +363,7 @@ def _near(
     for c in joined.contacts:
         for side in c.links:
             on[side].add(c.name)
-    touching = [(p.a, p.b) for p in joined.pairs if isinstance(p, Slide)] + [(w.a, w.b) for w in joined.welds]
+    touching = [(p.a, p.b) for p in joined.pairs if not p.turns] + [(w.a, w.b) for w in joined.welds]
     touching += joined.contours
     for _ in range(2):
         shared = [(a, b, on[a] | on[b]) for a, b in touching]
@@ -441,12 +441,12 @@ def joined_at_contacts(group: Joined, contacts: Sequence[PlacedContact]) -> Join
     return replace(group, inside=inside, pairs=pairs, contacts=tuple(contacts))
 
 
-def _past(pairs: Sequence[Pair], gone: Collection[str]) -> Iterator[Turn]:
+def _past(pairs: Sequence[Pair], gone: Collection[str]) -> Iterator[Pair]:
     """Turning pairs of links that only what is gone joins at a point."""
     around: dict[str, list[str]] = {}
     for pair in pairs:
-        if isinstance(pair, Turn) and (pair.a in gone or pair.b in gone):
+        if pair.turns and (pair.a in gone or pair.b in gone):
             around.setdefault(pair.point, []).extend(n for n in (pair.a, pair.b) if n not in gone)
     for point, names in around.items():
         for one, two in pairwise(dict.fromkeys(names)):
-            yield Turn(point, one, two)
+            yield Pair(point, one, two)

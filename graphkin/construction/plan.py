@@ -41,7 +41,6 @@ from graphkin.structure import (
     Dyad,
     Element,
     Rolled,
-    Slide,
     Structure,
     analyse,
     links_of,
@@ -358,7 +357,7 @@ class TriangleDrawn:
         t = self.triangle
         names = (t.held, t.links[0], t.driver.key)
         value, rate, second = self.value, self.rate, self.second
-        turns = not isinstance(t.pair, Slide)
+        turns = t.pair.turns
         return (
             ("mechanism", HeldStill(*names, "angle" if turns else "travel", value)),
             ("velocity", HeldStill(*names, "omega" if turns else "velocity", rate)),
@@ -384,7 +383,7 @@ def _drawn_apart(
 
 def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float]:
     pair, other = inversion.triangle.pair, inversion.triangle.links[0]
-    if not isinstance(pair, Slide):
+    if pair.turns:
         return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
     # the other link cannot turn on the held one: all its points move alike
     along = polygons.paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)

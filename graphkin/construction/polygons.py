@@ -27,7 +27,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Dyad, Slide, Structure
+from graphkin.structure import Cluster, Dyad, Pair, Structure
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -115,7 +115,7 @@ class Polygons:
         """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
         return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
 
-    def guide_names(self, slide: Slide) -> tuple[str, ...]:
+    def guide_names(self, slide: Pair) -> tuple[str, ...]:
         """How the direction of a guide is written: by two letters on it, else by its name."""
         start = self.paper.place(slide.b, slide.guide.through)
         along = self.paper.poses[slide.b].axis * slide.guide.direction

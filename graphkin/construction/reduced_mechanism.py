@@ -18,18 +18,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, trave
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.structure import (
-    Cluster,
-    Driven,
-    Dyad,
-    RollingRelation,
-    Slide,
-    Structure,
-    Turn,
-    links_of,
-    regrouped,
-    unrolled,
-)
+from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure, links_of, regrouped, unrolled
 from graphkin.words import Phrase
 
 __all__ = ["ReducedMechanism", "RemovedConstraint", "clusters", "reduced_mechanisms"]
@@ -206,7 +195,7 @@ def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iter
 
 def _within(structure: Structure, cluster: Cluster, point: str, name: str) -> str:
     """The link to which a hinge joins a link of a group: one of the group, or one known before; "" if none."""
-    pairs = [p for p in cluster.pairs if isinstance(p, Turn) and p.point == point]
+    pairs = [p for p in cluster.pairs if p.turns and p.point == point]
     others = [n for p in pairs for n in (p.a, p.b) if n != name]
     return next((n for n in structure.hinges[point] if n in others), "")
 
@@ -265,7 +254,7 @@ def _trials(structure: Structure, cluster: Cluster, gone: set[str], known: set[s
         yield Driver(wheel, block, 0.0, 0.0, 0.0)
     pairs = [p for p in cluster.pairs if not gone & {p.a, p.b}]
     for pair in sorted(pairs, key=lambda p: not known & {p.a, p.b}):
-        if isinstance(pair, Turn):
+        if pair.turns:
             if pair.a not in driven and not {pair.a, pair.b} & blocks:
                 yield Driver(pair.a, pair.b, 0.0, 0.0, 0.0)
         elif pair.key not in driven:
@@ -286,8 +275,8 @@ class RemovedConstraint:
 
     left_out: str
     ends: tuple[tuple[str, str], ...] = ()
-    slide: Slide | None = None
-    second: Slide | None = None
+    slide: Pair | None = None
+    second: Pair | None = None
     driver: Driver | None = None
     rolling: RollingRelation | None = None
 
@@ -397,7 +386,7 @@ class RemovedConstraint:
             return poses[self.slide.b].axis * self.slide.guide.direction
         return poses[self.slide.a].axis * self.slide.turn.conjugate()
 
-    def _turned(self, poses: Poses, slide: Slide | None) -> complex:
+    def _turned(self, poses: Poses, slide: Pair | None) -> complex:
         """Direction of the link left out, from the link on which it slides or that slides on it."""
         assert slide is not None
         turn = slide.guide.direction * slide.turn
@@ -405,7 +394,7 @@ class RemovedConstraint:
             return poses[slide.b].axis * turn
         return poses[slide.a].axis * turn.conjugate()
 
-    def _track(self, poses: Poses, slide: Slide, axis: complex, mm: float) -> tuple[complex, complex]:
+    def _track(self, poses: Poses, slide: Pair, axis: complex, mm: float) -> tuple[complex, complex]:
         """The line on which the origin of the link left out lies by a sliding pair."""
         if slide.a == self.left_out:
             rail = poses[slide.b]

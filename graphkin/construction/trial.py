@@ -24,7 +24,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.model import Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Slide, Structure, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, links_of, pick
 from graphkin.words import Phrase
 
 __all__ = ["Known", "all_fits", "as_sketched", "fits_between", "found_by_trial"]
@@ -157,7 +157,7 @@ def _without_twins(
 ) -> list[dict[str, Pose]]:
     """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
     one where what slides lies on the positive side."""
-    slides = [p for p in cluster.pairs if isinstance(p, Slide) and p.a in cluster.members and p.b in cluster.members]
+    slides = [p for p in cluster.pairs if not p.turns and p.a in cluster.members and p.b in cluster.members]
 
     def positive(poses: Poses) -> float:
         ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - paper.mm * s.guide.through for s in slides)
@@ -418,7 +418,7 @@ class _Sketch:
         self, structure: Structure, cluster: Cluster, known: PlacedLinks, places: Mapping[str, complex]
     ) -> None:
         self.members, self.places = cluster.members, places
-        self.slides = [p for p in cluster.pairs if isinstance(p, Slide)]
+        self.slides = [p for p in cluster.pairs if not p.turns]
         self.points = {n: {p: z * known.mm for p, z in link.points.items()} for n, link in structure.links.items()}
         self.mm = known.mm
         # links whose directions tell each other's: the second's is the first's times this

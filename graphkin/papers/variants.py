@@ -73,7 +73,7 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     found: list[Symbol] = []
     last = next((e for e in reversed(structure.elements) if not isinstance(e, Driven)), None)
     if last is not None:
-        names = [getattr(p, "point", None) or getattr(p, "pin", None) for p in _joints(last)]
+        names = [p.point or p.pin for p in _joints(last)]
         known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
         rolled = {e.link for e in structure.elements if isinstance(e, Driven) and e.driver.rolls}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}

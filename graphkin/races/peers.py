@@ -18,7 +18,7 @@ from graphkin.races.timing import Entry, Skipped, best_time
 from graphkin.races.work import FINE, Work
 from graphkin.scene.model import Driver
 from graphkin.solver.pose import Array
-from graphkin.structure import Driven, Dyad, Slide, Turn
+from graphkin.structure import Driven, Dyad
 
 if TYPE_CHECKING:
     from pylinkage.components import Component
@@ -121,7 +121,7 @@ class _Model:
 
         driver, frame = element.driver, self.work.scene.frame
         turns = isinstance(driver, Driver) and driver.turns and driver.relative_to == frame.name
-        if not turns or not isinstance(element.pair, Turn):
+        if not turns or not element.pair.turns:
             raise Skipped("one crank")
         points = self.structure.links[element.link].points
         pivot = points[element.pair.point]
@@ -177,13 +177,12 @@ class _Model:
         from pylinkage.dyads import RRRDyad
 
         one, two = dyad.outer_first, dyad.outer_second
-        assert isinstance(dyad.inner, Turn)
         inner = dyad.inner.point
-        reach = [self._length(body.links[0], getattr(pair, "point", ""), inner)
+        reach = [self._length(body.links[0], pair.point, inner)
                  for body, pair in zip(dyad.bodies, (one, two), strict=True)]
         here = self._here(inner)
         self._add(inner, RRRDyad(
-            anchor1=self._anchor(one.point), anchor2=self._anchor(two.point),  # type: ignore[union-attr]
+            anchor1=self._anchor(one.point), anchor2=self._anchor(two.point),
             distance1=reach[0], distance2=reach[1], x=here.real, y=here.imag, name=inner,
         ))  # fmt: skip
 
@@ -196,11 +195,8 @@ class _Model:
         from pylinkage.dyads import RRPDyad
 
         slide, frame = dyad.outer_second, self.work.scene.frame
-        assert isinstance(slide, Slide)
         if slide.b != frame.name:
             raise Skipped("group", "RRP")
-        assert isinstance(dyad.inner, Turn)
-        assert isinstance(dyad.outer_first, Turn)
         inner = dyad.inner.point
         here = self._here(inner)
         link = dyad.second.links[0]
@@ -219,9 +215,6 @@ class _Model:
         from pylinkage.dyads import FixedDyad
 
         one, two, slide = dyad.outer_first, dyad.outer_second, dyad.inner
-        assert isinstance(one, Turn)
-        assert isinstance(two, Turn)
-        assert isinstance(slide, Slide)
         sliding, guiding = self.structure.links[slide.a], self.structure.links[slide.b]
         inner = guiding.points[two.point] - slide.guide.through
         if abs((inner * slide.guide.direction.conjugate()).imag) > 1e-12 or abs(sliding.points[one.point]) > 1e-12:

@@ -23,7 +23,6 @@ from graphkin.structure import (
     Driven,
     Dyad,
     Rolled,
-    Slide,
     Structure,
     in_stages,
     links_of,
@@ -354,7 +353,7 @@ def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Ar
             same = same or far < SAME
         if not same:
             rows.append(r)
-    slides = tuple(p for p in group.pairs if isinstance(p, Slide) and p.a in names and p.b in names)
+    slides = tuple(p for p in group.pairs if not p.turns and p.a in names and p.b in names)
     posed = Posed(structure, solved.poses, slides)
 
     def positive(row: int) -> float:

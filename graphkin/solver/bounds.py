@@ -414,5 +414,5 @@ def _bases(element: Driven | Dyad) -> list[str]:
         if element.driver.turns:
             found += [n for n in (element.driver.link, element.driver.relative_to) if n != element.link]
         return found
-    bodies = zip((element.outer_first, element.outer_second), element.bodies, strict=True)
+    bodies = zip(element.outer, element.bodies, strict=True)
     return [_base(pair, body.links) for pair, body in bodies]

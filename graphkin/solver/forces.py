@@ -25,7 +25,7 @@ from graphkin.solver.cams import contact_of
 from graphkin.solver.linear_blocks import LinearBlocks
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
-from graphkin.structure import Slide, Structure
+from graphkin.structure import Pair, Structure
 
 __all__ = [
     "Action", "Forces", "PairForce", "actions", "balances", "forces_of", "pair_forces", "spring_ends", "without_line",
@@ -144,10 +144,10 @@ class _Pairs:
         along = 1j * np.asarray(self.motion.poses[link].u) if balance.square else balance.turn
         return PairForce(f"F_{link}", frame, link, along, at)
 
-    def _foot(self, slide: Slide) -> complex:
+    def _foot(self, slide: Pair) -> complex:
         return self.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
 
-    def _square(self, slide: Slide) -> complex | Array:
+    def _square(self, slide: Pair) -> complex | Array:
         """Direction square to a guide, to its left."""
         if slide.b == self.scene.frame.name:
             return 1j * slide.guide.direction

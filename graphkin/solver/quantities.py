@@ -19,7 +19,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import Array, Pose, R, V
-from graphkin.structure import Cluster, Dyad, Slide, Structure, links_of
+from graphkin.structure import Cluster, Dyad, Pair, Structure, links_of
 from graphkin.structure.transmission import (
     TransmissionAngle,
     joint_between,
@@ -50,7 +50,7 @@ class Posed(Generic[V, R]):
 
     structure: Structure
     poses: Mapping[str, Pose[V, R]]
-    slides: tuple[Slide, ...]
+    slides: tuple[Pair, ...]
     number: Callable[..., V] | None = None
     angle: Callable[[V], R] = _angle  # type: ignore[assignment]
 
@@ -99,13 +99,13 @@ class Posed(Generic[V, R]):
         place = self.link(link).points[ref.point]
         return self.pose(link).fixed(self.number("point", link, ref.point) if self.number else place)
 
-    def guide(self, slide: Slide) -> Pose[V, R]:
+    def guide(self, slide: Pair) -> Pose[V, R]:
         """The guide of a sliding pair, its x axis along the guide's sense."""
         if self.number:
             return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
         return self.poses[slide.b].fixed(slide.guide.through, slide.guide.direction)
 
-    def travel(self, slide: Slide) -> R:
+    def travel(self, slide: Pair) -> R:
         """Of a sliding pair, along the guide's sense (m)."""
         guide = self.guide(slide)
         return ((self.poses[slide.a].z - guide.z) * guide.u.conjugate()).real  # type: ignore[no-any-return]
@@ -324,7 +324,7 @@ def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array
     )
 
 
-def _example(symbol: Symbol, slides: Iterable[Slide]) -> Phrase:
+def _example(symbol: Symbol, slides: Iterable[Pair]) -> Phrase:
     pair = next((s for s in slides if s.pin), None)
     if pair is None:
         return Phrase("nothing slides here")

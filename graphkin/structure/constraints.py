@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
-from graphkin.structure.model import Mobility, Slide
+from graphkin.structure.model import Mobility, Pair
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of
 
@@ -24,7 +24,7 @@ class Constraints:
         links: dict[str, PlacedLink] = {scene.frame.name: scene.frame}
         links.update({link.name: link for link in scene.links if not link.redundant})
         slides = [
-            Slide(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
+            Pair(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
             for s in scene.slidings
             if s.link in links and s.on in links
         ]
@@ -32,7 +32,7 @@ class Constraints:
             if pin.of not in links or pin.on not in links:
                 continue
             links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
-            slides.append(Slide(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
+            slides.append(Pair(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
         self.contacts = tuple(c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys())
         self.gears = tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys())
         for contact in self.contacts:

@@ -23,7 +23,6 @@ from graphkin.structure.model import (
     Element,
     Pair,
     RollingRelation,
-    Turn,
     Weld,
     driver_pair,
 )
@@ -173,9 +172,9 @@ def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pai
         base = [n for n in names if n in known]
         mine.sort(key=lambda n: system.place(("link", n)))
         if base:
-            found += [Turn(point, n, base[0]) for n in mine]
+            found += [Pair(point, n, base[0]) for n in mine]
         else:
-            found += [Turn(point, b, a) for a, b in pairwise(mine)]
+            found += [Pair(point, b, a) for a, b in pairwise(mine)]
     inside = set(members)
     found += [s for s in system.slides if {s.a, s.b} & inside and {s.a, s.b} <= inside | known]
     return found
@@ -224,7 +223,7 @@ def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tup
     hinged: set[tuple[str, int]] = set()
     for pair in pairs:
         sides = [i for i, body in enumerate(bodies) if pair.a in body.links or pair.b in body.links]
-        if isinstance(pair, Turn):
+        if pair.turns:
             # links held together by a driver at this very point hang on it once
             if (pair.point, sum(1 << i for i in sides)) in hinged:
                 continue
@@ -236,7 +235,7 @@ def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tup
     if len(inner) != 1 or len(outer[0]) != 1 or len(outer[1]) != 1:
         return None
     middle, first, second = inner[0], outer[0][0], outer[1][0]
-    known = _KINDS.get(_letter(first) + _letter(middle) + _letter(second))
+    known = _KINDS.get(first.letter + middle.letter + second.letter)
     if known is None:
         return None
     kind, begins = known
@@ -253,10 +252,6 @@ def _dyad(system: Constraints, bodies: list[Body], pairs: list[Pair], links: tup
     if swap:
         one, two, first, second = two, one, second, first
     return Dyad(kind, one, two, middle, first, second, links)
-
-
-def _letter(pair: Pair) -> str:
-    return "R" if isinstance(pair, Turn) else "P"
 
 
 def _rolls_like_a_dyad(

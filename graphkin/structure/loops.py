@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from graphkin.errors import CallError, Problem
-from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn
+from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["Arrow", "Loop", "Unknown", "angle_of", "loops_of"]
@@ -165,7 +165,7 @@ def _known_way(structure: Structure, start: str, end: str, known: list[Edge]) ->
         return []
     came: dict[str, tuple[str, Pair, str]] = {}
     queue, seen = [start], {start}
-    shared = [(a, b, Turn(p, a, b)) for p, names in structure.hinges.items() for a in names for b in names if a < b]
+    shared = [(a, b, Pair(p, a, b)) for p, names in structure.hinges.items() for a in names for b in names if a < b]
     placed = {n for a, b, _ in known for n in (a, b)} | {structure.scene.frame.name}
     edges = [*known, *((a, b, pair) for a, b, pair in shared if {a, b} <= placed)]
     while queue:
@@ -200,7 +200,7 @@ def _oriented(structure: Structure, steps: list[tuple[str, Pair, str]]) -> Cycle
 
 def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
     """Where a pair is on a link, and the name of the point there."""
-    if isinstance(pair, Turn):
+    if pair.turns:
         return structure.links[link].points[pair.point], pair.point
     if link == pair.a:
         return 0j, pair.pin or ""
@@ -212,17 +212,17 @@ def _place(structure: Structure, link: str, pair: Pair) -> tuple[complex, str]:
 def _arrows(structure: Structure, cycle: Cycle) -> tuple[Arrow, ...]:
     found: list[Arrow] = []
     for link, into, out in cycle:
-        if isinstance(into, Slide) and link == into.b:  # from what slides back to the guide's origin
+        if not into.turns and link == into.b:  # from what slides back to the guide's origin
             found.append(_travel(structure, into, -1.0))
         (start, one), (end, two) = _place(structure, link, into), _place(structure, link, out)
         if abs(end - start) > 1e-12 * structure.scene.size:
             found.append(Arrow(link, end - start, (one, two)))
-        if isinstance(out, Slide) and link == out.b:
+        if not out.turns and link == out.b:
             found.append(_travel(structure, out, 1.0))
     return _named(found)
 
 
-def _travel(structure: Structure, slide: Slide, sign: float) -> Arrow:
+def _travel(structure: Structure, slide: Pair, sign: float) -> Arrow:
     _, start = _place(structure, slide.b, slide)
     names = (start, slide.pin or "")
     return Arrow(slide.b, sign * slide.guide.direction, names if sign > 0 else names[::-1], slide.key)

@@ -28,9 +28,7 @@ __all__ = [
     "Pair",
     "Rolled",
     "RollingRelation",
-    "Slide",
     "Structure",
-    "Turn",
     "Weld",
     "driver_pair",
     "links_of",
@@ -38,33 +36,54 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class Turn:
-    """A turning pair at ``point`` between link ``a`` and link ``b``."""
-
-    point: str
-    a: str
-    b: str
+NO_GUIDE = PlacedGuide("", 0j, 0j)
+"""Where a pair has no direction in which it slides: it turns."""
 
 
 @dataclass(frozen=True)
-class Slide:
-    """A sliding pair: link ``a`` slides by its own origin on ``guide`` of link ``b``.
+class Pair:
+    """A lower pair of the links ``a`` and ``b``: both turn about a point, or ``a`` slides by its origin on ``b``.
 
-    ``turn`` is the unit complex number from the guide's sense to a's own x axis.  ``pin`` names a's first point,
-    if it has one; ``slot`` is true where the block only stands for a pin in a slot.
+    Parameters
+    ----------
+    key : the point of a turning pair; SLIDING/GUIDING of a sliding one, POINT/GUIDING of a pin in a slot
+    guide : of link b, along which a slides
+    turn : unit complex number from the guide's sense to a's own x axis
+    pin : a's first point, if it has one
+    slot : whether the block ``a`` only stands for a pin in a slot
     """
 
     key: str
     a: str
     b: str
-    guide: PlacedGuide
-    turn: complex
-    pin: str | None
+    guide: PlacedGuide = NO_GUIDE
+    turn: complex = 1 + 0j
+    pin: str | None = None
     slot: bool = False
 
+    @property
+    def turns(self) -> bool:
+        """Whether it is a turning pair, not a sliding one."""
+        return not self.guide.direction
 
-Pair = Turn | Slide
+    @property
+    def links(self) -> tuple[str, str]:
+        """Both links."""
+        return self.a, self.b
+
+    @property
+    def point(self) -> str:
+        """The point about which both links turn, "" of a sliding pair."""
+        return self.key if self.turns else ""
+
+    @property
+    def letter(self) -> str:
+        """R for turning (revolute), P for sliding (prismatic)."""
+        return "R" if self.turns else "P"
+
+    def other(self, link: str) -> str:
+        """The link that it joins to one of its links."""
+        return self.b if link == self.a else self.a
 
 
 @dataclass(frozen=True)
@@ -167,7 +186,7 @@ class Dyad:
     images PRR and PPR are turned so that ``first`` is the body with two turning pairs (RRP) or with the outer turning
     pair (RPP).  In RRR and PRP ``first`` is the body whose outer pair is on the link written first; in RPR ``first`` is
     the sliding one.  In ``outer_first`` and ``outer_second`` a turning pair has ``a`` in the body and ``b`` known; a
-    slide has its own direction (see ``Slide``), either side may be the known one.
+    slide has its own direction (see ``Pair``), either side may be the known one.
     ``links`` are the real links of the group in the order of the file.
     """
 
@@ -187,6 +206,11 @@ class Dyad:
     def outer(self) -> tuple[Pair, Pair]:
         """The outer pairs of both bodies."""
         return self.outer_first, self.outer_second
+
+    @property
+    def pairs(self) -> tuple[Pair, Pair, Pair]:
+        """The outer pair of the first body, the inner one, the outer pair of the second."""
+        return self.outer_first, self.inner, self.outer_second
 
     @property
     def is_two_lines(self) -> bool:
@@ -291,7 +315,7 @@ class Structure:
 
     scene: Mechanism
     links: Mapping[str, PlacedLink]
-    slides: tuple[Slide, ...]
+    slides: tuple[Pair, ...]
     hinges: Mapping[str, tuple[str, ...]]
     mobility: Mobility
     elements: tuple[Element, ...]
@@ -359,14 +383,14 @@ class Structure:
                          if not on.isdisjoint(found) for n in links_of(e))  # fmt: skip
         return frozenset(found)
 
-    def slide(self, key: str) -> Slide:
+    def slide(self, key: str) -> Pair:
         """The sliding pair or pin in slot of that name."""
         return next(s for s in self.slides if s.key == key)
 
 
-def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Slide, ...]) -> Pair | None:
+def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Pair, ...]) -> Pair | None:
     """The pair at which a driver acts; None for an angle between links that no turning pair joins."""
     if driver.slide:
         return next(s for s in slides if s.key == driver.slide)
     common = [p for p in links[driver.link].points if p in links[driver.relative_to].points]
-    return Turn(common[0], driver.link, driver.relative_to) if common else None
+    return Pair(common[0], driver.link, driver.relative_to) if common else None

@@ -23,13 +23,13 @@ from graphkin.plane import cross, unit
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.contacts import PlacedContact, PlacedDisc
 from graphkin.scene.model import CircularSlot, Mechanism, PinInSlot, PlacedGuide, PlacedLink
-from graphkin.structure.model import Dyad, Slide, Structure
+from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["cams_replaced", "named_with_contact", "pins_on_circles", "replacement_told", "replacing_link", "with_cams"]
 
 
-def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Slide | None]:
+def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
     own = {"": PlacedGuide("", 0j, 1 + 0j)}
@@ -50,7 +50,7 @@ def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> t
     along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.radius)
     places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
     block = PlacedLink(contact.block, places, (disc.centre,), own)
-    return block, Slide(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+    return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
 
 
 def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex]]) -> Mechanism:

@@ -22,7 +22,7 @@ from graphkin.plane import added_up
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.touching import rack_place
-from graphkin.structure.model import Cluster, Coordinate, Pair, Rolled, RollingRelation, Slide, Structure, Turn
+from graphkin.structure.model import Cluster, Coordinate, Pair, Rolled, RollingRelation, Structure
 
 __all__ = ["Mesh", "drawn_angle", "followers_of", "meshes_of", "relations_of", "rolled_by", "start_drivers", "unrolled"]
 
@@ -148,7 +148,7 @@ class _Rows:
 
 
 def followers_of(
-    scene: Mechanism, relations: Sequence[RollingRelation], links: Mapping[str, PlacedLink], slides: Sequence[Slide]
+    scene: Mechanism, relations: Sequence[RollingRelation], links: Mapping[str, PlacedLink], slides: Sequence[Pair]
 ) -> tuple[tuple[Driver, ...], tuple[RollingRelation, ...]]:
     """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
     left, between coordinates that also depend on lengths."""
@@ -191,7 +191,7 @@ def _angles(frame: str, one: str, two: str) -> dict[Unknown, Fraction]:
 
 def _follower(
     scene: Mechanism, coordinate: Coordinate, ratios: tuple[float, ...], through: tuple[str, ...],
-    links: Mapping[str, PlacedLink], slides: Sequence[Slide],
+    links: Mapping[str, PlacedLink], slides: Sequence[Pair],
 ) -> Driver:
     kind, name = coordinate
     rate, second = (added_up(r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)) for k in (1, 2))
@@ -214,7 +214,7 @@ def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
 
 def rolled_by(scene: Mechanism, relation: RollingRelation, member: str, pair: Pair) -> Rolled | None:
     """What moves a link that one pair joins to known links, by a relation to them; None where it does not."""
-    own: Coordinate = ("angle", member) if isinstance(pair, Turn) else ("travel", pair.key)
+    own: Coordinate = ("angle", member) if pair.turns else ("travel", pair.key)
     if own not in relation.terms or (own[0] == "travel" and ("angle", member) in relation.terms):
         return None
     factor = relation.terms[own]

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from graphkin.errors import CallError, Problem
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
-from graphkin.structure.model import Cluster, Dyad, Slide, Structure, Turn
+from graphkin.structure.model import Cluster, Dyad, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["TransmissionAngle", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
@@ -42,11 +42,11 @@ class TransmissionAngle:
     square: bool = False
 
 
-def _guide(slide: Slide) -> Way:
+def _guide(slide: Pair) -> Way:
     return (slide.b, 0j), (slide.b, slide.guide.direction)
 
 
-def _spot(structure: Structure, turn: Turn) -> Spot:
+def _spot(structure: Structure, turn: Pair) -> Spot:
     return turn.a, structure.links[turn.a].points[turn.point]
 
 
@@ -59,16 +59,15 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
             if joint is not None:
                 return joint
     inner, one, two = dyad.inner, dyad.outer_first, dyad.outer_second
-    if isinstance(inner, Turn):
+    if inner.turns:
         here = _spot(structure, inner)
         first, second = (
-            (_spot(structure, pair), here) if isinstance(pair, Turn) else _guide(pair) for pair in (one, two)
+            (_spot(structure, pair), here) if pair.turns else _guide(pair) for pair in (one, two)
         )
-        return TransmissionAngle(first, second, isinstance(one, Turn) != isinstance(two, Turn))
-    if isinstance(one, Turn) and isinstance(two, Turn):
+        return TransmissionAngle(first, second, one.turns != two.turns)
+    if one.turns and two.turns:
         return TransmissionAngle(_guide(inner), (_spot(structure, two), _spot(structure, one)), True)
-    other = two if isinstance(two, Slide) else one
-    assert isinstance(other, Slide)
+    other = two if not two.turns else one
     return TransmissionAngle(_guide(inner), _guide(other))
 
 
@@ -152,7 +151,7 @@ def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> Tran
     return TransmissionAngle(normal, ((name, link.points[pivot]), (block, replacing_link.points[contact.name])))
 
 
-def sliding_pair(structure: Structure, symbol: Symbol) -> Slide:
+def sliding_pair(structure: Structure, symbol: Symbol) -> Pair:
     """The sliding pair or pin in slot that a symbol names.  Raises CallError where there is none."""
     found = next((s for s in structure.slides if s.key == symbol.pair), None)
     if found is None:

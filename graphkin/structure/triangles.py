@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.structure.model import Cluster, DrivenTriangle, Pair, Slide, Turn
+from graphkin.structure.model import Cluster, DrivenTriangle, Pair
 
 __all__ = ["triangles_of"]
 
@@ -27,21 +27,21 @@ class _Joints:
     def of(self, link: str, besides: Pair) -> list[tuple[Pair, tuple[str, ...]]]:
         """The pairs of a link besides one, each with the members of the group on its other side."""
         found: list[tuple[Pair, tuple[str, ...]]] = []
-        points = {p.point for p in self.cluster.pairs if isinstance(p, Turn) and p.point in self.links[link].points}
+        points = {p.point for p in self.cluster.pairs if p.turns and p.point in self.links[link].points}
         for point in sorted(points):
             others = tuple(n for n in self.hinges[point] if n != link and n in self.cluster.members)
-            found.append((Turn(point, link, others[0] if others else ""), others))
+            found.append((Pair(point, link, others[0] if others else ""), others))
         for pair in self.cluster.pairs:
-            if isinstance(pair, Slide) and pair != besides and link in (pair.a, pair.b):
+            if not pair.turns and pair != besides and link in (pair.a, pair.b):
                 other = pair.b if pair.a == link else pair.a
                 found.append((pair, (other,) if other in self.cluster.members else ()))
         return found
 
     def between(self, one: str, two: str) -> list[Pair]:
         found: list[Pair] = [
-            Turn(point, two, one) for point, names in self.hinges.items() if one in names and two in names
+            Pair(point, two, one) for point, names in self.hinges.items() if one in names and two in names
         ]
-        return found + [p for p in self.cluster.pairs if isinstance(p, Slide) and {p.a, p.b} == {one, two}]
+        return found + [p for p in self.cluster.pairs if not p.turns and {p.a, p.b} == {one, two}]
 
 
 def triangles_of(
@@ -51,7 +51,7 @@ def triangles_of(
     joints = _Joints(cluster, links, hinges)
     found = []
     for driver in cluster.drivers:
-        slide = next((p for p in cluster.pairs if isinstance(p, Slide) and p.key == driver.key), None)
+        slide = next((p for p in cluster.pairs if not p.turns and p.key == driver.key), None)
         if not driver.turns and slide is not None and {slide.a, slide.b} <= set(cluster.members):
             triangle = _triangle(joints, slide, driver, taken)
             if triangle is not None:
@@ -60,7 +60,7 @@ def triangles_of(
     return found
 
 
-def _triangle(joints: _Joints, slide: Slide, driver: Driver, taken: set[str]) -> DrivenTriangle | None:
+def _triangle(joints: _Joints, slide: Pair, driver: Driver, taken: set[str]) -> DrivenTriangle | None:
     one, two = joints.of(slide.a, slide), joints.of(slide.b, slide)
     if len(one) != 1 or len(two) != 1:
         return None
@@ -78,6 +78,6 @@ def _triangle(joints: _Joints, slide: Slide, driver: Driver, taken: set[str]) ->
 
 
 def _equivalent_driver(pair: Pair, held: str, other: str) -> Driver:
-    if isinstance(pair, Turn):
+    if pair.turns:
         return Driver(other, held, 0.0, 0.0, 0.0)
     return Driver(pair.a, pair.b, 0.0, 0.0, 0.0, pair.key)

@@ -19,7 +19,7 @@ from graphkin.plane import Values
 from graphkin.solver import Motion
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Slide, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure
 
 __all__ = ["DOUBLES", "Arithmetic", "Equations", "Solution", "solve_many"]
 
@@ -151,7 +151,7 @@ class Equations:
 
         for n, pair in enumerate(self.pairs):
             i, (a, b) = 2 * n, (pair.a, pair.b)
-            if isinstance(pair, Turn):
+            if pair.turns:
                 sides = [(name, sign, *self._arm(x, name, pair.point)) for name, sign in ((a, 1), (b, -1))]
                 for name, sign, place_x, place_y, rx, ry in sides:
                     open_[i] = open_[i] + sign * (place_x + rx)
@@ -190,7 +190,7 @@ class Equations:
         p = self.structure.links[name].points[point]
         return place_x, place_y, c * p.real - s * p.imag, s * p.real + c * p.imag
 
-    def _guide(self, x: Array, pair: Slide) -> tuple[Values, ...]:
+    def _guide(self, x: Array, pair: Pair) -> tuple[Values, ...]:
         """Direction g of a guide, and g x e and g . e for the way e from its link's origin to the sliding link's."""
         ax, ay, _, _ = self._link(x, pair.a)
         bx, by, c, s = self._link(x, pair.b)
@@ -213,14 +213,14 @@ class Equations:
         def speed(name: str) -> tuple[Values, Values]:
             return (rate[self.column[name]], rate[self.column[name] + 1]) if name in self.column else (0.0, 0.0)
 
-        def guided(pair: Slide) -> tuple[Values, ...]:
+        def guided(pair: Pair) -> tuple[Values, ...]:
             gx, gy, over, along = self._guide(x, pair)
             (ax, ay), (bx, by), w = speed(pair.a), speed(pair.b), spin(pair.b)
             return gx, gy, over, along, ax - bx, ay - by, w
 
         for n, pair in enumerate(self.pairs):
             i = 2 * n
-            if isinstance(pair, Turn):
+            if pair.turns:
                 for name, sign in ((pair.a, 1), (pair.b, -1)):
                     _, _, rx, ry = self._arm(x, name, pair.point)
                     right[i] = right[i] + sign * spin(name) ** 2 * rx

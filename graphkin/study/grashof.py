@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
-from graphkin.structure import Dyad, DyadKind, Pair, Slide, Structure, Turn
+from graphkin.structure import Dyad, DyadKind, Pair, Structure
 
 __all__ = ["BasicLoop", "loops"]
 
@@ -58,7 +58,7 @@ def _pivot(structure: Structure, link: str) -> str | None:
     return next((p for p in structure.links[link].points if p in frame), None)
 
 
-def _mate(structure: Structure, group: Dyad, joint: Turn) -> str:
+def _mate(structure: Structure, group: Dyad, joint: Pair) -> str:
     """The link outside a group at one of its outer pins: the frame, or one that is pivoted to the frame, if there are
     several."""
     frame = structure.scene.frame.name
@@ -81,9 +81,6 @@ def _four_bar(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
-    assert isinstance(one, Turn)
-    assert isinstance(two, Turn)
-    assert isinstance(inner, Turn)
     coupler, rocker = group.first.links[0], group.second.links[0]
     if _mate(structure, group, one) == frame:
         one, two, coupler, rocker = two, one, rocker, coupler
@@ -132,9 +129,6 @@ def _slider_crank(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
-    assert isinstance(one, Turn)
-    assert isinstance(two, Slide)
-    assert isinstance(inner, Turn)
     rod, slider = group.first.links[0], group.second.links[0]
     known = two.b if slider == two.a else two.a
     if slider != two.a:
@@ -164,7 +158,7 @@ def _slider_crank(structure: Structure, group: Dyad) -> BasicLoop | None:
     return None
 
 
-def _offset(structure: Structure, slide: Slide, pin: str, centre: complex) -> float:
+def _offset(structure: Structure, slide: Pair, pin: str, centre: complex) -> float:
     """Distance from a point of the guiding link to the line on which a pin of the sliding link runs."""
     turned = slide.guide.direction * slide.turn
     at = slide.guide.through + turned * structure.links[slide.a].points[pin]
@@ -206,9 +200,6 @@ def _inverted(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
     one, two, inner = group.outer_first, group.outer_second, group.inner
-    assert isinstance(one, Turn)
-    assert isinstance(two, Turn)
-    assert isinstance(inner, Slide)
     moving, fixed = (one, two) if _mate(structure, group, two) == frame else (two, one)
     crank = _mate(structure, group, moving)
     if _mate(structure, group, fixed) != frame or crank == frame:
@@ -237,15 +228,15 @@ def _inverted(structure: Structure, group: Dyad) -> BasicLoop | None:
     return BasicLoop("oscillating block", name, loop.links, lengths, loop.grashof, loop.turns)
 
 
-def _joint(one: Turn, two: Turn, link: str) -> str:
+def _joint(one: Pair, two: Pair, link: str) -> str:
     return one.point if one.a == link else two.point
 
 
 def _double_slider(structure: Structure, group: Dyad) -> BasicLoop | None:
     scene = structure.scene
     frame = scene.frame.name
-    pairs: tuple[Pair, ...] = (group.outer_first, group.inner, group.outer_second)
-    turns = [p for p in pairs if isinstance(p, Turn)]
+    pairs: tuple[Pair, ...] = group.pairs
+    turns = [p for p in pairs if p.turns]
     onto = {end for p in pairs for end in (p.a, p.b)} - set(group.links)
     if frame not in onto or len(onto) != 2:
         return None

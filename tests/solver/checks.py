@@ -80,10 +80,5 @@ def differences(scene: Mechanism, step: float = 1e-4) -> float:
 
 def slowed(scene: Mechanism, by: float) -> Mechanism:
     """The same with the drivers' rates multiplied, so that finite differences can see them."""
-    drivers = []
-    for d in scene.drivers:
-        _, rate, second = d.values
-        kind = "angle" if hasattr(d, "angle") else "travel"
-        names = ("omega", "alpha") if kind == "angle" else ("velocity", "acceleration")
-        drivers.append(replace(d, **{names[0]: rate * by, names[1]: second * by * by}))
+    drivers = (replace(d, rate=d.rate * by, second=d.second * by * by) for d in scene.drivers)
     return replace(scene, drivers=tuple(drivers))

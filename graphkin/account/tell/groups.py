@@ -33,7 +33,7 @@ from graphkin.construction.polygon_acts import SeenFrom, Superposed, TrialDrawn
 from graphkin.construction.sheet import Sheet, phrase_of
 from graphkin.construction.strokes import Aid
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Slide
+from graphkin.structure import Pair
 from graphkin.words import Neutral, Phrase, languages, listed
 from graphkin.words.rich_text import Markup
 from graphkin.words.written import in_markup, on_paper, true_minus
@@ -279,7 +279,7 @@ def _missed(sheet: Sheet, missed: Missed) -> Phrase:
     return Phrase(f"missed {missed.kind}", (named, on_paper(missed.length)))
 
 
-def _along_guide(slide: Slide, points: Mapping[str, complex]) -> str:
+def _along_guide(slide: Pair, points: Mapping[str, complex]) -> str:
     """The outermost points on a guide, in its sense, else its name; "" where it has neither."""
     guide = slide.guide
     off = {p: (z - guide.through) * guide.direction.conjugate() for p, z in points.items()}

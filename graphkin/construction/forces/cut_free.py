@@ -24,7 +24,7 @@ from graphkin.construction.sizes import Direction
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Pair, Slide
+from graphkin.structure import Pair
 from graphkin.words import Phrase
 
 __all__ = ["NORMAL", "TANGENT", "Chain", "CutFree", "across", "dead_point", "end_of", "guide_letters"]
@@ -104,7 +104,7 @@ class CutFree:
         """The force of a pin on a link, besides what hangs on it."""
         self.pins[point, link] += force
 
-    def set_slide(self, slide: Slide, force: complex, couple: float, inside: Iterable[str]) -> None:
+    def set_slide(self, slide: Pair, force: complex, couple: float, inside: Iterable[str]) -> None:
         """Force and couple of a sliding pair on the sliding link; they load the other link, if it comes later."""
         self.slides[slide.key] = force, couple
         symbol, turned, at = self.names.of_slide(slide), self.names.of_slide(slide, "M"), self.images.foot(slide)
@@ -221,11 +221,10 @@ class CutFree:
 def across(pair: Pair) -> Direction:
     """The direction of a sliding pair's force: square to the guide; of what touches along the normal, or the tangent of
     pitch circles."""
-    assert isinstance(pair, Slide)
     other = {NORMAL: TANGENT, TANGENT: NORMAL}.get(pair.guide.name.rstrip("'"))
     return Direction("square", guide_letters(pair)) if other is None else Direction("along", (other,))
 
 
-def guide_letters(pair: Slide) -> tuple[str, ...]:
+def guide_letters(pair: Pair) -> tuple[str, ...]:
     """A guide as its direction is written."""
     return (pair.guide.name or f"x{pair.b}",)

@@ -21,7 +21,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot, unit
 from graphkin.scene.loads import LinkMass, LoadOn, Phase, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Slide, Structure
+from graphkin.structure import Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["acting_loads", "from_outside", "inertias", "strokes_of_loads"]
@@ -91,7 +91,7 @@ def _on_stroke(sheet: Sheet, growing: Sheet, phase: Phase) -> bool | None:
     return running and phase.start < part < phase.end
 
 
-def _travel(slide: Slide, poses: Poses) -> float:
+def _travel(slide: Pair, poses: Poses) -> float:
     guide = poses[slide.b]
     return dot(poses[slide.a].origin - guide.origin, guide.axis * slide.guide.direction)
 

@@ -27,7 +27,7 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Slide, Structure, Turn, links_of, replacement_told
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Structure, links_of, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["FIGURES", "structure_figure"]
@@ -179,7 +179,7 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
         ]
         return say(Phrase("structure group", (
             ", ".join(links), "" if isinstance(element, Cluster) else f" {element.kind}", class_of(_order(element)),
-            ", ".join(map(_named, inner)), ", ".join(map(_named, outer)),
+            ", ".join(p.key for p in inner), ", ".join(p.key for p in outer),
         )), language)  # fmt: skip
     driver = element.driver
     if isinstance(driver, LawCam):
@@ -205,10 +205,6 @@ def _joints(element: Dyad | Cluster) -> tuple[list[Pair], list[Pair]]:
     own = set(element.members)
     inner = [p for p in element.pairs if {p.a, p.b} <= own]
     return inner, [p for p in element.pairs if not {p.a, p.b} <= own]
-
-
-def _named(pair: Pair) -> str:
-    return pair.point if isinstance(pair, Turn) else pair.key
 
 
 def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str, panel: Box) -> Piece:
@@ -254,7 +250,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
     numbered = {shape.link for shape in here.shapes if shape.longest}
     known = {b.slide.key: b for b in here.sliders}
     rolling = {contact.block for contact in here.scene.contacts if contact.rolling}  # their centres keep a distance
-    for slide in (pair for pair in (*inner, *outer) if isinstance(pair, Slide) and pair.key not in rolling):
+    for slide in (pair for pair in (*inner, *outer) if not pair.turns and pair.key not in rolling):
         stands = slide.key not in known or (slide.slot and slide.key in replaced_pairs(here.sheet))
         at = here.places[slide.pin] if stands and slide.pin else known[slide.key].at
         along = here.sheet.poses[slide.b].axis * slide.guide.direction
@@ -274,10 +270,10 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             numbered.add(slide.a)
             text = Text(0j, plain(slide.a, bold=True), "start", colour, classes=("label",))
             labels.append(Label(text, on_page(at), rank=1))
-    pins = {pair.point: strokes.WHITE for pair in outer if isinstance(pair, Turn)}
+    pins = {pair.point: strokes.WHITE for pair in outer if pair.turns}
     if any(isinstance(e, Driven) for e in elements):  # where groups hang on it
         pins |= {p: strokes.WHITE for n in links for p in structure.links[n].points if p in structure.hinges}
-    pins |= {pair.point: strokes.BLACK for pair in inner if isinstance(pair, Turn)}
+    pins |= {pair.point: strokes.BLACK for pair in inner if pair.turns}
     for point, fill in pins.items():
         if point in here.places:
             at = on_page(here.places[point])

@@ -24,7 +24,7 @@ from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import CircularSlot, Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Slide
+from graphkin.structure import Pair
 
 __all__ = [
     "GUIDE_LENGTH", "CamOnPaper", "CurvedSlot", "LinkShape", "MechanismOnPaper", "Slider",
@@ -44,7 +44,7 @@ FOOT = {-math.pi / 2: 0.0, 0.0: 0.5, math.pi: 0.5, math.pi / 2: 0.7}  # where fe
 class Slider:
     """A sliding pair on paper: where its block stands and along which direction, and whether a driver moves it."""
 
-    slide: Slide
+    slide: Pair
     at: complex
     along: complex
     driven: bool
