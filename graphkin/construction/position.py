@@ -23,17 +23,7 @@ from graphkin.construction.sheet import Board, Cause, Placing
 from graphkin.construction.strokes import Mark
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import (
-    Cluster,
-    Driven,
-    Dyad,
-    Element,
-    Structure,
-    Turn,
-    links_of,
-    named_with_contact,
-    pick,
-)
+from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, links_of, named_with_contact, pick
 from graphkin.words import Phrase
 
 __all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "start_board"]
@@ -228,7 +218,7 @@ def draw_position(
             story = meeting.tell(index)
             key = ", ".join(element.links)
             which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
-            assembly[key] = Phrase(which, _assembly_names(element))
+            assembly[key] = Phrase(which, tuple(pair.key for pair in element.pairs))
         found: set[str] = set()
         left = list(links_of(element))
 
@@ -268,20 +258,13 @@ def _mark_points(board: Board, structure: Structure, paper: PlacedLinks, name: s
 def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
     """How far the two points are apart that direct a guide."""
     one, two = dyad.outer_first, dyad.outer_second
-    if not isinstance(dyad.inner, Turn) and isinstance(one, Turn) and isinstance(two, Turn):
+    if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
         board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
 
 
 def _inner_name(dyad: Dyad) -> str | Phrase:
     """What the loci of a dyad find, for a remark."""
-    if isinstance(dyad.inner, Turn):
+    if dyad.inner.turns:
         return dyad.inner.point
     return Phrase("these links", (", ".join(dyad.links),))
-
-
-def _assembly_names(dyad: Dyad) -> tuple[object, ...]:
-    def name(pair: object) -> str:
-        return getattr(pair, "point", "") or getattr(pair, "key", "")
-
-    return name(dyad.outer_first), name(dyad.inner), name(dyad.outer_second)

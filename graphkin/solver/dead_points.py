@@ -300,7 +300,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         branch = not across > 1e-5 * abs(right_side)
         assert isinstance(group, Dyad)
         if group.is_slider_on_bar and abs(e2) < 1e-6 * scene.size:
-            first, second = (getattr(p, "point", "") for p in group.outer)
+            first, second = (p.point for p in group.outer)
             ending, branch = Phrase("have no direction of their own", first=first, second=second), True
         else:
             ending = dyad_words(group).dead

@@ -23,7 +23,7 @@ from graphkin.solver.expressions import Name
 from graphkin.solver.larger_groups import System, joint_place
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, rest
-from graphkin.structure import Driven, Pair, Rolled, RollingRelation, Structure, Turn
+from graphkin.structure import Driven, Pair, Rolled, RollingRelation, Structure
 
 __all__ = ["Rows", "bounds"]
 
@@ -92,7 +92,7 @@ def with_led_links(
         if not (isinstance(element, Driven) and isinstance(element.driver, LawCam | Rolled)):
             continue
         pair = element.pair
-        if isinstance(pair, Turn):
+        if pair.turns:
             pose = poses[element.link]
             led.append(LedLink(element, Driver(element.link, frame, 0.0, 0.0, 0.0)))
             columns.append((np.angle(pose.u), pose.omega, pose.alpha))
@@ -238,7 +238,7 @@ def _change(system: System, poses: Mapping[str, Pose], inverse: Array, error: Ar
         one, two = (poses[k].fixed(joint_place(system.structure, pair, k)[0]) for k in (pair.a, pair.b))
         arm, other = (np.abs(j.z - poses[k].z) / size for j, k in ((one, pair.a), (two, pair.b)))
         change += (arm * turn(pair.a)) ** 2 + (other * turn(pair.b)) ** 2
-        if not isinstance(pair, Turn):
+        if not pair.turns:
             far = np.abs(one.z - poses[pair.b].z) / size
             off = moved(pair.a) + moved(pair.b) + arm * turn(pair.a)
             # along the guide and across, as either may be a constraint
@@ -288,7 +288,7 @@ class Rows:
         size, structure = self.system.structure.scene.size, self.system.structure
         for pair in self.system.group.pairs:
             one, two = self._joint(pair, pair.a), self._joint(pair, pair.b)
-            if isinstance(pair, Turn):
+            if pair.turns:
                 gap = (one.error.of_point[order] + two.error.of_point[order]) / size
                 rows += [gap, gap]
             else:
@@ -359,7 +359,7 @@ class Rows:
         place, direction = joint_place(self.system.structure, pair, name)
         p, far = self.poses[name], abs(place)
         written, turned = 0.0, 0.0
-        if isinstance(pair, Turn):
+        if pair.turns:
             written = self.given(("error", "point", name, pair.point))
         elif name == pair.b:
             written = self.given(("error", "through", pair.key))

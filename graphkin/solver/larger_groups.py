@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.solver.drivers import Drive
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import FIELDS, UNIT, Array, Pose, rest, together, turned
-from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Slide, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure
 
 __all__ = ["ClusterSolved", "System", "as_place", "form_of", "joint_place", "solve_cluster"]
 
@@ -63,14 +63,14 @@ class Layout:
         self.link = {name: k for k, name in enumerate(self.names)}
         self.members = len(group.members)
         self.size = structure.scene.size
-        turns: list[tuple[int, Turn]] = []
-        lines: list[tuple[int, Slide, complex]] = []
+        turns: list[tuple[int, Pair]] = []
+        lines: list[tuple[int, Pair, complex]] = []
         slides: list[int] = []
         angles: list[tuple[int, str, str, int]] = []
         self.travels: list[tuple[int, int, int]] = []
         row = 0
         for pair in group.pairs:
-            if isinstance(pair, Turn):
+            if pair.turns:
                 turns.append((row, pair))
             else:
                 slides.append(row)
@@ -516,7 +516,7 @@ def as_place(poses: Mapping[str, Pose], names: tuple[str, ...]) -> Array:
 
 def joint_place(structure: Structure, pair: Pair, link: str) -> tuple[complex, complex]:
     """Origin and direction of the joint's frame in the axes of one of its links (at a sliding pair: of the guide)."""
-    if isinstance(pair, Turn):
+    if pair.turns:
         return structure.links[link].points[pair.point], 1 + 0j
     if link == pair.a:
         return 0j, pair.turn.conjugate()

@@ -29,18 +29,7 @@ from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import (
-    Cluster,
-    Driven,
-    Dyad,
-    Rolled,
-    Slide,
-    Structure,
-    analyse,
-    links_of,
-    mobility_of,
-    pick,
-)
+from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, analyse, links_of, mobility_of, pick
 from graphkin.structure.assembly import TOUCH
 from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase, Wording, clauses, listed
@@ -189,7 +178,7 @@ def _free_guides(structure: Structure) -> list[int]:
         own = {p for name in dyad.links for p in structure.links[name].points}
         known = {p for j in range(i) for n in links_of(structure.elements[j]) for p in structure.links[n].points}
         fresh = own - known - set(scene.frame.points)
-        if dyad.is_slider_on_bar and isinstance(dyad.inner, Slide) and fresh and not fresh & told and dyads[-1][0] > i:
+        if dyad.is_slider_on_bar and not dyad.inner.turns and fresh and not fresh & told and dyads[-1][0] > i:
             found.append(i)
     return found[:MOST]
 

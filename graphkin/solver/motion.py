@@ -23,7 +23,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.pose import Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, pole, value_of_symbol
-from graphkin.structure import Slide, Structure
+from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
 
@@ -82,7 +82,7 @@ class Motion:
     status: Array
     reasons: tuple[Wording, ...]
     poses: Mapping[str, Pose]
-    slides: tuple[Slide, ...]
+    slides: tuple[Pair, ...]
     assembly: tuple[Phrase, ...]
     bound: ErrorBound[Array]
     rough: tuple[Array, Array]
@@ -382,7 +382,7 @@ def centrode(motion: Motion, link: str) -> Centrode:
     return Centrode(np.asarray(fixed), np.asarray(moving), np.asarray(joined))
 
 
-def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str, str], ...]:
+def listed_points(scene: Mechanism, slides: Sequence[Pair]) -> tuple[tuple[str, str], ...]:
     """Every point of a moving link, on every link that has it, every coincident point under a sliding pin, and the
     points of both bodies at a contact: (point, link) in the order of the file."""
     found = [(p, link.name) for link in scene.links for p in link.points]
@@ -395,7 +395,7 @@ def listed_points(scene: Mechanism, slides: Sequence[Slide]) -> tuple[tuple[str,
     return tuple(sorted(found, key=lambda ref: place[ref[1]]))
 
 
-def own_slides(scene: Mechanism, slides: Sequence[Slide]) -> tuple[Slide, ...]:
+def own_slides(scene: Mechanism, slides: Sequence[Pair]) -> tuple[Pair, ...]:
     """The sliding pairs and pins in slots of the scene, and of a contact with a face its disc's centre along it; not
     that of what rolls."""
     blocks = {c.block for c in scene.contacts if c.rolling}

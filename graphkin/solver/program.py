@@ -27,7 +27,7 @@ from graphkin.solver.dyads import (
 )
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.pose import UNIT, Pose
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Slide, Structure, Turn
+from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
 
 __all__ = ["GIVEN", "SLACK", "DimensionedProgram", "Program", "program_of"]
@@ -82,13 +82,13 @@ class Program:
 
     def rest(self, pair: Pair, link: str) -> PoseFormula:
         """The joint's frame in the axes of one of its links."""
-        if isinstance(pair, Turn):
+        if pair.turns:
             return self.at_rest(self.number("point", link, pair.point), 1 + 0j)
         if link == pair.a:
             return self.at_rest(0j, self.number("turn", pair.key).conjugate())
         return self.at_rest(self.number("through", pair.key), self.number("direction", pair.key))
 
-    def guide(self, slide: Slide) -> PoseFormula:
+    def guide(self, slide: Pair) -> PoseFormula:
         """The guide of a sliding pair in the world."""
         return self.poses[slide.b].fixed(self.number("through", slide.key), self.number("direction", slide.key))
 
@@ -223,7 +223,7 @@ def _element_form(element: Driven | Dyad | Cluster) -> Hashable:
 
 
 def _pair_form(pair: Pair) -> Hashable:
-    return (pair.point if isinstance(pair, Turn) else pair.key), pair.a, pair.b
+    return pair.key, pair.a, pair.b
 
 
 @dataclass

@@ -12,7 +12,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
 from graphkin.solver.pose import Array, ErrorBound, Pose, rest
-from graphkin.structure import Slide, Structure
+from graphkin.structure import Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["Fit", "all_slides", "fit", "place_redundant"]
@@ -85,15 +85,15 @@ def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bou
         poses[link.name] = found.pose
 
 
-def all_slides(structure: Structure) -> tuple[Slide, ...]:
+def all_slides(structure: Structure) -> tuple[Pair, ...]:
     """The sliding pairs, those of redundant links after the others."""
     have = {s.key for s in structure.slides}
     scene = structure.scene
     return structure.slides + tuple(_slide(scene, s) for s in scene.slidings if s.key not in have)
 
 
-def _slide(scene: Mechanism, s: SlidingPair) -> Slide:
-    return Slide(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
+def _slide(scene: Mechanism, s: SlidingPair) -> Pair:
+    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
 
 
 def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Slide, Structure, Turn, named_with_contact
+from graphkin.structure import Cluster, Dyad, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
 __all__ = ["assembly_words", "driver_text", "dyad_words", "group_words", "lies_at", "limit_why", "links_words"]
@@ -89,7 +89,7 @@ def _cluster_words(structure: Structure, group: Cluster, place: Array) -> Phrase
         return complex(origin + turned * structure.links[link].points[point])
 
     def other(link: str, point: str) -> str | None:
-        turns = (p.point for p in group.pairs if isinstance(p, Turn) and link in (p.a, p.b))
+        turns = (p.point for p in group.pairs if p.turns and link in (p.a, p.b))
         return next((p for p in turns if p != point), None)
 
     said: list[Phrase] = []
@@ -97,7 +97,7 @@ def _cluster_words(structure: Structure, group: Cluster, place: Array) -> Phrase
     for pair in group.pairs:
         if not {pair.a, pair.b} <= set(group.members):
             continue
-        if isinstance(pair, Slide):
+        if not pair.turns:
             origin, turned = at[pair.b]
             along = (at[pair.a][0] - origin) / turned - pair.guide.through
             positive = (along / pair.guide.direction).real > 0
@@ -130,8 +130,8 @@ class DyadWords(NamedTuple):
 
 def dyad_words(dyad: Dyad) -> DyadWords:
     """What a dyad is said to be."""
-    first, inner, second = (getattr(p, "point", "") for p in (dyad.outer_first, dyad.inner, dyad.outer_second))
-    guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if isinstance(p, Slide)), "")
+    first, inner, second = (p.point for p in dyad.pairs)
+    guide = next((_guide(p) for p in (dyad.outer_second, dyad.inner) if not p.turns), "")
     only = Phrase("assembled only so")
     return {
         "RRR": DyadWords(
@@ -149,7 +149,7 @@ def dyad_words(dyad: Dyad) -> DyadWords:
     }.get(dyad.kind, DyadWords(only, only, Phrase("have parallel guides")))  # fmt: skip
 
 
-def _guide(pair: Slide) -> str:
+def _guide(pair: Pair) -> str:
     return f"{pair.b}.{pair.guide.name}" if pair.guide.name else pair.b
 
 

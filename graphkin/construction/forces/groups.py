@@ -33,7 +33,7 @@ from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.construction.sizes import Direction
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Slide, Turn, Weld, links_of
+from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Weld, links_of
 
 __all__ = ["at_driver", "of_dyad", "of_larger_group"]
 
@@ -64,14 +64,14 @@ class CutBody:
     @property
     def at(self) -> complex:
         """Where the outer force acts (mm)."""
-        if isinstance(self.outer, Slide):
+        if not self.outer.turns:
             return self.cut.images.foot(self.outer)
         return self.cut.images.point(self.outer.a, self.outer.point)
 
     @property
     def symbol(self) -> Symbol:
         """The outer force on the body."""
-        if isinstance(self.outer, Turn):
+        if self.outer.turns:
             return self.cut.names.of_pin(self.outer.point, self.outer.a)
         named = self.cut.names.of_slide(self.outer)
         return named if self.outer.a in self.body.links else opposite(named)
@@ -82,7 +82,6 @@ class CutBody:
 
     def square(self) -> complex:
         """The direction square to the guide of the outer pair."""
-        assert isinstance(self.outer, Slide)
         return 1j * self.cut.images.along(self.outer)
 
 
@@ -116,11 +115,11 @@ class GroupFigure:
             self.lines.append(ForceLine(force.symbol, force.at - 1j * along * (shift * cut.images.mm), along, shift))
 
 
-def _along_guide(slide: Slide) -> Direction:
+def _along_guide(slide: Pair) -> Direction:
     return Direction("along", guide_letters(slide))
 
 
-def _foot_name(slide: Slide) -> str:
+def _foot_name(slide: Pair) -> str:
     """The letter of the point where a sliding pair's force acts, or the link at whose origin it does."""
     return slide.pin or slide.a
 
@@ -131,7 +130,6 @@ def _slide_found(
 ) -> None:  # fmt: skip
     """The couple of an outer sliding pair, from the moments about a place (mm), and the line of action of its force."""
     slide = side.outer
-    assert isinstance(slide, Slide)
     found = cut.couple(side.links, about, letter, replace(side.symbol, kind="M"), (force, *more), turning)
     figure.couples.append(found)
     figure.line_of_action(cut, force, found.value)
@@ -205,13 +203,13 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
     chain.append(cut.drawn(two.symbol, two.name, two.at, end, start, second.mark))
     outer = one.force(laid - start * cut.per_mm), two.force((start - before) * cut.per_mm)
     for side, force in zip((one, two), outer, strict=True):
-        if isinstance(side.outer, Turn):
+        if side.outer.turns:
             cut.set_pin(side.outer.point, side.outer.a, force.force)
     inner = _inner_forces(cut, dyad, figure, own, start, one, outer[0])
     for side, force, opposed in zip((one, two), outer, inner, strict=True):
-        if not isinstance(side.outer, Slide):
+        if side.outer.turns:
             continue
-        if isinstance(dyad.inner, Turn):
+        if dyad.inner.turns:
             at = cut.images.point(*_at_inner_pin(cut, dyad)[0])
             _slide_found(cut, side, force, at, dyad.inner.point, figure, inside)
         else:
@@ -219,7 +217,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
             back = KnownMoment(opposite(known.symbol), opposed.link, -known.value)
             letter = _foot_name(side.outer)
             _slide_found(cut, side, force, side.at, letter, figure, inside, (opposed,), (back,))
-    slides = [pair for pair in (dyad.outer_first, dyad.inner, dyad.outer_second) if isinstance(pair, Slide)]
+    slides = [pair for pair in dyad.pairs if not pair.turns]
     for side, force, opposed in zip((one, two), outer, inner, strict=True):
         if side.body.welds:
             _between_welded(cut, side, (opposed, force), slides, figure, balances)
@@ -232,7 +230,7 @@ def _outer_parts(
 ) -> tuple[OuterParts, OuterParts]:
     """What is known of both outer forces before the polygon closes."""
     slide = dyad.inner
-    if isinstance(slide, Turn):
+    if slide.turns:
         hinge = cut.images.point(*_at_inner_pin(cut, dyad)[0])
         return _by_inner_pin(cut, one, hinge, slide.point, figure), _by_inner_pin(cut, two, hinge, slide.point, figure)
     # body one slides on body two: what pushes it along the guide only its pin can hold
@@ -240,7 +238,7 @@ def _outer_parts(
     held = one.force(along * -cut.projected(cut.forces_on(one.links), along))
     known: tuple[tuple[Acting, Part, Direction], ...] = ((held, "n", _along_guide(slide)),) if held.force else ()
     mark: Part = "t" if held.force else ""
-    if isinstance(two.outer, Slide):
+    if not two.outer.turns:
         closing = OuterParts(known, 1j * along, mark, across(slide))
         return closing, OuterParts((), two.square(), "", across(two.outer))
     found = cut.by_moments(
@@ -253,7 +251,7 @@ def _outer_parts(
 
 def _by_inner_pin(cut: CutFree, side: CutBody, hinge: complex, letter: str, figure: GroupFigure) -> OuterParts:
     """An outer force by the moments about the inner pin, which lies at ``hinge`` (mm)."""
-    if isinstance(side.outer, Slide):
+    if not side.outer.turns:
         return OuterParts((), side.square(), "", across(side.outer))
     bar, along = (side.outer.point, letter), side.at - hinge
     square = 1j * unit(along)
@@ -268,7 +266,6 @@ def _by_inner_pin(cut: CutFree, side: CutBody, hinge: complex, letter: str, figu
 
 def _at_inner_pin(cut: CutFree, dyad: Dyad) -> tuple[tuple[str, str], tuple[str, str]]:
     """The links of both bodies at the inner turning pair, each with its point."""
-    assert isinstance(dyad.inner, Turn)
     point, links = dyad.inner.point, cut.names.structure.links
     first, second = (next(n for n in body.links if point in links[n].points) for body in dyad.bodies)
     return (first, point), (second, point)
@@ -286,7 +283,7 @@ def _inner_forces(
     outer : the outer force on the first body
     """
     end = own[-1].tip if own else start
-    if isinstance(dyad.inner, Turn):
+    if dyad.inner.turns:
         names = cut.names
         (first, point), (second, _) = _at_inner_pin(cut, dyad)
         at, force = cut.images.point(first, point), (start - end) * cut.per_mm
@@ -307,7 +304,6 @@ def _inner_forces(
     on_first = Acting(symbol if mine else opposite(symbol), slide.a if mine else slide.b, force, at)
     on_second = Acting(opposite(on_first.symbol), slide.b if mine else slide.a, -force, at)
     figure.inner[on_first.link] = (*own, cut.drawn(on_first.symbol, on_first.link, at, end, start))
-    assert isinstance(one.outer, Turn)
     turned = replace(on_first.symbol, kind="M")
     found = cut.couple(one.links, one.at, one.outer.point, turned, (on_first, outer))
     figure.couples.append(found)
@@ -321,7 +317,7 @@ def _inner_forces(
 
 
 def _between_welded(
-    cut: CutFree, side: CutBody, found: tuple[Acting, ...], slides: Sequence[Slide], figure: GroupFigure,
+    cut: CutFree, side: CutBody, found: tuple[Acting, ...], slides: Sequence[Pair], figure: GroupFigure,
     balances: Mapping[str, BalanceForm],
 ) -> None:  # fmt: skip
     """The forces between links of a body that drivers hold together, from the outermost link on, with what balances
@@ -364,7 +360,7 @@ def _at_weld(
         cut.lay(chain, known)
     end = end_of(chain)
     force = -end * cut.per_mm
-    if isinstance(pair, Turn):
+    if pair.turns:
         at = cut.images.point(leaf, pair.point)
         symbol = cut.names.of_pin(pair.point, leaf)
         if leaf == cut.names.holders.get(pair.point, ("",))[0]:
@@ -409,7 +405,7 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
     cut.load_pins((link,))
     figure, side = GroupFigure(), CutBody(cut, Body((link,)), pair)
     chain = figure.chain
-    if isinstance(pair, Turn):
+    if pair.turns:
         _at_crank(cut, side, balance, figure)
     else:
         balancing, square = _balancing(cut, balance, link), side.square()
@@ -439,7 +435,6 @@ def _balancing(cut: CutFree, balance: BalanceForm, link: str) -> Acting:
 
 
 def _at_crank(cut: CutFree, side: CutBody, balance: BalanceForm, figure: GroupFigure) -> None:
-    assert isinstance(side.outer, Turn)
     link, letter, chain = side.links[0], side.outer.point, figure.chain
     if balance.is_moment:
         mine = balance.link == link
@@ -476,7 +471,7 @@ class UnknownForce:
     at: complex
     along: complex
     point: str = ""
-    slide: Slide | None = None
+    slide: Pair | None = None
 
     @property
     def sides(self) -> tuple[tuple[str, float], tuple[str, float]]:

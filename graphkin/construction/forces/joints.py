@@ -18,7 +18,7 @@ from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Slide, Structure, analyse
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Rolled, Structure, analyse
 from graphkin.words import Phrase
 
 __all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "driver_of", "force_groups", "opposite"]
@@ -73,7 +73,7 @@ class JointNames:
             return self.between(block[0][1], link, point)
         return Symbol("F", link=point, other=link)
 
-    def of_slide(self, slide: Slide, kind: str = "F") -> Symbol:
+    def of_slide(self, slide: Pair, kind: str = "F") -> Symbol:
         """The force (couple) of the guiding link on the sliding one."""
         if slide.slot:
             of, on = self.blocks[slide.key]
@@ -180,11 +180,11 @@ class Images:
         drawn = self.sheet.points.get(PointRef(point))
         return self.place(link, self.sheet.structure.links[link].points[point]) if drawn is None else drawn
 
-    def foot(self, slide: Slide) -> complex:
+    def foot(self, slide: Pair) -> complex:
         """Where the force of a sliding pair acts: the sliding link's first point, or its origin (mm)."""
         return self.point(slide.a, slide.pin) if slide.pin else self.sheet.poses[slide.a].origin
 
-    def along(self, slide: Slide) -> complex:
+    def along(self, slide: Pair) -> complex:
         """The direction of a guide."""
         return self.sheet.poses[slide.b].axis * slide.guide.direction
 
@@ -204,7 +204,7 @@ class Images:
         """The end point of its acceleration (mm)."""
         return self._end("acceleration", link, at)
 
-    def slip(self, slide: Slide) -> tuple[float, float]:
+    def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
         at = self.foot(slide)
         a, b = self.velocity(slide.a, at), self.velocity(slide.b, at)
