@@ -27,7 +27,7 @@ FIVE = ("mechanism", "velocity", "acceleration", "sheet", "centres")
 ASKED = {"shaper-scheme-2": 100, "sixbar-coupler-1A": 200, "double-butterfly": 400}  # ms
 FIRST = """
 import sys, time
-import graphkin, graphkin.api.drawn, graphkin.drawing.figures.sheet, graphkin.drawing.figures.centres, svgwrite
+import graphkin, graphkin.api.drawn, graphkin.drawing.figures.sheet, graphkin.drawing.figures.centres
 from tests.bench.figures import five
 start = time.process_time()
 five(sys.argv[1])

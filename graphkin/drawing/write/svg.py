@@ -1,6 +1,6 @@
 """Drawings as SVG: one user unit is one millimetre, the same bytes every time.
 
-svgwrite stays behind this module.
+Elements are written as they are drawn; svgwrite, which stays behind this module, checks them against the standard.
 """
 
 from __future__ import annotations
@@ -9,12 +9,12 @@ import json
 import math
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache, lru_cache, partial
+from functools import cache, lru_cache
 from html import escape
 from itertools import count
-from typing import TYPE_CHECKING, Protocol
+from xml.etree import ElementTree
 from zlib import crc32
 
 from graphkin.drawing.embedded import face_rules, families, outline
@@ -38,11 +38,6 @@ from graphkin.drawing.ink.primitives import (
     class_names,
 )
 
-if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element as XmlElement
-
-    import svgwrite
-
 __all__ = ["number", "svg_bytes", "svg_element"]
 
 # What XML 1.0 cannot hold, and other control characters.
@@ -54,7 +49,10 @@ _DOUBLED = re.compile(r"#(\w)\1(\w)\2(\w)\3")
 _SPACES = re.compile(r"\s+")
 BLACK = "#000000"  # what is filled unless something else is said
 HIT = Stroke(3.0)  # mm: the breadth of a finger
-_INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+_NAMESPACES = {
+    "xmlns": "http://www.w3.org/2000/svg", "xmlns:ev": "http://www.w3.org/2001/xml-events",
+    "xmlns:inkscape": "http://www.inkscape.org/namespaces/inkscape", "xmlns:xlink": "http://www.w3.org/1999/xlink",
+}  # fmt: skip
 
 
 @lru_cache(maxsize=8192)
@@ -87,26 +85,19 @@ def svg_bytes(drawing: Page, debug: bool = False, embed: bool = True, outlines: 
     ------
     ValueError : a coordinate is not finite
     """
-    page = _page(debug)
-    if debug:
-        _allow_accessibility(page)
-    page.attribs |= _head(drawing)
-    page["xmlns:inkscape"] = _INKSCAPE
-    page["xml:lang"] = drawing.lang
-    page.elements.remove(page.defs)  # empty; the title comes first
-    ink = _Ink(page, drawing.lang, outlines)
+    ink = _Ink(drawing.lang, outlines)
     facts = json.dumps(drawing.metadata, ensure_ascii=False, sort_keys=True, allow_nan=False, separators=(",", ":"))
-    for tag, words in (("title", drawing.title), ("desc", drawing.desc), ("metadata", facts)):
-        if words:
-            page.elements.append(ink.made(tag, {}, _clean(words)))
-    places = len(page.elements)
-    ink.fill(drawing)
+    told = {"title": drawing.title, "desc": drawing.desc, "metadata": facts}
+    parts = [ink.element(tag, {}, _escaped(_clean(words))) for tag, words in told.items() if words]
+    drawn = ink.page(drawing)
+    head = {**_head(drawing), **_NAMESPACES, "baseProfile": "full", "version": "1.1", "xml:lang": drawing.lang}
     if embed:
         name, rules = face_rules({} if outlines else ink.used)
-        page["font-family"] = families(name)
-        if rules:
-            page.elements.insert(places, ink.made("style", {}, rules))
-    text: str = page.tostring() if debug else _written(page)
+        head["font-family"] = families(name)
+        parts += [ink.element("style", {}, _escaped(rules))] if rules else []
+    text = ink.element("svg", head, "".join((*parts, drawn)))
+    if debug:
+        _check(text)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{text}\n'.encode()
 
 
@@ -127,20 +118,9 @@ def svg_element(drawing: Page, named: bool = False) -> str:
     ------
     ValueError : a coordinate is not finite
     """
-    page = _page(False)
-    page.elements.clear()
-    _InPage(page, drawing.lang, named).fill(drawing)
+    ink = _InPage(drawing.lang, named)
     words = _clean(_HIDING.sub("", _SPACES.sub(" ", f"{drawing.title}. {drawing.desc}".strip(". "))))
-    out = [_tag("svg", {**_head(drawing), "aria-label": words, "focusable": "false"}), ">"]
-    for element in page.elements:
-        _write(element, out, "/>")
-    return "".join([*out, "</svg>"])
-
-
-def _page(debug: bool) -> svgwrite.Drawing:
-    import svgwrite
-
-    return svgwrite.Drawing(debug=debug)
+    return ink.element("svg", {**_head(drawing), "aria-label": words, "focusable": "false"}, ink.page(drawing))
 
 
 def _head(drawing: Page) -> dict[str, str]:
@@ -152,42 +132,27 @@ def _head(drawing: Page) -> dict[str, str]:
     }  # fmt: skip
 
 
-class _Element(Protocol):
-    """An element of svgwrite."""
-
-    elementname: str
-    attribs: dict[str, str]
-    elements: list[_Element]
-    text: str
-
-    def add(self, element: _Element) -> _Element: ...
-
-
-class _Page(_Element, Protocol):
-    """A page of svgwrite, with its options."""
-
-    _parameter: object
-
-    def tostring(self) -> str: ...
-
-
 class _Ink:
-    """Turns primitives into elements of one page; knows the clips and names that it has already given."""
+    """Writes primitives as elements of one page; knows the clips, names and characters that it has already written."""
 
-    def __init__(self, page: _Page, lang: str, outlines: bool = False) -> None:
-        self.page, self.lang, self.outlines = page, lang, outlines
-        self.made = partial(_element_class(), page)
+    closing = " />"  # of an element that holds nothing
+
+    def __init__(self, lang: str, outlines: bool = False) -> None:
+        self.lang, self.outlines = lang, outlines
         self.clips: set[str] = set()
         self.ids: set[str] = set()
         self.used: dict[Style, set[str]] = {"regular": set(), "italic": set(), "bold": set()}
 
-    def fill(self, drawing: Page) -> None:
-        """Put everything on the page."""
+    def element(self, tag: str, attributes: dict[str, str], inner: str = "") -> str:
+        """An element around what is written already."""
+        return f"{_opening(tag, attributes)}>{inner}</{tag}>" if inner else _opening(tag, attributes) + self.closing
+
+    def page(self, drawing: Page) -> str:
+        """Everything on the page."""
         # white paper, so that black lines show on a dark screen too
         whole = {"x": "0", "y": "0", "width": "100%", "height": "100%"}
-        self.page.add(self.made("rect", {**whole, **self.filled("#ffffff"), "class": "paper"}))
-        for child in drawing.children:
-            self.draw(self.page, child)
+        paper = self.element("rect", {**whole, **self.filled("#ffffff"), "class": "paper"})
+        return paper + "".join(map(self.draw, drawing.children))
 
     def colour(self, colour: str) -> str:
         return colour
@@ -196,20 +161,7 @@ class _Ink:
         """The attribute of an area, empty for none."""
         return {"fill": self.colour(colour) or "none"}
 
-    def draw(self, parent: _Element, thing: Primitive) -> None:
-        element = parent.add(self._element(thing))
-        if isinstance(thing, Line) and thing.covered:
-            shaft = _shaft(thing)
-            # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
-            id = f"clip-{crc32(shaft.encode()):08x}"
-            element.attribs["clip-path"] = f"url(#{id})"
-            if id not in self.clips:
-                self.clips.add(id)
-                clip = self.made("clipPath", {"id": id})
-                clip.add(self.made("path", {"d": shaft}))
-                parent.add(clip)
-
-    def _element(self, thing: Primitive) -> _Element:
+    def draw(self, thing: Primitive) -> str:
         if isinstance(thing, Group):
             return self._group(thing)
         if isinstance(thing, Text):
@@ -218,17 +170,16 @@ class _Ink:
             return self._scan(thing)
         stroke = self._stroke(thing.stroke)
         if isinstance(thing, Line):
-            (x1, y1), (x2, y2) = _pair(thing.start), _pair(thing.end)
-            return self.made("line", {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **stroke})
+            return self._line(thing, stroke)
         if isinstance(thing, Polyline):
-            return self.made("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
+            return self.element("polyline", {"points": _points(thing.points), "fill": "none", **stroke})
         if isinstance(thing, Polygon):
-            return self.made("polygon", {"points": _points(thing.points), **self.filled(thing.fill), **stroke})
+            return self.element("polygon", {"points": _points(thing.points), **self.filled(thing.fill), **stroke})
         if isinstance(thing, Circle):
             x, y = _pair(thing.centre)
-            look = {"cx": x, "cy": y, "r": number(thing.radius)}
-            return self.made("circle", {**look, **self.filled(thing.fill), **stroke})
-        return self.made("path", {"d": _arc(thing), "fill": "none", **stroke})
+            return self.element(
+                "circle", {"cx": x, "cy": y, "r": number(thing.radius), **self.filled(thing.fill), **stroke})
+        return self.element("path", {"d": _arc(thing), "fill": "none", **stroke})
 
     def _stroke(self, stroke: Stroke | None) -> dict[str, str]:
         if stroke is None:
@@ -236,63 +187,69 @@ class _Ink:
         dashes = {"stroke-dasharray": " ".join(map(number, stroke.dash))} if stroke.dash else {}
         return {"stroke": self.colour(stroke.colour), "stroke-width": number(stroke.width), **dashes}
 
-    def _group(self, group: Group) -> _Element:
-        element = self.made("g", self._called(group))
-        inner = element if group.motion is None else self._moving(element, group.motion)
-        for child in group.children:
-            self.draw(inner, child)
-        last = self._last_of(group)  # last, because the first child of a vector's group is its line
-        if last is not None:
-            element.elements.append(last)
-        return element
+    def _line(self, line: Line, look: dict[str, str]) -> str:
+        """A line, cut by a clip where its end lies under an arrowhead."""
+        (x1, y1), (x2, y2) = _pair(line.start), _pair(line.end)
+        look = {"x1": x1, "y1": y1, "x2": x2, "y2": y2, **look}
+        if not line.covered:
+            return self.element("line", look)
+        # Named by its shape: where several figures stand in one HTML page, equal names mean equal clips.
+        shaft = _shaft(line)
+        name = f"clip-{crc32(shaft.encode()):08x}"
+        drawn = self.element("line", {**look, "clip-path": f"url(#{name})"})
+        if name in self.clips:
+            return drawn
+        self.clips.add(name)
+        return drawn + self.element("clipPath", {"id": name}, self.element("path", {"d": shaft}))
+
+    def _group(self, group: Group) -> str:
+        called, inner = self._called(group), "".join(map(self.draw, group.children))
+        if group.motion is not None:
+            inner = self._moving(group.motion, inner)
+        # last, because the first child of a vector's group is its line
+        return self.element("g", called, inner + self._last_of(group))
 
     def _called(self, group: Group) -> dict[str, str]:
         """Id, classes and layer of a group."""
         layer = {"inkscape:groupmode": "layer", "inkscape:label": _clean(group.layer)} if group.layer else {}
         return {**self._named(group.id, class_names(group)), **layer}
 
-    def _last_of(self, group: Group) -> _Element | None:
+    def _last_of(self, group: Group) -> str:
         """What stands in a group behind its children: its title."""
-        return self.made("title", {}, _clean(group.title)) if group.title else None
+        return self.element("title", {}, _escaped(_clean(group.title))) if group.title else ""
 
-    def _moving(self, element: _Element, motion: Travel) -> _Element:
-        """Have an element move; returns the one that turns in it."""
-
-        def animated(parent: _Element, attributes: dict[str, str], tag: str = "animateTransform") -> None:
-            always = {"dur": f"{number(motion.seconds)}s", "repeatCount": "indefinite"}
-            parent.add(self.made(tag, {**attributes, **always}))
-
+    def _moving(self, motion: Travel, inner: str) -> str:
+        """The inside of a group that moves, with what turns in it in a group of its own."""
+        always = {"dur": f"{number(motion.seconds)}s", "repeatCount": "indefinite"}
+        transform = {"attributeName": "transform", "attributeType": "XML", **always}
         moves, last = [], next((m for m in motion.moves if m is not None), 0j)
         for move in motion.moves:
             last = last if move is None else move
             moves.append(" ".join(_pair(last)))
-        transform = {"attributeName": "transform", "attributeType": "XML"}
-        animated(element, {**transform, "type": "translate", "values": ";".join(moves)})
+        parts = [self.element("animateTransform", {**transform, "type": "translate", "values": ";".join(moves)})]
         if None in motion.moves:
             seen = ";".join("hidden" if m is None else "visible" for m in motion.moves)
-            animated(element, {"attributeName": "visibility", "values": seen, "calcMode": "discrete"}, "animate")
-        if not motion.turns:
-            return element
-        inner, (x, y) = self.made("g", {}), _pair(motion.about)
-        turns = ";".join(f"{number(turn)} {x} {y}" for turn in motion.turns)
-        animated(inner, {**transform, "type": "rotate", "values": turns})
-        return element.add(inner)
+            shown = {"attributeName": "visibility", "values": seen, "calcMode": "discrete", **always}
+            parts.append(self.element("animate", shown))
+        if motion.turns:
+            x, y = _pair(motion.about)
+            turns = ";".join(f"{number(turn)} {x} {y}" for turn in motion.turns)
+            turning = self.element("animateTransform", {**transform, "type": "rotate", "values": turns})
+            inner = self.element("g", {}, turning + inner)
+        return "".join((*parts, inner))
 
-    def _scan(self, scan: Scan) -> _Element:
+    def _scan(self, scan: Scan) -> str:
         """A picture with its file in it, cut by a clip that stands beside it."""
         shape = "M" + "L".join(" ".join(_pair(corner)) for corner in scan.panel) + "Z"
-        group = self.made("g", {"clip-path": f"url(#clip-{crc32(shape.encode()):08x})"})
-        clip = self.made("clipPath", {"id": f"clip-{crc32(shape.encode()):08x}"})
-        clip.add(self.made("path", {"d": shape}))
+        name = f"clip-{crc32(shape.encode()):08x}"
+        clip = self.element("clipPath", {"id": name}, self.element("path", {"d": shape}))
         a, b = scan.step.real, scan.step.imag
         look = {"width": str(scan.width), "height": str(scan.height), "opacity": number(PALE)}
         look["transform"] = f"matrix({a:.9g} {b:.9g} {-b:.9g} {a:.9g} {scan.corner.real:.6f} {scan.corner.imag:.6f})"
         look["xlink:href"] = f"data:{scan.kind};base64,{b64encode(scan.data).decode()}"
-        group.add(clip)
-        group.add(self.made("image", look))
-        return group
+        return self.element("g", {"clip-path": f"url(#{name})"}, clip + self.element("image", look))
 
-    def _text(self, text: Text) -> _Element:
+    def _text(self, text: Text) -> str:
         runs, anchor = start_runs(text), ""
         places = [(number(run.x), number(run.y)) for run in runs]
         if len(runs) == 1 and text.anchor != "start":
@@ -300,40 +257,41 @@ class _Ink:
             anchor = text.anchor
             share = 0.5 if anchor == "middle" else 1.0
             places = [(number(runs[0].x + share * (runs_width(text.runs) - text.runs[0].x)), places[0][1])]
-        look = {"x": places[0][0], "y": places[0][1], **self.filled(text.colour)}
-        look |= self._named(text.id, class_names(text))
+        named = self._named(text.id, class_names(text))
+        look = {"x": places[0][0], "y": places[0][1], **self.filled("" if self.outlines else text.colour)}
         look["font-size"] = number(max(run.size for run in runs))
         if anchor:
             look["text-anchor"] = anchor
         if not self.lang.startswith("zh") and has_cjk(text.string):
             look["xml:lang"] = "zh"
-        element = self.made("text", look)
+        spans = []
         for run, (x, y) in zip(runs, places, strict=True):
-            words = _clean(run.text)
             face = {"x": x, "y": y, "font-size": number(run.size)}
             if run.italic:
                 face["font-style"] = "italic"
             if run.bold:
                 face["font-weight"] = "bold"
-            element.add(self._run(run, face, words, look))
-        return self._outlined(element, runs) if self.outlines else element
+            spans.append(self._run(run, face, _clean(run.text), look))
+        if not self.outlines:
+            return self.element("text", {**look, **named}, "".join(spans))
+        return self._outlined(text.colour, runs, named, look, "".join(spans))
 
-    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> _Element:
+    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> str:
         """A run of a text of these attributes, with its length."""
         self.used[style_of(run.italic, run.bold)].update(words)
         long = number(width(words, run.size, run.italic, run.bold))
-        return self.made("tspan", {**face, "textLength": long, "lengthAdjust": "spacingAndGlyphs"}, words)
+        return self.element(
+            "tspan", {**face, "textLength": long, "lengthAdjust": "spacingAndGlyphs"}, _escaped(words))
 
-    def _outlined(self, element: _Element, runs: tuple[Run, ...]) -> _Element:
-        """A text as paths, with itself unseen over them."""
-        own = {key: element.attribs.pop(key) for key in ("id", "class") if key in element.attribs}
-        group = self.made("g", own)
+    def _outlined(
+        self, colour: str, runs: tuple[Run, ...], named: dict[str, str], look: dict[str, str], spans: str
+    ) -> str:
+        """A text as paths, with itself unseen over them; where no face has its letters, itself alone."""
         letters = "".join(outline(run._replace(text=_clean(run.text))) for run in runs)
-        if letters:
-            group.add(self.made("path", {"d": letters, "fill": element.attribs["fill"], "aria-hidden": "true"}))
-            element.attribs["fill"] = "none"
-        group.add(element)
-        return group
+        if not letters:
+            return self.element("g", named, self.element("text", {**look, **self.filled(colour)}, spans))
+        path = self.element("path", {"d": letters, **self.filled(colour), "aria-hidden": "true"})
+        return self.element("g", named, path + self.element("text", look, spans))
 
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
         """Id and classes; an id that is taken (B1 of link 2 and B12 are written alike) is told apart by a number."""
@@ -346,10 +304,12 @@ class _Ink:
 
 
 class _InPage(_Ink):
-    """Turns primitives into the elements of a figure in a page."""
+    """Writes primitives as the elements of a figure in a page."""
 
-    def __init__(self, page: _Page, lang: str, named: bool) -> None:
-        super().__init__(page, lang)
+    closing = "/>"
+
+    def __init__(self, lang: str, named: bool) -> None:
+        super().__init__(lang)
         self.named = named
 
     def colour(self, colour: str) -> str:
@@ -358,12 +318,12 @@ class _InPage(_Ink):
     def filled(self, colour: str) -> dict[str, str]:
         return {} if colour == BLACK else super().filled(colour)
 
-    def draw(self, parent: _Element, thing: Primitive) -> None:
+    def draw(self, thing: Primitive) -> str:
         if isinstance(thing, Line) and thing.covered:
             inked = abs(thing.inked_end - thing.start)
             dashed = replace(thing.stroke, dash=(inked, abs(thing.end - thing.start) + 1.0))
             thing = Line(thing.start, thing.end, dashed)
-        super().draw(parent, thing)
+        return super().draw(thing)
 
     def _called(self, group: Group) -> dict[str, str]:
         return self._named("" if group.layer else group.id, class_names(group))
@@ -371,16 +331,16 @@ class _InPage(_Ink):
     def _named(self, id: str, classes: tuple[str, ...]) -> dict[str, str]:
         return super()._named(id if self.named else "", classes)
 
-    def _last_of(self, group: Group) -> _Element | None:
+    def _last_of(self, group: Group) -> str:
         shaft = group.children[0] if self.named and "vector" in group.classes and group.children else None
         if not isinstance(shaft, Line) or shaft.start == shaft.end:
-            return None
+            return ""
         return self._group(Group((Line(shaft.start, shaft.end, HIT),), classes=("hit",)))
 
-    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> _Element:
+    def _run(self, run: Run, face: dict[str, str], words: str, text: Mapping[str, str]) -> str:
         if face["font-size"] == text["font-size"] and (face["x"], face["y"]) == (text["x"], text["y"]):
             face = {key: value for key, value in face.items() if key not in ("font-size", "x", "y")}  # of its text
-        return self.made("tspan", face, words)
+        return self.element("tspan", face, _escaped(words))
 
 
 def _clean(text: str) -> str:
@@ -413,61 +373,17 @@ def _shaft(line: Line) -> str:
     return "M" + "L".join(" ".join(_pair(corner)) for corner in corners) + "Z"
 
 
-@cache
-def _element_class() -> Callable[..., _Element]:
-    from svgwrite.base import BaseElement
-
-    class Element(BaseElement):  # type: ignore[misc]
-        """An element of svgwrite whose attributes are texts already, and which may hold a text."""
-
-        def __init__(self, page: _Page, tag: str, attributes: dict[str, str], text: str = "") -> None:
-            self._parameter = page._parameter  # its own way looks at each for options of svgwrite
-            self.elementname, self.attribs, self.text = tag, attributes, text
-            self.elements: list[_Element] = []
-
-        def get_xml(self) -> XmlElement:
-            xml: XmlElement = super().get_xml()
-            xml.text = self.text
-            return xml
-
-    return Element
-
-
-def _written(page: _Page) -> str:
-    """The text that ``page.tostring()`` gives, which makes a tree of it first and takes several times as long."""
-    children, page.elements = page.elements, []
-    out = [page.tostring().removesuffix(" />"), ">"]
-    for child in children:
-        _write(child, out)
-    page.elements = children
-    return "".join([*out, "</svg>"])
-
-
-def _write(element: _Element, out: list[str], end: str = " />") -> None:
-    """An element as text, one that holds nothing closed by ``end``."""
-    opening = _tag(element.elementname, element.attribs)
-    if element.elements:
-        out.append(f"{opening}>{_escaped(element.text)}")
-        for child in element.elements:
-            _write(child, out, end)
-        out.append(f"</{element.elementname}>")
-    elif element.text:
-        out.append(f"{opening}>{_escaped(element.text)}</{element.elementname}>")
-    else:
-        out.append(f"{opening}{end}")
-
-
-def _tag(tag: str, attributes: dict[str, str]) -> str:
-    """How an element begins."""
+def _opening(tag: str, attributes: dict[str, str]) -> str:
+    """How an element begins, up to its bracket."""
     if "" in attributes.values():
         attributes = {key: value for key, value in attributes.items() if value}
     if _MARKUP.search("".join(attributes.values())):
-        attributes = {key: _quoted(value) for key, value in attributes.items()}
-    return _opening(tag, tuple(attributes)) % attributes
+        attributes = {key: _escaped(value).translate(_IN_QUOTES) for key, value in attributes.items()}
+    return _form(tag, tuple(attributes)) % attributes
 
 
 @cache
-def _opening(tag: str, names: tuple[str, ...]) -> str:
+def _form(tag: str, names: tuple[str, ...]) -> str:
     """How an element with these attributes begins, in the order of their names, a gap for each value."""
     return f"<{tag}" + "".join(f' {name}="%({name})s"' for name in sorted(names))
 
@@ -476,18 +392,28 @@ def _escaped(text: str) -> str:
     return escape(text, quote=False) if _MARKUP.search(text) else text
 
 
-def _quoted(text: str) -> str:
-    return _escaped(text).translate(_IN_QUOTES)
-
-
-def _allow_accessibility(page: svgwrite.Drawing) -> None:
-    """Teach svgwrite's check of SVG 1.1 the attributes for readers and editors that later standards have."""
+def _check(text: str) -> None:
+    """Have svgwrite hold all elements of a page against SVG 1.1, which it is taught the attributes for readers and
+    editors that later standards have.  Raises ValueError or TypeError for one that is wrong."""
+    import svgwrite
     from svgwrite.data.types import SVGAttribute
     from svgwrite.extensions import Inkscape
 
+    page = svgwrite.Drawing(debug=True)
     Inkscape(page)
-    del page.attribs["xmlns:sodipodi"]
-    known = page.validator
+    standard = page.validator
     for name in ("role", "lang"):
-        known.attributes[name] = SVGAttribute(name, anim=False, types=frozenset(["string"]), const=frozenset())
-        known.elements["svg"].valid_attributes = {name} | known.elements["svg"].valid_attributes
+        standard.attributes[name] = SVGAttribute(name, anim=False, types=frozenset(["string"]), const=frozenset())
+        standard.elements["svg"].valid_attributes = {name} | standard.elements["svg"].valid_attributes
+    prefixes = {uri: f"{name.removeprefix('xmlns:')}:" for name, uri in _NAMESPACES.items() if ":" in name}
+    prefixes |= {_NAMESPACES["xmlns"]: "", "http://www.w3.org/XML/1998/namespace": "xml:"}
+
+    def plain(name: str) -> str:
+        uri, _, local = name.rpartition("}")
+        return prefixes.get(uri.removeprefix("{"), "") + local
+
+    for element in ElementTree.fromstring(text).iter():
+        for name, value in element.attrib.items():
+            standard.check_svg_attribute_value(plain(element.tag), plain(name), value)
+        for child in element:
+            standard.check_valid_children(plain(element.tag), plain(child.tag))
