@@ -15,10 +15,10 @@ from graphkin.construction import Room, draft
 from graphkin.construction.polygon_acts import Carried, LaidOff
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.ink.strokes import DIMENSION
-from graphkin.drawing.parts.coriolis import coriolis_terms
+from graphkin.drawing.parts.insets import coriolis_terms
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.polygon import polygon_piece
-from graphkin.drawing.parts.polygon_on_page import PolygonOnPage, extent
+from graphkin.drawing.parts.polygon import PolygonOnPage, extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import so_far, stepped

@@ -184,7 +184,7 @@ class CamMade:
 
     def profile_dxf(self) -> bytes:
         """The profile true to size, in mm, as a closed curve of arcs.  Raises CallError without the extra ``cad``."""
-        from graphkin.drawing.cam_dxf import profile_dxf
+        from graphkin.drawing.write.dxf import profile_dxf
 
         return profile_dxf(self.cam)
 
@@ -330,7 +330,7 @@ class Cams(OfScene, Result):
         Raises CallError."""
         pages = super().pages(formats, text)
         if "dxf" in formats:
-            from graphkin.drawing.cam_dxf import outline_dxf
+            from graphkin.drawing.write.dxf import outline_dxf
 
             pages |= {f"profile-{disc.link}.dxf": outline_dxf(*disc.outline) for disc in self.discs}
             pages |= {f"profile-{one.cam.link}.dxf": one.profile_dxf() for one in self.made}

@@ -20,7 +20,7 @@ from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.moving import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
-from graphkin.drawing.figures.in_motion import figure_in_motion
+from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable

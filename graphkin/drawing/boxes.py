@@ -13,12 +13,11 @@ from graphkin.account.headings import drivers, facts, figure_title, punctuation,
 from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piece
-from graphkin.drawing.text import fitted, plain, rich, wrapped
+from graphkin.drawing.text import fitted, plain, rich, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.scene.sheet_tables import Convention

@@ -19,13 +19,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.embedded import face_rules, families
-from graphkin.drawing.font import FAMILY, Style, holds
-from graphkin.drawing.font_widths import width
+from graphkin.drawing.font import FAMILY, Style, face_rules, families, holds
 from graphkin.drawing.ink.primitives import Primitive, Stroke, Text
 from graphkin.drawing.place.labels import Label, Mark, Obstacles
 from graphkin.drawing.place.placement import place
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.drawing import Kept
 from graphkin.drawing.write.pdf import (
     MM_PER_INCH,

@@ -14,10 +14,9 @@ from graphkin.account.written_lines import WrittenLine, rule_alone
 from graphkin.construction.polygon_acts import LaidOff
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Given
-from graphkin.drawing.font_widths import run_box, runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
-from graphkin.drawing.text import rich, symbol, wrapped
+from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
 from graphkin.plane import added_up
 from graphkin.words.written import MOST, product
 

@@ -5,28 +5,43 @@ Chinese characters that it lacks, from a face of this machine.
 fontTools takes 40 ms for that and every command that draws wants them.  What a figure needs of a face fontTools packs
 as WOFF: in 5 ms a figure, where WOFF2 takes 20 to 70 ms and a library more, for letters smaller by a quarter
 and files smaller by 3 %.
+
+Letters come along with a file, so that a figure looks the same wherever it is opened: the used glyphs of the family as
+a rule of a style sheet; or as outlines, for programs that have no fonts.
 """
 
 from __future__ import annotations
 
 import os
 import struct
+from base64 import b64encode
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
+from zlib import crc32
+
+from graphkin.drawing.ink.primitives import Run
 
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
 
-__all__ = ["EM", "FAMILY", "FOLDER", "Glyph", "Style", "glyph", "held", "holds", "part"]
+__all__ = [
+    "EM", "FALLBACK", "FAMILY", "FOLDER", "Style", "face_rules", "families", "glyph", "holds", "outline", "part",
+    "style_of",
+]  # fmt: skip
 
 FAMILY = "Graphkin Serif"
 FOLDER = Path(__file__).parent / "fonts"
 EM = 1000
 Style = Literal["regular", "italic", "bold"]
+
+
+def style_of(italic: bool, bold: bool) -> Style:
+    """The face of a run; bold wins, for there is no bold italic."""
+    return "bold" if bold else "italic" if italic else "regular"
 
 
 @dataclass(frozen=True)
@@ -207,3 +222,70 @@ def _installed() -> list[Path]:
         for place, _, names in os.walk(os.path.expanduser(folder)):
             found.update((name.lower(), Path(place, name)) for name in names)
     return [found[name.lower()] for name in _FILES if name.lower() in found]
+
+
+# Where a program passes over embedded faces, as Inkscape does: Times and its twins, then faces that have the signs of
+# mathematics, then Chinese serif faces of Linux, macOS, Windows.
+FALLBACK = (
+    "'Times New Roman', 'Liberation Serif', Times, 'STIX Two Text', STIXGeneral, 'Cambria Math', 'DejaVu Serif', "
+    "'Noto Serif CJK SC', 'Source Han Serif SC', 'Songti SC', SimSun, serif"
+)
+_LOOK: Mapping[Style, str] = {"regular": "", "italic": ";font-style:italic", "bold": ";font-weight:bold"}
+
+
+def face_rules(used: Mapping[Style, Iterable[str]]) -> tuple[str, str]:
+    """The name of a family with the used characters of each style, and the rules that hold it.
+
+    The name tells the glyphs, since several figures with different ones may stand in one page; not how they are packed,
+    which may differ with the version of a library.
+    """
+    letters = {style: frozenset(used[style]) for style in _LOOK if used.get(style)}
+    if not letters:
+        return FAMILY, ""
+    glyphs = b"".join(
+        struct.pack(">IH", code, found.advance) + found.outline
+        for style, characters in letters.items()
+        for code, found in held(style, characters).items()
+    )
+    name = f"{FAMILY} {crc32(glyphs):08x}"
+    rules = (
+        f"@font-face{{font-family:'{name}'{_LOOK[style]};"
+        f"src:url(data:font/woff;base64,{b64encode(part(style, characters)).decode()}) format('woff')}}"
+        for style, characters in letters.items()
+    )
+    return name, "".join(rules)
+
+
+def families(name: str) -> str:
+    """A list of faces that begins with an embedded one."""
+    return f"'{name}', {FALLBACK}"
+
+
+def outline(run: Run) -> str:
+    """The letters of a run on a page (mm) as the data of an SVG path; "" where no face at hand has them."""
+    from fontTools.pens.svgPathPen import SVGPathPen
+    from fontTools.pens.transformPen import TransformPen
+
+    pen = SVGPathPen(None, ntos=_hundredths)
+    times, x = run.size / EM, run.x
+    for character in run.text:
+        found = glyph(character, style_of(run.italic, run.bold))
+        if found is None:
+            continue
+        _draw(found, TransformPen(pen, (times, 0, 0, -times, x, run.y)))
+        x += found.advance * times
+    commands: str = pen.getCommands()
+    return commands
+
+
+def _hundredths(mm: float) -> str:
+    return f"{mm:.2f}".rstrip("0").rstrip(".")
+
+
+def _draw(found: Glyph, pen: object) -> None:
+    from fontTools.ttLib.tables._g_l_y_f import Glyph as Outline
+
+    if found.outline:
+        shape = Outline(found.outline)
+        shape.expand(None)
+        shape.draw(pen, None)

@@ -13,10 +13,9 @@ from graphkin.checking.report import Compared, Report, deviation, exact, measure
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, row, table
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink.primitives import Primitive, Run, Text
 from graphkin.drawing.parts.given_shapes import along_its_guide, given_shapes, off_its_guide
-from graphkin.drawing.text import rich, wrapped
+from graphkin.drawing.text import rich, runs_width, wrapped
 from graphkin.plane import degrees
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.words import languages, word

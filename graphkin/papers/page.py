@@ -15,7 +15,7 @@ from importlib.resources import files
 
 from markupsafe import Markup
 
-from graphkin.drawing.embedded import face_rules, families
+from graphkin.drawing.font import face_rules, families
 from graphkin.papers.blocks import Block, Document, Heading, Said, said
 from graphkin.papers.html import blocks_html, rendered, said_html, used_characters
 from graphkin.papers.lesson import Lesson, tolerances

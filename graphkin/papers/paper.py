@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 from graphkin.construction import Plan, Room, execute, plan
 from graphkin.construction.sheet import Scales
 from graphkin.drawing.box import Box
-from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.polygon import extent
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet_tables import PAPERS
 from graphkin.scene.symbol import Symbol

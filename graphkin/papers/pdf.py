@@ -19,9 +19,8 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING, TypeAlias
 
 from graphkin.drawing.font import FAMILY, FOLDER
-from graphkin.drawing.font_widths import start_runs
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text, walk
-from graphkin.drawing.text import Atom, is_italic, parsed
+from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import Document, Fields, Heading, Paragraph, Picture, Plate, Room, Said, StepItem, clean
 from graphkin.papers.pieces import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, OnPage, Pair, Wrapped, pages_of

@@ -12,17 +12,16 @@ from graphkin.construction.sheet import DiagramName, Equation, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import without_titles
 from graphkin.drawing.equations import write_equation
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Text, map_tree, moved
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
-from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.dimensions import check_bar
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import so_far, stepped
-from graphkin.drawing.text import rich, symbol
+from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.paper import paper_of
 from graphkin.plane import added_up

@@ -28,7 +28,7 @@ from graphkin.drawing.ink.primitives import Group
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
-from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import stepped

@@ -15,14 +15,13 @@ from graphkin.construction import Plan, Sheet, execute, plan
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.ink.symbols import guide as guide_symbol
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import obstacles_of
 from graphkin.drawing.place.placement import place
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, runs_width
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism

@@ -16,10 +16,9 @@ from graphkin.construction import draft
 from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.polygon_acts import AddedRate
 from graphkin.construction.sheet import Equation
-from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
-from graphkin.drawing.text import wrapped
+from graphkin.drawing.text import runs_width, wrapped
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import PointRef
 from tests.construction.test_groups import BARE, HELD, UNBARRED, WELDED

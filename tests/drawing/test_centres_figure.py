@@ -15,12 +15,12 @@ from graphkin.construction.centres import Centres, speeds
 from graphkin.construction.room import Room, scales_for
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centres_figure, named_centres, untold
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
 from graphkin.drawing.parts.centre_marks import centre_marks
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined
+from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_bytes
 from graphkin.errors import CallError

@@ -25,10 +25,9 @@ from graphkin.drawing.chart import (
     look,
     marker,
 )
-from graphkin.drawing.embedded import FALLBACK
-from graphkin.drawing.font_widths import width
+from graphkin.drawing.font import FALLBACK
 from graphkin.drawing.ink.primitives import Text
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.pdf import MissingFont
 from graphkin.errors import CallError
 from tests.drawing.chart_words import overlapping, word_boxes

@@ -4,9 +4,9 @@ import pytest
 
 from graphkin import draw
 from graphkin.drawing import Text
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Group, Line, walk
 from graphkin.drawing.ink.strokes import HATCHING
+from graphkin.drawing.text import text_box
 from graphkin.scene import library
 from graphkin.words.written import as_given
 from tests.drawn import drafted, drawn

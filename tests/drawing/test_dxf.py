@@ -11,9 +11,8 @@ import pytest
 
 from graphkin import draw
 from graphkin.drawing import Drawing, Text
-from graphkin.drawing.font_widths import width
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Stroke
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, width
 from graphkin.errors import CallError
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -15,9 +15,9 @@ import pytest
 import graphkin
 from graphkin.construction import draft
 from graphkin.drawing import Box, Drawing, Text, svg_bytes
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import walk
 from graphkin.drawing.sheet_plan import sheet_room
+from graphkin.drawing.text import text_box
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.sheet_tables import PAPERS
 from tests.drawn import drafted, drawn, figures

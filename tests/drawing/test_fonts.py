@@ -14,8 +14,7 @@ import graphkin
 from graphkin import draw
 from graphkin.drawing import Drawing, Text, embedded, svg_bytes
 from graphkin.drawing.font import glyph, holds, part
-from graphkin.drawing.font_widths import runs_width
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, runs_width
 from graphkin.words import LANGUAGES
 from tests.letters import SVG, faces, letters, shown, whole
 

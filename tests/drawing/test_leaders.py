@@ -10,8 +10,8 @@ import shapely
 
 from graphkin import draw
 from graphkin.drawing import Text
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Circle, Group, Line, walk
+from graphkin.drawing.text import text_box
 
 SVG = "{http://www.w3.org/2000/svg}"
 drawn = cache(draw)

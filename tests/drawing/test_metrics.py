@@ -4,8 +4,7 @@ import string
 
 import pytest
 
-from graphkin.drawing.font_widths import width
-from graphkin.drawing.text import wrapped
+from graphkin.drawing.text import width, wrapped
 
 SIGNS = string.ascii_letters + string.digits + " .,:;?!()[]/*'ωαμπτεφψθβγδλρ√′·°≈≤≥±→"
 STYLES = {"": {}, "Italic": {"italic": True}, "Bol": {"bold": True}}

@@ -8,9 +8,9 @@ import pytest
 
 import graphkin
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.text import text_box
 from graphkin.papers.pictures import bare_picture
 
 FOUR_BAR = graphkin.read("fourbar-150-500-300-400").to_dict() | {"positions": {"count": 4, "first": 0}}

@@ -3,9 +3,8 @@ from __future__ import annotations
 import pytest
 
 from graphkin.drawing.font import EM, glyph
-from graphkin.drawing.font_widths import run_box, runs_width, text_box, width
 from graphkin.drawing.ink.primitives import Text
-from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.text import plain, rich, run_box, runs_width, symbol, text_box, width
 
 
 def by_text(runs):

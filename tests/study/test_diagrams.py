@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Drawing, Group, Line, Polyline, Text
 from graphkin.drawing.chart import ChartPage
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import walk
+from graphkin.drawing.text import text_box
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
 from graphkin.study.diagrams import coupler_points, diagrams, measured

@@ -14,7 +14,6 @@ from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import STEP, WORKED, Block, panel, picture, row, steps, table, worked_page
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import (
     Arc,
@@ -31,7 +30,7 @@ from graphkin.drawing.ink.primitives import (
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, moved_piece
-from graphkin.drawing.text import plain, rich, symbol
+from graphkin.drawing.text import plain, rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
 from graphkin.scene.model import Mechanism

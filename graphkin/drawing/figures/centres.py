@@ -36,7 +36,6 @@ from graphkin.drawing.boxes import (
     rows,
 )  # fmt: skip
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page, walk
 from graphkin.drawing.ink.strokes import colour_of_link, pale
@@ -48,7 +47,7 @@ from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, without
 from graphkin.drawing.place.obstacles import obstacles_of
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, renamed
-from graphkin.drawing.text import plain
+from graphkin.drawing.text import plain, text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol

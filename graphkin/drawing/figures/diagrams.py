@@ -1,4 +1,8 @@
-"""One figure on a page of its own: mechanism, velocity polygon, acceleration polygon, with heading and scale."""
+"""One figure on a page of its own: mechanism, velocity polygon, acceleration polygon, with heading and scale.
+
+While a hand moves the mechanism its links, vectors and letters are drawn at once, without the search for free room;
+dimensions, insets and senses come when the hand rests and the figure is drawn in full.
+"""
 
 from __future__ import annotations
 
@@ -6,22 +10,29 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
-from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, remarks
+from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, remarks
+from graphkin.account.notation import letters_of
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets, strip_height
-from graphkin.drawing.parts.mechanism import mechanism_piece
-from graphkin.drawing.parts.polygon_on_page import extent
-from graphkin.drawing.parts.scans import background_piece, scan_piece
-from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, joined, moved_piece
+from graphkin.drawing.ink.primitives import Text, page_direction
+from graphkin.drawing.parts.insets import (
+    mechanism_with_inset,
+    polygon_with_insets,
+    scan_piece,
+    strip_height,
+)
+from graphkin.drawing.parts.mechanism import bare_mechanism, mechanism_piece
+from graphkin.drawing.parts.polygon import PolygonOnPage, extent, polygon_piece
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, middle_of, moved_piece
+from graphkin.drawing.text import text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.model import Mechanism
 from graphkin.words import languages
 
-__all__ = ["FIGURES", "diagram_figure", "diagram_figures"]
+__all__ = ["DIAGRAMS", "FIGURES", "diagram_figures", "figure_in_motion"]
 
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
 ROOM = 12.0  # mm around the figure, for names
@@ -50,9 +61,7 @@ def diagram_figure(
         around = Box(room.left, room.top, room.right, room.bottom - strip)
         origin = around.centre - content.centre
         if diagram == "mechanism":
-            named = with_labels(moved_piece(piece, origin), around)
-            under = background_piece(sheet, origin, around)
-            whole = joined((under, named, mechanism_detail(sheet, letters, spoken, around, named.drawn)))
+            whole = mechanism_with_inset(sheet, letters, spoken, piece, origin, around)
         else:
             insets = Box(room.left, around.bottom, room.right, room.bottom)
             whole, _ = polygon_with_insets(sheet, diagram, letters, spoken, around, origin, insets)
@@ -86,6 +95,53 @@ def contacts_figure(sheet: Sheet, *, language: str | None = None, convention: st
 
 def _touches(scene: Mechanism) -> bool:
     return any(not c.rolling for c in scene.contacts) or bool(scene.cams) or any(not s.block for s in scene.slots)
+
+
+MOVING = 20.0  # mm around what is drawn while a hand moves it
+ASIDE = 1.6  # mm from a point, or from the middle of a segment, to the box of its name
+
+
+def figure_in_motion(
+    sheet: Sheet, diagram: DiagramName, *, language: str | None = None, convention: str | None = None
+) -> Drawing:
+    """The mechanism or one of its polygons, every name beside what it names wherever that is; parameters as for
+    `graphkin.drawing.figures.diagrams.diagram_figure`."""
+    spoken = language or sheet.scene.sheet.language
+    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    if diagram == "mechanism":
+        piece = bare_mechanism(sheet, letters)
+        content = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
+    else:
+        content = extent(sheet, diagram)
+        panel = content.grown(MOVING)
+        piece = polygon_piece(PolygonOnPage(sheet, diagram, letters, languages(spoken)[0], panel, 0j, ()))
+    size = complex(content.width + 2 * MOVING, content.height + 2 * MOVING)
+    piece = _named_at_once(moved_piece(piece, size / 2 - content.centre))
+    title = figure_title(sheet, FIGURE_WORDS[diagram], spoken)
+    return Drawing(size.real, size.imag, layer_groups(piece), title, "", languages(spoken)[0])
+
+
+def _named_at_once(piece: Piece) -> Piece:
+    names = tuple(_beside(label) for label in piece.labels if label.rank < 3)
+    return Piece({**piece.layers, "labels": (*piece.layers.get("labels", ()), *names)})
+
+
+def _beside(label: Label) -> Text:
+    """A name on the side of its mark that it likes best, right above where it likes none."""
+    text = Text(0j, label.text.runs, "start", label.text.colour, label.text.id, label.text.classes, label.text.step)
+    box = text_box(text)
+    if label.toward:
+        away = page_direction(label.toward[0])
+    elif isinstance(label.mark, tuple) and label.mark[0] != label.mark[1]:
+        along = (label.mark[1] - label.mark[0]) / abs(label.mark[1] - label.mark[0])
+        away = along * (-1j if along.real >= 0 else 1j)
+    else:
+        away = page_direction(0.8)
+    half = abs(away.real) * box.width / 2 + abs(away.imag) * box.height / 2
+    centre = middle_of(label.mark) + away * (half + ASIDE)
+    return Text(
+        centre - box.centre, text.runs, "start", text.colour, text.id, text.classes, text.step
+    )  # fmt: skip
 
 
 FIGURES = (

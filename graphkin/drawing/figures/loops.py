@@ -16,7 +16,6 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import SIZE, Block, FigurePage, column, panel, prose, row
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.font_widths import runs_width
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link
@@ -24,7 +23,7 @@ from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, moved_piece
-from graphkin.drawing.text import rich, symbol
+from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
 from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers

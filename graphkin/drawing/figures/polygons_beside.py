@@ -22,7 +22,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, framed, line, panel, prose, row
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.parts.insets import polygon_with_insets
-from graphkin.drawing.parts.polygon_on_page import extent
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.piece import Piece, renamed
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say

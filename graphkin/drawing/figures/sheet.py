@@ -33,14 +33,18 @@ from graphkin.drawing.figures.loops import loops_figure
 from graphkin.drawing.figures.train import train_figure
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
-from graphkin.drawing.parts.coriolis import INSET, CoriolisTerm, coriolis_row, per_row
-from graphkin.drawing.parts.insets import mechanism_detail, polygon_with_insets
+from graphkin.drawing.parts.insets import (
+    INSET,
+    CoriolisTerm,
+    coriolis_row,
+    mechanism_with_inset,
+    per_row,
+    polygon_with_insets,
+)
 from graphkin.drawing.parts.mechanism import mechanism_piece
-from graphkin.drawing.parts.polygon_on_page import extent
-from graphkin.drawing.parts.scans import background_piece
+from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups
 from graphkin.drawing.sheet_plan import BLOCK, GUTTER, SheetPlan, sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.tables import TableRow, given_data, given_lines, readings_table, set_lines, table_rows
 from graphkin.drawing.text import fitted, plain, wrapped
@@ -229,10 +233,7 @@ def _panel(box: Box, caption: str) -> Piece:
 def _mechanism(sheet: Sheet, letters: Letters, language: str, panel: Box) -> Piece:
     room = panel.grown(-0.8)
     piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
-    origin = panel.centre - content.centre
-    named = with_labels(moved_piece(piece, origin), room)
-    under = background_piece(sheet, origin, room)
-    return joined((under, named, mechanism_detail(sheet, letters, language, room, named.drawn)))
+    return mechanism_with_inset(sheet, letters, language, piece, panel.centre - content.centre, room)
 
 
 class _Polygons:

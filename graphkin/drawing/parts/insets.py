@@ -1,42 +1,68 @@
 """What stands in insets: the senses of Coriolis terms and parts of a polygon that are too small for a ruler, in a strip
 or in free corners of its panel; and a place of the mechanism where points lie so near to each other that their symbols
-overlap, drawn again larger."""
+overlap, drawn again larger.  Under a figure lie the scene's picture, and scans of drawings with their lines as they
+were read.
+
+The inset of a Coriolis term shows its sense: 2 ω v stands square to the sliding velocity v, on the side to which the
+guide's ω turns it.
+"""
 
 from __future__ import annotations
 
+import math
+from cmath import phase
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
+from graphkin.account.end_letters import ZERO
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
+from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sizes import RateTimes, Size
+from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, map_tree, on_page
-from graphkin.drawing.ink.strokes import colour_of_vector
-from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
-from graphkin.drawing.parts.coriolis import (
-    GUTTER,
-    INSET,
-    CoriolisTerm,
-    coriolis_terms,
-    inset_boxes,
-    named_inset,
-    per_row,
+from graphkin.drawing.ink.primitives import (
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Primitive,
+    Scan,
+    Stroke,
+    Text,
+    map_tree,
+    on_page,
 )
+from graphkin.drawing.ink.strokes import colour_of_vector
+from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow, sense_arc
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.polygon import polygon_piece, rings, step_numbers
-from graphkin.drawing.parts.polygon_on_page import END_RADIUS, Detail, PolygonOnPage, crowds, details, side_by_side
+from graphkin.drawing.parts.polygon import (
+    END_RADIUS,
+    Detail,
+    PolygonOnPage,
+    crowds,
+    details,
+    polygon_piece,
+    rings,
+    side_by_side,
+    step_numbers,
+)
 from graphkin.drawing.place.labels import Label, Obstacles
 from graphkin.drawing.place.names import with_crowd, with_labels, without
 from graphkin.drawing.place.obstacles import free_boxes, obstacles_of
 from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece
-from graphkin.drawing.text import fitted, symbol
-from graphkin.scene.symbol import PointRef
+from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
+from graphkin.plane import cross, unit
+from graphkin.scene.symbol import PointRef, Symbol
 
-__all__ = ["mechanism_detail", "polygon_with_insets", "strip_height"]
+__all__ = [
+    "INSET", "CoriolisTerm", "background_piece", "coriolis_row", "coriolis_terms", "mechanism_with_inset", "per_row",
+    "polygon_with_insets", "scan_piece", "strip_height",
+]  # fmt: skip
 
 SMALL_INSET = 24.0, 21.0  # mm
 ROUNDING = 1e-6  # mm
@@ -242,7 +268,23 @@ SIZE = (34.0, 34.0)  # mm of the inset
 CAPTION = 5.0
 
 
-def mechanism_detail(
+def mechanism_with_inset(
+    sheet: Sheet, letters: Letters, language: str, piece: Piece, origin: complex, panel: Box
+) -> Piece:
+    """A mechanism with names in their places, the scene's picture under it, and the inset for its two nearest points.
+
+    Parameters
+    ----------
+    piece : as `mechanism_piece` draws it
+    origin : page point of the world's origin
+    panel : room of it all (mm)
+    """
+    named = with_labels(moved_piece(piece, origin), panel)
+    under = background_piece(sheet, origin, panel)
+    return joined((under, named, _mechanism_detail(sheet, letters, language, panel, named.drawn)))
+
+
+def _mechanism_detail(
     sheet: Sheet, letters: Letters, language: str, panel: Box, drawn: tuple[Primitive, ...]
 ) -> Piece:
     """The inset for the two nearest points, in a free corner of the panel, nothing
@@ -302,3 +344,130 @@ def _renamed(thing: Primitive) -> Primitive:
         id = f"label-detail-{thing.id.removeprefix('label-')}"
         return Text(thing.at, thing.runs, thing.anchor, thing.colour, id, thing.classes)
     return thing
+
+
+CoriolisTerm: TypeAlias = tuple[Vector, Vector, Size | None]
+"""A Coriolis vector, its sliding velocity, and the rule for its size."""
+REACH = 8.0  # mm of the arrows
+INSET = 32.0, 26.0  # mm
+GUTTER = 2.0  # mm between insets
+
+
+def coriolis_terms(sheet: Sheet) -> list[CoriolisTerm]:
+    """Each Coriolis vector that is not zero, with its sliding velocity and the rule for its size."""
+    velocities = sheet.vectors("velocity")
+    rules = {t.symbol: t.size for e in sheet.equations for side in e.sides for t in side}
+    found = []
+    for vector in sheet.vectors("acceleration").values():
+        if vector.role != "coriolis" or abs(vector.span) < ZERO:
+            continue
+        of, to = vector.symbol.of, vector.symbol.to
+        for velocity in (velocities.get(Symbol("v", of, to)), velocities.get(Symbol("v", of))):
+            if velocity is not None and abs(velocity.span) > ZERO:
+                found.append((vector, velocity, rules.get(vector.symbol)))
+                break
+    return found
+
+
+def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box) -> tuple[Piece, Box]:
+    """The inset in a box of the page, and the part of it in which its names may stand."""
+    vector, velocity, rule = term
+    slip, turned = unit(velocity.span), unit(vector.span)
+    sense = 1 if cross(slip, turned) > 0 else -1
+    inner = Box(box.left + 0.6, box.top + 0.6, box.right - 0.6, box.bottom - 6.2)
+    centre = inner.centre - REACH / 2 * on_page(slip + turned)
+    colour = colour_of_vector(sheet, vector.symbol)
+    tips = [centre + REACH * on_page(way) for way in (slip, turned)]
+    arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
+    parts: tuple[Primitive, ...] = (
+        *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
+        *arrow(centre, tips[1], COMPONENT, colour),
+        *arc,
+        Circle(centre, 0.4, fill=strokes.BLACK),
+    )
+    frame = Polygon(box.corners, "", strokes.DIMENSION)
+    id = vector.symbol.id
+    links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""
+    names = [
+        _label(letters.arrow(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
+        _label(letters.arrow(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
+    ]
+    if links:
+        middle = centre + 3.6 * on_page(slip + turned) / abs(slip + turned)
+        names.append(_label(f"ω_{{{links}}}", f"label-inset-omega-{id}", middle, phase(slip + turned), 1))
+    name = f"${letters.vector(vector.symbol)}$"
+    caption = fitted(f"{name} = ${letters.size(rule)}$" if rule else name, 2.8, box.width - 1.6)
+    if runs_width(caption) > box.width - 1.6:
+        caption = fitted(name, 2.8, box.width - 1.6)
+    words = Text(complex(box.centre.real, box.bottom - 2.3), caption, "middle", id=f"label-sense-{id}")
+    group = Group((frame, *parts), id=f"sense-{id}", classes=("inset",))
+    drawn = [step.number for step in sheet.steps if vector in step.strokes]
+    return dated(Piece({"acceleration": (group,), "labels": (words,)}, tuple(names)), max(drawn, default=None)), inner
+
+
+def coriolis_row(sheet: Sheet, terms: Sequence[CoriolisTerm], letters: Letters, row: Box) -> Piece:
+    """Insets of Coriolis terms side by side in a row, as many as fit."""
+    boxes = inset_boxes(row, min(len(terms), per_row(row.width)))
+    return joined(named_inset(sheet, one, letters, box) for one, box in zip(terms, boxes, strict=False))
+
+
+def named_inset(sheet: Sheet, one: CoriolisTerm, letters: Letters, box: Box) -> Piece:
+    """The inset of a Coriolis term in its box, with its names."""
+    return with_labels(*coriolis_inset(sheet, one, letters, box))
+
+
+def per_row(width: float) -> int:
+    """How many insets stand side by side in a width (mm), one at least."""
+    return max(1, int((width + GUTTER) // (INSET[0] + GUTTER)))
+
+
+def inset_boxes(strip: Box, count: int) -> list[Box]:
+    """So many boxes of insets in rows from the upper left corner of a strip."""
+    many = per_row(strip.width)
+    corners = [
+        (strip.left + (i % many) * (INSET[0] + GUTTER), strip.top + (i // many) * (INSET[1] + GUTTER))
+        for i in range(count)
+    ]
+    return [Box(x, y, x + INSET[0], y + INSET[1]) for x, y in corners]
+
+
+def _label(markup: str, id: str, at: complex, toward: float, rank: int = 0) -> Label:
+    return Label(Text(0j, symbol(markup, 2.8), "start", strokes.BLACK, id, ("label",)), at, (toward,), rank)
+
+
+READ = Stroke(0.3, (1.6, 0.8), "#c2006b")
+OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
+
+
+def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
+    """The scene's picture, cut to a panel (mm, y down) in which the world's origin lies at ``origin``."""
+    under = sheet.scene.background
+    if under is None:
+        return Piece()
+    mm = 1 / sheet.scales.length
+    corner, step = (on_page(z) * mm for z in (under.corner, under.step))
+    scan = Scan(origin + corner, step, under.width, under.height, under.kind, under.data, panel.corners)
+    return Piece({"background": (scan,)})
+
+
+def scan_piece(sheet: Sheet, diagram: DiagramName, origin: complex, panel: Box) -> Piece:
+    """The scans of a figure, cut to a panel (mm, y down) in which the pole, or the world's origin, lies at ``origin``:
+    the picture, if there is one, and the lines as they were read, the one that is off bold and with a name."""
+    under: list[Primitive] = []
+    lines: list[Primitive] = []
+    for judged in judge_scans(sheet, diagram):
+        scan = judged.scan
+        if scan.data:
+            corner, step = (on_page(z) for z in (judged.corner, judged.step))
+            under.append(Scan(origin + corner, step, scan.width, scan.height, scan.kind, scan.data, panel.corners))
+        for line in judged.lines:
+            ends = panel.clip(origin + on_page(line.tail), origin + on_page(line.tip))
+            if ends is None:
+                continue
+            wrong = line is judged.off
+            drawn: tuple[Primitive, ...] = (Line(*ends, OFF if wrong else READ),)
+            if wrong:
+                at = (ends[0] + ends[1]) / 2 + 1.2 - 1.2j
+                drawn += (Text(at, plain(line.name, 3.0), "start", OFF.colour, classes=("label", "off")),)
+            lines.append(Group(drawn, id=f"read-{line.name.replace('/', '-').replace('@', '')}", classes=("read",)))
+    return Piece({"background": tuple(under), "answers": tuple(lines)} if under or lines else {})

@@ -1,6 +1,7 @@
 """The drawn mechanism: its frame and links, its points with their letters, names of links and guides, dimensions, the
 compass arcs that found it; the arcs of driving and found angular velocities and accelerations, clear of bars, joints,
-feet and each other, and the arrows of driven slides.  It is cut to its room where it has to be.
+feet and each other, and the arrows of driven slides; and where a group is larger than a dyad, trial positions with the
+curve of the free end, and lines to special points.  It is cut to its room where it has to be.
 """
 
 from __future__ import annotations
@@ -12,13 +13,26 @@ from itertools import pairwise
 
 import numpy as np
 
+from graphkin.account.end_letters import SAME
 from graphkin.account.notation import Letters
-from graphkin.construction.mechanism_acts import SpecialPoint
+from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
 from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.strokes import Bar, CompassArc, TrialCurve
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import (
+    Arc,
+    Circle,
+    Group,
+    Line,
+    Polygon,
+    Polyline,
+    Primitive,
+    Stroke,
+    Text,
+    on_page,
+)
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
 from graphkin.drawing.parts.dimensioning import drawn_lengths
 from graphkin.drawing.parts.mechanism_on_paper import (
@@ -30,13 +44,13 @@ from graphkin.drawing.parts.mechanism_on_paper import (
     Slider,
     points_since,
 )
+from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
-from graphkin.drawing.parts.trial_marks import compass_arcs, trial_marks_in_mechanism
 from graphkin.drawing.place.intersections import Floats, Points
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
-from graphkin.plane import added_up, cross, dot
+from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.model import Driver
 
 __all__ = ["bare_mechanism", "links_alone", "mechanism_piece"]
@@ -604,3 +618,70 @@ def _springs(here: MechanismOnPaper) -> Piece:
         text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",), since=since)
         names.append(Label(text, (on_page(a), on_page(b)), rank=1))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
+
+
+COMPASS = 7.0  # mm of arc to either side of what it finds
+SPLINTER = math.sin(math.radians(15.0))  # a smaller angle of an arc to a bar looks like a splinter of the bar
+CROSS = 0.9  # mm: half a cross that marks a trial position
+
+
+def compass_arcs(here: MechanismOnPaper) -> Piece:
+    """Compass arcs near the points that they find, over a block that would leave but their ends."""
+    under: list[Primitive] = []
+    over: list[Primitive] = []
+    arcs = [
+        (step, stroke) for step in here.sheet.steps if step.diagram == "mechanism"
+        for stroke in step.strokes if isinstance(stroke, CompassArc) and stroke.radius > 1e-9
+    ]  # fmt: skip
+    bars: dict[complex, set[complex]] = {}
+    for _, arc in arcs:
+        bars.setdefault(same_place(arc.at), set()).add(unit(arc.centre - arc.at))
+    for step, arc in arcs:
+        there = bars[same_place(arc.at)]
+        middle = phase(arc.at - arc.centre)
+        half = min(COMPASS / arc.radius, math.pi * 0.9)
+        shown = [not _along_a_bar(arc, side, there) for side in (-1, 1)]
+        first, last = (half * (one or not any(shown)) for one in shown)
+        shape = Arc(on_page(arc.centre), arc.radius, middle - first, middle + last, strokes.CONSTRUCTION)
+        covered = any(abs(block.at - arc.at) < SAME for block in here.sliders)
+        (over if covered else under).append(Group((shape,), classes=("compass",), step=step.number))
+    return Piece({"construction": tuple(under), "mechanism": tuple(over)})
+
+
+def _along_a_bar(arc: CompassArc, side: int, bars: set[complex]) -> bool:
+    """Whether an arc, to one side, 1 counter-clockwise, begins nearly along one of the bars that meet there."""
+    way = side * 1j * unit(arc.at - arc.centre)
+    return any(dot(way, bar) > 0.0 and abs(cross(way, bar)) < SPLINTER for bar in bars)
+
+
+def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
+    """Trial curves with their positions numbered, and the lines of legs drawn on to special points."""
+    drawn: list[Primitive] = []
+    over: list[Primitive] = []  # lines that run over the areas of links
+    labels: list[Label] = []
+    curves = 0
+    for step in sheet.steps:
+        if step.diagram != "mechanism":
+            continue
+        if isinstance(step.act, SpecialPoint):
+            lines = tuple(
+                Line(on_page(s.a), on_page(s.b), strokes.DIRECTION)
+                for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
+            )  # fmt: skip
+            over.append(Group(lines, id=f"special-{step.act.point}", classes=("special",), step=step.number))
+        for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
+            curves += 1
+            parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
+            for number, z in enumerate(curve.at, 1):
+                parts += [Line(on_page(z + w), on_page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
+                name = f"label-trial-{curve.point}-{number}"
+                numeral = symbol(str(number), 2.0)
+                text = Text(0j, numeral, "start", strokes.GREY, name, ("label", "trial"), since=step.number)
+                labels.append(Label(text, on_page(z), rank=4))
+            id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
+            drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
+        if isinstance(step.act, TrialPositions):
+            goals = [s for s in step.strokes if isinstance(s, Bar)]
+            ways = [Line(on_page(s.a), on_page(s.b), strokes.DIRECTION) for s in goals]
+            drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]
+    return Piece({"construction": tuple(drawn), "mechanism": tuple(over)}, tuple(labels))

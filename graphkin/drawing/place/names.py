@@ -11,13 +11,12 @@ from dataclasses import replace
 from itertools import accumulate, zip_longest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import runs_width, text_box
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
 from graphkin.drawing.place.labels import Label, Mark, Obstacles, Placed
 from graphkin.drawing.place.obstacles import CLEAR, free_boxes, obstacles_of
 from graphkin.drawing.place.piece import Piece
 from graphkin.drawing.place.placement import Placement
-from graphkin.drawing.text import rich
+from graphkin.drawing.text import rich, runs_width, text_box
 from graphkin.plane import added_up
 
 __all__ = ["named", "with_crowd", "with_labels", "without"]

@@ -11,7 +11,6 @@ from itertools import accumulate, pairwise
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import (
     Arc,
     Circle,
@@ -26,6 +25,7 @@ from graphkin.drawing.ink.primitives import (
 )
 from graphkin.drawing.place.intersections import Flags, Points, meets
 from graphkin.drawing.place.labels import Obstacles
+from graphkin.drawing.text import text_box
 
 __all__ = ["CLEAR", "first_free", "free_boxes", "obstacles_of"]
 

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import text_box
 from graphkin.drawing.ink.primitives import (
     Arc,
     Circle,
@@ -23,6 +22,7 @@ from graphkin.drawing.ink.primitives import (
     walk,
 )
 from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.text import text_box
 
 __all__ = [
     "LAYERS", "Piece", "cut_to", "dated", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece",

@@ -19,7 +19,6 @@ from itertools import islice
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.font_widths import box_about
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.place.intersections import ON_LINE, Flags, Floats, Indices
@@ -37,6 +36,7 @@ from graphkin.drawing.place.labels import (
     leader_forms,
 )
 from graphkin.drawing.place.panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
+from graphkin.drawing.text import box_about
 from graphkin.plane import added_up
 
 __all__ = ["Placement", "place"]

@@ -17,7 +17,6 @@ from threading import RLock, local
 from typing import TYPE_CHECKING
 
 from graphkin.drawing.font import FAMILY, FOLDER, holds
-from graphkin.drawing.font_widths import start_runs
 from graphkin.drawing.ink.primitives import (
     PALE,
     Arc,
@@ -32,6 +31,7 @@ from graphkin.drawing.ink.primitives import (
     Text,
     walk,
 )
+from graphkin.drawing.text import start_runs
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -17,9 +17,7 @@ from itertools import count
 from xml.etree import ElementTree
 from zlib import crc32
 
-from graphkin.drawing.embedded import face_rules, families, outline
-from graphkin.drawing.font import Style
-from graphkin.drawing.font_widths import has_cjk, runs_width, start_runs, style_of, width
+from graphkin.drawing.font import Style, face_rules, families, outline, style_of
 from graphkin.drawing.ink.primitives import (
     PALE,
     Arc,
@@ -37,6 +35,7 @@ from graphkin.drawing.ink.primitives import (
     Travel,
     class_names,
 )
+from graphkin.drawing.text import has_cjk, runs_width, start_runs, width
 
 __all__ = ["number", "svg_bytes", "svg_element"]
 
