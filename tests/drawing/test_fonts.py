@@ -12,7 +12,7 @@ from fontTools.ttLib import TTFont
 
 import graphkin
 from graphkin import draw
-from graphkin.drawing import Drawing, Text, embedded, svg_bytes
+from graphkin.drawing import Drawing, Text, font, svg_bytes
 from graphkin.drawing.font import glyph, holds, part
 from graphkin.drawing.text import rich, runs_width
 from graphkin.words import LANGUAGES
@@ -70,10 +70,10 @@ def test_letters_that_were_packed_once_are_kept():
 
 
 def test_the_name_of_the_faces_does_not_tell_how_they_are_packed(monkeypatch):
-    name, _ = embedded.face_rules({"regular": "ab"})
-    monkeypatch.setattr(embedded, "part", lambda *_: b"packed by another version")
-    assert name == embedded.face_rules({"regular": "ba"})[0]
-    assert name != embedded.face_rules({"regular": "abc"})[0]
+    name, _ = font.face_rules({"regular": "ab"})
+    monkeypatch.setattr(font, "part", lambda *_: b"packed by another version")
+    assert name == font.face_rules({"regular": "ba"})[0]
+    assert name != font.face_rules({"regular": "abc"})[0]
 
 
 def test_the_family_has_all_chinese_of_the_tables_of_words_and_of_the_scenes():
