@@ -17,8 +17,7 @@ from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.ink.strokes import DIMENSION
 from graphkin.drawing.parts.insets import coriolis_terms
 from graphkin.drawing.parts.mechanism import bare_mechanism
-from graphkin.drawing.parts.polygon import polygon_piece
-from graphkin.drawing.parts.polygon import PolygonOnPage, extent
+from graphkin.drawing.parts.polygon import PolygonOnPage, extent, polygon_piece
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
 from graphkin.drawing.stepwise import so_far, stepped
