@@ -25,7 +25,7 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
 
 if TYPE_CHECKING:
-    from graphkin.study.sweep_quantities import SweepQuantity
+    from graphkin.study.quantities import Quantity
 
 __all__ = [
     "CHART_FORMATS",
@@ -318,12 +318,12 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     return tuple(found)
 
 
-def quantity_shown(scene: Mechanism, name: str) -> SweepQuantity:
+def quantity_shown(scene: Mechanism, name: str) -> Quantity:
     """What a name shows in a table: a place ("C"), an angle, a travel or its rates, a force, or what ``find`` knows.
     Raises CallError for a name that means nothing here."""
-    from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
+    from graphkin.study.quantities import named_quantity, symbol_quantity
 
-    return quantity_named(scene, name) or quantity_of_symbol(*asked_symbols(scene, [name]))
+    return named_quantity(scene, name) or symbol_quantity(*asked_symbols(scene, [name]))
 
 
 def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:

@@ -12,8 +12,14 @@ import numpy as np
 from graphkin.errors import Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Forces, listed_points, own_slides
-from graphkin.study.quantities import Quantity, link_quantities, settled, slide_quantities, symbol_quantity
-from graphkin.study.sweep_quantities import SweepQuantity
+from graphkin.study.quantities import (
+    Quantity,
+    link_quantities,
+    place_quantity,
+    settled,
+    slide_quantities,
+    symbol_quantity,
+)
 from graphkin.table import Array
 from graphkin.words import Phrase, Wording, say, word
 
@@ -74,8 +80,8 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
         units = tuple(unit.text if language == "en" else unit.written for unit in shown)
         return SolutionTable(say(Phrase(f"heads of {of}", units), language).split("|"), right)
 
-    def columns(*quantities: Quantity | PointRef) -> list[list[str]]:
-        return [_texts(*SweepQuantity(quantity).parts(None, motion)) for quantity in quantities]
+    def columns(*quantities: Quantity) -> list[list[str]]:
+        return [_texts(*quantity.parts(None, motion)) for quantity in quantities]
 
     links, points, slides = table("links", 1, 2, 3), table("points"), table("slides", 1, 2, 3)
     links.rows.extend((link.name, columns(*link_quantities(link.name))) for link in scene.links)
@@ -83,7 +89,7 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
     for point, link in listed_points(scene, pairs):
         ref = PointRef(point, "" if point in scene.by_name[link].points else link)
         rates = (symbol_quantity(Symbol(kind, ref)) for kind in ("v", "a"))
-        points.rows.append((f"{point}@{link}", columns(ref, *rates)))
+        points.rows.append((f"{point}@{link}", columns(place_quantity(ref), *rates)))
     for pair in pairs:
         term = push.of(settled(motion.slide(pair.key).coriolis, 2.0 * motion.floors["acceleration"]))
         slides.rows.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
@@ -98,7 +104,7 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
 def _forces(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
     """Forces by components, size and direction."""
     for name in _names(found, found.forces):
-        x, y = (_there(found, name, part) for part in SweepQuantity(Quantity("force", name)).parts(None, found.motion))
+        x, y = (_there(found, name, part) for part in Quantity("force", name).parts(None, found.motion))
         way = ["–" if a == b == 0.0 else f"{math.degrees(math.atan2(b, a)):.6g}" for a, b in zip(x, y, strict=True)]
         yield name, (_texts(x, y), _texts(np.hypot(x, y)), way)
 
@@ -111,7 +117,7 @@ def _moments(found: Forces) -> Iterator[tuple[str, Sequence[Sequence[str]]]]:
         shown += [symbol_quantity(Symbol.parse(name)) for name in ("excess_W", "J_F")]
     for quantity in shown:
         try:
-            (values,) = SweepQuantity(quantity).parts(None, motion)
+            (values,) = quantity.parts(None, motion)
         except Unsolvable:  # no whole turn
             continue
         texts = _texts(_there(found, quantity.name, values))

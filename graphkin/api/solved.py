@@ -71,13 +71,13 @@ class Solved(OfScene, Result):
     @cached_property
     def table(self) -> Table:
         """A row for each position: the drivers' values, everything that moves, the status and the reason for it."""
-        from graphkin.study.sweep_quantities import all_that_moves, motion_table
+        from graphkin.study.quantities import all_that_moves, motion_table
 
         motion, scene = self.motion, self.mechanism
         shown = [quantity_shown(scene, name) for name in self.find] or all_that_moves(motion.structure)
         parts = tuple(quantity.parts(None, self._moved) for quantity in shown)
         times = np.array(self.times) if self.times else None
-        return motion_table(scene, shown, 0, motion.values, parts, motion.status, motion.why, times)
+        return motion_table(scene, shown, bool(self.find), 0, motion.values, parts, motion.status, motion.why, times)
 
     def columns(self, name: str) -> list[Column]:
         """What has a name, as columns of the table: a vector's size and components.  Raises CallError."""

@@ -33,7 +33,7 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.api.answers import AnswersLike
     from graphkin.study.graphical import Way
-    from graphkin.study.sweep_quantities import SweepQuantity
+    from graphkin.study.quantities import Quantity
 
 __all__ = ["sweep"]
 
@@ -208,25 +208,25 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
     )
 
 
-def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[SweepQuantity, ...]:
+def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quantity, ...]:
     """What is asked, in its order.  Raises CallError, naming everything that names nothing."""
-    from graphkin.study.sweep_quantities import quantity_named, quantity_of_symbol
+    from graphkin.study.quantities import named_quantity, symbol_quantity
 
     if find is None:
         shown = (s for s in scene.find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
-        forces = {s: quantity_named(scene, str(s)) for s in scene.find if s.scope == "force"}
-        return tuple(forces.get(s) or quantity_of_symbol(s) for s in shown)
-    found: list[SweepQuantity] = []
+        forces = {s: named_quantity(scene, str(s)) for s in scene.find if s.scope == "force"}
+        return tuple(forces.get(s) or symbol_quantity(s) for s in shown)
+    found: list[Quantity] = []
     problems: list[Problem] = []
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
-        named = quantity_named(scene, name) if isinstance(name, str) else None
+        named = named_quantity(scene, name) if isinstance(name, str) else None
         if isinstance(name, str) and name.startswith(OF_TURN):
             problems.append(
                 Problem(f"find {name}", Phrase("is of the whole turn no column"), Phrase("it stands in the summary"))
             )
             continue
         try:
-            found += [named] if named is not None else map(quantity_of_symbol, asked_symbols(scene, [name]))
+            found += [named] if named is not None else map(symbol_quantity, asked_symbols(scene, [name]))
         except CallError as error:
             problems += error.problems
     if problems:

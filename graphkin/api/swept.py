@@ -120,7 +120,7 @@ class Swept(OfScene, Result):
 
         if self.over.designs.keys or moves_by_law(self.over.scene):
             return None
-        return study_turn(self.over.base.reach, [w.symbol for w in self.over.asked if w.symbol is not None])
+        return study_turn(self.over.base.reach, [q for q in self.over.asked if q.kind != "place" and not q.is_load])
 
     @cached_property
     def time(self) -> TimeStudy | None:
@@ -134,11 +134,9 @@ class Swept(OfScene, Result):
     @property
     def _wished(self) -> list[Quantity]:
         """What is asked besides the scene's own wishes: it alone is drawn."""
-        from graphkin.study.quantities import Quantity
-
         own = [str(s) for s in self.over.scene.find]
-        wished = [w.what for w in self.over.asked if isinstance(w.what, Quantity)]
-        return wished if [w.name for w in self.over.asked] != own else []
+        wished = [q for q in self.over.asked if q.kind != "place"]
+        return wished if [q.name for q in self.over.asked] != own else []
 
     @cached_property
     def data(self) -> dict[str, Json]:

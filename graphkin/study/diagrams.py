@@ -42,7 +42,7 @@ from graphkin.study.driver_axis import (
     title_of,
 )
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
+from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup
@@ -123,11 +123,10 @@ def _motion_page(
 ) -> ChartPage:
     scene, quantity = turn.scene, output.quantity
     turns = quantity.kind == "theta"
-    curves = link_quantities(quantity.of) if turns else slide_quantities(quantity.of)
     traced = {t.quantity: t for t in turn.curves}
     panels = [
         panel_of(turn, axis, q, traced.get(q), [(d[0], d[k + 1]) for d in dots], over.get(q, ()))
-        for k, q in enumerate(curves)
+        for k, q in enumerate(rates_of(quantity))
     ]
     limits = sorted(
         {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}

@@ -19,7 +19,7 @@ from graphkin.solver.cams import cam_angle
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
+from graphkin.study.quantities import Quantity, rates_of
 
 __all__ = ["CurveParameter", "Extreme", "Least", "Traced", "driver_value", "trace"]
 
@@ -292,7 +292,7 @@ class _Asked:
     def rates(self, offsets: Sequence[Array]) -> tuple[list[Array], list[Array]]:
         """First and second rates of angles and travels by the driver's own value."""
         motion, parts = self._motion(offsets, True, False)
-        both = [_rates_of(q) for q in self.quantities]
+        both = [rates_of(q)[1:] for q in self.quantities]
         first, second = (
             [own[k].values(self.reach, motion)[part] for own, part in zip(both, parts, strict=True)] for k in (0, 1)
         )
@@ -302,12 +302,6 @@ class _Asked:
         ends = np.cumsum([0, *map(len, offsets)]).tolist()
         together = np.concatenate([*offsets, np.zeros(1)])
         return self.reach.motion(together, unit=unit, fine=fine), [slice(a, b) for a, b in pairwise(ends)]
-
-
-def _rates_of(quantity: Quantity) -> tuple[Quantity, Quantity]:
-    turns = quantity.kind in ("theta", "omega", "alpha")
-    _, rate, bend = (link_quantities if turns else slide_quantities)(quantity.of)
-    return rate, bend
 
 
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
@@ -391,7 +385,7 @@ def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequen
     low, high = reach.ends
     near = 1e-6 * (high - low)
     which = [k for k, q in enumerate(quantities) if q.kind in ("omega", "v") and len(offsets[k])]
-    asked = _Asked(reach, [_rates_of(quantities[k])[1] for k in which])
+    asked = _Asked(reach, [rates_of(quantities[k])[2] for k in which])
     before = [_wrapped(reach, found[k] - near) for k in which]
     values = asked.values(before) if which else []
     for _ in range(POLISH if which else 0):

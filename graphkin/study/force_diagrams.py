@@ -35,7 +35,7 @@ from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
 from graphkin.study.diagram_panels import EMPTY, span_of
 from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
-from graphkin.study.quantities import Quantity, force_quantity
+from graphkin.study.quantities import Quantity, named_quantity
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, list[tuple[s
     forces, x = forces_of(reach.motion(offsets)), axis.at(offsets)
     most = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in (*forces.forces.values(), *forces.moments.values()))
     for name in names:
-        value, quantity = forces.value(name), force_quantity(scene, name)
+        value, quantity = forces.value(name), named_quantity(scene, name)
         if value is None or quantity is None or not np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
             continue
         values = np.asarray(np.abs(value) if quantity.is_size else value.real) / scene.units.newtons

@@ -8,7 +8,7 @@ direction, and the scale is mu_y mu_t H (Artobolevsky, Theory of Mechanisms and 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
@@ -29,7 +29,6 @@ from graphkin.drawing.text import fitted, plain, rich, symbol, wrapped
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.scene.tables import Measure
 from graphkin.solver import DriverRange, Motion
 from graphkin.study.driver_axis import number, title_of
 from graphkin.table import Column, Table
@@ -52,15 +51,24 @@ class Ordinate:
     """A quantity with a sign that may be differentiated or integrated: angle, travel or coordinate, or a rate of one.
 
     name : "theta_4", "omega_4", "alpha_4"; "s_6/1", "v_6/1", "a_6/1"; "x_C", "v_C.x", "a_C.x"
-    drawn : its value (SI) on a drawing, None where it is not there
-    solved : its values in a motion
+    symbol : as it is asked of a drawing
+    along : of a vector the direction of unit length along which it counts; 1 for numbers
     """
 
     name: str
-    measure: Measure
-    asked: tuple[Symbol, ...]
-    drawn: Callable[[Sheet], float | None]
-    solved: Callable[[DriverRange, Motion], Array]
+    symbol: Symbol
+    along: complex = 1.0
+
+    def drawn(self, sheet: Sheet) -> float | None:
+        """Its value (SI) on a drawing; None where it is not there."""
+        readings = read_off(sheet, (self.symbol,))
+        return (complex(readings[0].value) * self.along.conjugate()).real if readings else None
+
+    def solved(self, reach: DriverRange, motion: Motion) -> Array:
+        """Its values (SI) in a motion; angles go on from those before."""
+        if self.symbol.kind == "theta":
+            return reach.angle(motion, self.symbol.link)
+        return np.asarray((motion.value(self.symbol) * self.along.conjugate()).real)
 
 
 @dataclass(frozen=True)
@@ -115,7 +123,7 @@ class Chords:
 
     def table(self, scene: Mechanism, driver: str, values: Array, unit: str) -> Table:
         """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees."""
-        own = scene.units.of(self.result.measure)
+        own = scene.units.of(self.result.symbol.measure)
         measured, exact = own.of(self.measured), own.of(self.exact)
         return Table((
             Column(f"driver_{driver}", values, unit),
@@ -126,6 +134,22 @@ class Chords:
         ))  # fmt: skip
 
 
+def _chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
+    """Position, rate and second rate of each link, of each sliding pair (of one on the frame the rates too, which are
+    those of its pin along the guide), and of each point along both axes."""
+    for link in (link.name for link in scene.links):
+        yield tuple(Ordinate(f"{kind}_{link}", Symbol(kind, link=link)) for kind in ("theta", "omega", "alpha"))
+    for pair in scene.slidings:
+        travel = Ordinate(f"s_{pair.key}", Symbol("s", link=pair.link, other=pair.on))
+        rates = "va" if pair.on == scene.frame.name and pair.pin is not None else ""
+        along = scene.frame.guides[pair.guide].direction if rates else 1.0
+        yield travel, *(Ordinate(f"{k}_{pair.key}", Symbol(k, PointRef(pair.pin or "")), along) for k in rates)
+    for point in map(PointRef, scene.holders):
+        for axis, along in (("x", 1.0 + 0j), ("y", 1j)):
+            rates = (Ordinate(f"{kind}_{point}.{axis}", Symbol(kind, point), along) for kind in "va")
+            yield Ordinate(f"{axis}_{point}", Symbol(axis, point)), *rates
+
+
 def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     """A quantity by its name: its place among position, rate and second rate.
 
@@ -133,92 +157,12 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     ------
     CallError : no such quantity, or one without a sign
     """
-    kind, _, rest = name.partition("_")
-    links = [link.name for link in scene.links]
-    if kind in ("theta", "omega", "alpha") and rest in links:
-        return _of_link(rest), ("theta", "omega", "alpha").index(kind)
-    if kind in ("s", "v", "a") and any(p.key == rest for p in scene.slidings):
-        chain = _of_slide(scene, rest)
-        k = "sva".index(kind)
-        if k < len(chain):
-            return chain, k
-    point, dot, axis = rest.partition(".")
-    if kind in ("x", "y") and rest in scene.holders:
-        return _of_point(rest, kind), 0
-    if kind in ("v", "a") and dot and axis in ("x", "y") and point in scene.holders:
-        return _of_point(point, axis), "-va".index(kind)
-    known = [f"{k}_{n}" for n in links for k in ("theta", "omega", "alpha")]
-    known += [f"s_{p.key}" for p in scene.slidings] + [f"x_{p}" for p in scene.holders]
-    usual = Phrase("name an angle a travel a coordinate or")
-    wanted = did_you_mean(name, known) or usual
-    raise CallError(
-        Problem(Phrase("quantity of name", name=f"{name:.60}"), Phrase("is no quantity with a sign here"), wanted)
-    )
-
-
-def _of_link(link: str) -> tuple[Ordinate, ...]:
-    def drawn(symbol: Symbol) -> Callable[[Sheet], float | None]:
-        return lambda sheet: _read(sheet, symbol)
-
-    kinds: tuple[tuple[str, Measure], ...] = (
-        ("theta", "angle"), ("omega", "angular velocity"), ("alpha", "angular acceleration")
-    )  # fmt: skip
-    solved: tuple[Callable[[DriverRange, Motion], Array], ...] = (
-        lambda reach, motion: reach.angle(motion, link),
-        lambda reach, motion: motion.omega(link),
-        lambda reach, motion: motion.alpha(link),
-    )
-    found = []
-    for (kind, measure), values in zip(kinds, solved, strict=True):
-        symbol = Symbol(kind, link=link)
-        found.append(Ordinate(f"{kind}_{link}", measure, (symbol,), drawn(symbol), values))
-    return tuple(found)
-
-
-def _of_slide(scene: Mechanism, key: str) -> tuple[Ordinate, ...]:
-    """Travel; and, of a link that slides on the frame, its rates, which are those of its pin along the guide."""
-    pair = next(p for p in scene.slidings if p.key == key)
-    travel = Symbol("s", link=pair.link, other=pair.on)
-    first = Ordinate(
-        f"s_{key}", "length", (travel,), lambda sheet: _read(sheet, travel), lambda _, motion: motion.slide(key).travel
-    )
-    if pair.on != scene.frame.name or pair.pin is None:
-        return (first,)
-    along = scene.frame.guides[pair.guide].direction
-    v, a = Symbol("v", PointRef(pair.pin)), Symbol("a", PointRef(pair.pin))
-    return (
-        first,
-        Ordinate(f"v_{key}", "velocity", (v,), lambda sheet: _along(sheet, v, along),
-                 lambda _, motion: motion.slide(key).velocity),
-        Ordinate(f"a_{key}", "acceleration", (a,), lambda sheet: _along(sheet, a, along),
-                 lambda _, motion: motion.slide(key).acceleration),
-    )  # fmt: skip
-
-
-def _of_point(point: str, axis: str) -> tuple[Ordinate, ...]:
-    along = 1.0 + 0j if axis == "x" else 1j
-    place, v, a = Symbol(axis, PointRef(point)), Symbol("v", PointRef(point)), Symbol("a", PointRef(point))
-
-    def part(values: NDArray[np.complex128]) -> Array:
-        return np.asarray(values.real if axis == "x" else values.imag)
-
-    return (
-        Ordinate(f"{axis}_{point}", "length", (place,), lambda sheet: _read(sheet, place),
-                 lambda _, motion: part(motion.position(point))),
-        Ordinate(f"v_{point}.{axis}", "velocity", (v,), lambda sheet: _along(sheet, v, along),
-                 lambda _, motion: part(motion.value(v))),
-        Ordinate(f"a_{point}.{axis}", "acceleration", (a,), lambda sheet: _along(sheet, a, along),
-                 lambda _, motion: part(motion.value(a))),
-    )  # fmt: skip
-
-
-def _read(sheet: Sheet, symbol: Symbol) -> float | None:
-    return next((float(r.value.real) for r in read_off(sheet, (symbol,))), None)
-
-
-def _along(sheet: Sheet, symbol: Symbol, along: complex) -> float | None:
-    value = next((complex(r.value) for r in read_off(sheet, (symbol,))), None)
-    return None if value is None else (value * along.conjugate()).real
+    places = {one.name: (chain, k) for chain in _chains(scene) for k, one in enumerate(chain)}
+    if name not in places:
+        wanted = did_you_mean(name, places) or Phrase("name an angle a travel a coordinate or")
+        found = Phrase("is no quantity with a sign here")
+        raise CallError(Problem(Phrase("quantity of name", name=f"{name:.60}"), found, wanted))
+    return places[name]
 
 
 def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Ordinate, Ordinate]:
@@ -269,9 +213,9 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     per_x = (high - low) / WIDE / abs(rate)  # s
     at = nodes if way == "derivative" else middles
     values = _drawn(reach, given, at)
-    if given.measure == "angle":
+    if given.symbol.measure == "angle":
         values = np.unwrap(values)
-    unit = scene.units.of(given.measure)
+    unit = scene.units.of(given.symbol.measure)
     per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)
     y = values / per_y
     widths = np.diff(x)
@@ -303,7 +247,7 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
         values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
         values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:
-            value = given.drawn(draft(reach.structure, values, given.asked))
+            value = given.drawn(draft(reach.structure, values, (given.symbol,)))
         except GraphkinError as error:
             raise Unsolvable("not drawn", *error.problems) from None
         if value is None:
@@ -337,7 +281,7 @@ def _per_mm(unit: str) -> str:
 def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
-    of_given, of_result = scene.units.of(chords.given.measure), scene.units.of(chords.result.measure)
+    of_given, of_result = scene.units.of(chords.given.symbol.measure), scene.units.of(chords.result.symbol.measure)
     given, result = markup_of(chords.given), markup_of(chords.result)
     title = say(Phrase(f"graphical {chords.way}", (f"${result}$", f"${given}$")), language)
     per_y, per_found = of_given.of(chords.per_y), of_result.of(chords.per_found)

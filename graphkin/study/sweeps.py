@@ -20,19 +20,166 @@ from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions
 from graphkin.scene.model import Mechanism
+from graphkin.scene.over_time import moments, moves_by_law
+from graphkin.solver import DriverRange, driver_range, over_time, prepare, structure_of
 from graphkin.solver.designs import PreparedMechanisms
+from graphkin.solver.named_positions import named_positions
+from graphkin.solver.pose import Array
+from graphkin.solver.prepared import PreparedMechanism
+from graphkin.structure import Structure, in_stages
 from graphkin.study.designs import Designs, Value, applied
-from graphkin.study.sweep_quantities import BLOCK, Arrays, FollowedDesign, SweepQuantity, word_column
-from graphkin.table import Column, Table
+from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
+from graphkin.table import Column, Table, have
 from graphkin.table.csv_files import parquet_of_csv
 from graphkin.words import Phrase, from_others
 
-__all__ = ["Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables"]
+__all__ = [
+    "MANY", "Arrays", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables",
+]  # fmt: skip
 
+BLOCK = 16384
+"""Positions that are computed and written together, about."""
+MANY = 500_000
+"""From so many positions on compiled code is worth the second or two that compiling takes."""
 MOST_DESIGNS = 64
 """Designs in a piece, so that all workers have some."""
 LONG = 5.0
 """Seconds of work (estimated) from which processes pay."""
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """What a prepared mechanism gives at all positions of a sweep.
+
+    parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
+    residues : what rounding leaves of nothing in each
+    ok : bool, shape (positions,)
+    good : how many are ok
+    """
+
+    parts: Parts
+    residues: tuple[Array, ...]
+    ok: Array
+    good: int
+
+    @property
+    def settled(self) -> Parts:
+        """The values as people read them: 0 where they are nothing but what rounding leaves."""
+        both = zip(self.parts, self.residues, strict=True)
+        return tuple(tuple(settled(part, residue) for part in own) for own, residue in both)
+
+
+@dataclass(frozen=True)
+class FollowedDesign:
+    """One mechanism, whose motion is followed.
+
+    asked : what the table shows; nothing: everything that moves
+    at : driver values to start from (SI), by driver key; nothing: the scene's position 1, or its own position
+    """
+
+    scene: Mechanism
+    asked: tuple[Quantity, ...]
+    at: tuple[tuple[str, float], ...]
+
+    @cached_property
+    def structure(self) -> Structure:
+        return structure_of(self.scene)
+
+    @cached_property
+    def watched(self) -> tuple[Quantity, ...]:
+        """What the table shows."""
+        return self.asked or all_that_moves(self.structure)
+
+    @cached_property
+    def start(self) -> dict[str, float]:
+        """Driver values of the first row, where it is not the scene's own position.  Raises Unsolvable."""
+        places = named_positions(self.scene) if not self.at else None
+        if places is None or not places.reach.full:
+            return dict(self.at)
+        return {self.scene.drivers[0].key: places.first}
+
+    @cached_property
+    def reach(self) -> DriverRange:
+        """The range of its first driver.  Raises Unsolvable."""
+        return driver_range(self.structure, self.start)
+
+    @cached_property
+    def engine(self) -> PreparedMechanism | None:
+        """The mechanism prepared for what is asked; None where everything is asked, or something that the formulas do
+        not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
+        if not self.asked or not all(w.can_be_prepared for w in self.asked):
+            return None
+        if self.at or self.scene.positions is not None or moves_by_law(self.scene):
+            return None
+        if in_stages(self.structure.elements):
+            return None
+        try:
+            return prepare(self.structure, [w.name for w in self.asked], self.scene.units.per_si, along=self.reach)
+        except CallError:  # a redundant link is none of its
+            return None
+
+    def arrays(self, n: int) -> Arrays | None:
+        """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
+        if self.engine is None:
+            return None
+        return self.arrays_of(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
+
+    def arrays_of(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
+        """What an engine gave, shapes (columns, positions) and (positions,), by what is watched."""
+        good = len(ok) if engine.clear else int(np.count_nonzero(ok))
+        if good < len(ok):
+            columns[:, ~ok] = np.nan
+        by_name = dict(zip(engine.names, columns, strict=True))
+        ends = {True: (".x", ".y"), False: ("",)}
+        parts = tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
+        return Arrays(parts, tuple(w.residues(engine) for w in self.watched), ok, good)
+
+    def table(self, n: int, first: int, last: int) -> Table:
+        """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
+        if self.engine is not None:
+            found = self.engine.columns(self.reach.grid(n, first, last).values)
+            return self.table_of(self.arrays_of(self.engine, *found), n, first, last)
+        if moves_by_law(self.scene):
+            times = np.array(moments(self.scene, n)[first:last])
+            motion = over_time(self.structure, times)
+            parts = tuple(w.parts(None, motion) for w in self.watched)
+            return self._rows(first, motion.values, parts, motion.status, motion.why, times)
+        motion = self.reach.motion(self.reach.table_offsets(n, first, last))
+        parts = tuple(w.parts(self.reach, motion) for w in self.watched)
+        return self._rows(first, motion.values, parts, motion.status, motion.why)
+
+    def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
+        """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
+        rows = last - first
+        values = np.repeat(self.reach.start[None], rows, axis=0)
+        values[:, 0] = self.reach.grid(n, first, last).values
+        status, why = np.full(rows, "ok", object), np.full(rows, "", object)
+        parts = arrays.settled
+        bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
+        for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
+            # why there is nothing there the solver says, and it has the last word on whether there is
+            motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
+            for own, watched in zip(parts, self.watched, strict=True):
+                for part, found in zip(own, watched.parts(self.reach, motion), strict=True):
+                    part[some] = found
+            status[some], why[some] = motion.status.tolist(), motion.why
+        return self._rows(first, values, parts, status, why)
+
+    def blank(self, first: int, last: int, status: str = "", why: str = "") -> Table:
+        """The table of positions that have no values."""
+        nothing = np.full(last - first, np.nan)
+        parts = tuple((nothing,) * (1 + w.is_vector) for w in self.watched)
+        values = np.stack([nothing] * len(self.scene.drivers), axis=1)
+        times = nothing if moves_by_law(self.scene) else None
+        return self._rows(first, values, parts, [status], [why], times)
+
+    def _rows(
+        self, first: int, values: Array, parts: Parts, status: Words, why: Words, times: Array | None = None
+    ) -> Table:
+        """The table of what is watched."""
+        return motion_table(
+            self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
+        )
 
 
 @dataclass(frozen=True)
@@ -84,7 +231,7 @@ class Sweep:
     name: str
     designs: Designs
     positions: int
-    asked: tuple[SweepQuantity, ...] = ()
+    asked: tuple[Quantity, ...] = ()
     at: tuple[tuple[str, float], ...] = ()
 
     def __getstate__(self) -> dict[str, object]:

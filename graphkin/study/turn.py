@@ -25,7 +25,7 @@ from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Cluster, Dyad
 from graphkin.study.extremes import Extreme, Least, Traced, trace
 from graphkin.study.grashof import BasicLoop, loops
-from graphkin.study.quantities import Quantity, link_quantities, slide_quantities, symbol_quantity
+from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
 
 __all__ = ["Output", "TurnStudy", "study_turn"]
 
@@ -146,12 +146,12 @@ class TurnStudy:
         return ends.ratio, ends.lag
 
 
-def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: bool = True) -> TurnStudy:
+def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: bool = True) -> TurnStudy:
     """Study the whole range.
 
     Parameters
     ----------
-    asked : symbols whose extremes and zeros are wanted besides those of the outputs and their rates; where there are
+    asked : quantities whose extremes and zeros are wanted besides those of the outputs and their rates; where there are
         none, those of every link and sliding pair
     everything : False leaves out all but the limit positions of the outputs, transmission and classes
     """
@@ -162,8 +162,8 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
     wanted = list(mains)
     if everything:
         for main in mains:
-            wanted += [q for q in _with_rates(main) if q not in wanted]
-        others = [symbol_quantity(s) for s in asked]
+            wanted += [q for q in rates_of(main) if q not in wanted]
+        others = list(asked)
         if not asked:
             others = [q for link in scene.links for q in link_quantities(link.name)]
             others += [q for s in own_slides(scene, start.slides) for q in slide_quantities(s.key)]
@@ -171,10 +171,6 @@ def study_turn(reach: DriverRange, asked: Sequence[Symbol] = (), everything: boo
     traced, least = trace(reach, wanted)
     outputs = tuple(_output(reach, t) for t in traced if t.quantity in mains)
     return TurnStudy(reach, ranges(reach), outputs, traced, least, loops(reach.structure))
-
-
-def _with_rates(quantity: Quantity) -> tuple[Quantity, ...]:
-    return link_quantities(quantity.of) if quantity.kind == "theta" else slide_quantities(quantity.of)
 
 
 def output_links(scene: Mechanism) -> tuple[str, ...]:

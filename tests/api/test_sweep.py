@@ -131,7 +131,7 @@ def _own(name: str) -> float:
 
 def test_nothing_is_studied_that_is_not_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("graphkin.study.turn.study_turn", None)
-    monkeypatch.setattr("graphkin.solver.prepared.driver_range", None)  # the range is followed once, by the design
+    monkeypatch.setattr("graphkin.solver.prepared.range_of", None)  # the range is followed once, by the design
     assert 3 == len(graphkin.sweep(NAME, positions=3, find=["v_B"])["v_B"])
 
 

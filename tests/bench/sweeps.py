@@ -19,7 +19,7 @@ from tempfile import TemporaryDirectory
 import graphkin
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import prepare
-from graphkin.study.sweep_quantities import MANY
+from graphkin.study.sweeps import MANY
 
 from . import peers
 from .compare import best, header

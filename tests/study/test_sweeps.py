@@ -24,7 +24,7 @@ from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.study import sweeps
 from graphkin.study.designs import designs_of
-from graphkin.study.sweep_quantities import SweepQuantity, quantity_of_symbol
+from graphkin.study.quantities import Quantity, symbol_quantity
 from graphkin.study.sweeps import Found, Sweep, collect, write_tables
 
 
@@ -46,8 +46,8 @@ def run(
         return write_tables(sweep, folder, workers, parquet, progress)
 
 
-def watched(name: str) -> SweepQuantity:
-    return quantity_of_symbol(Symbol.parse(name))
+def watched(name: str) -> Quantity:
+    return symbol_quantity(Symbol.parse(name))
 
 
 def new_plan() -> Sweep:
