@@ -146,8 +146,8 @@ def _chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
         yield travel, *(Ordinate(f"{k}_{pair.key}", Symbol(k, PointRef(pair.pin or "")), along) for k in rates)
     for point in map(PointRef, scene.holders):
         for axis, along in (("x", 1.0 + 0j), ("y", 1j)):
-            rates = (Ordinate(f"{kind}_{point}.{axis}", Symbol(kind, point), along) for kind in "va")
-            yield Ordinate(f"{axis}_{point}", Symbol(axis, point)), *rates
+            moving = (Ordinate(f"{kind}_{point}.{axis}", Symbol(kind, point), along) for kind in "va")
+            yield Ordinate(f"{axis}_{point}", Symbol(axis, point)), *moving
 
 
 def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
@@ -159,9 +159,8 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     """
     places = {one.name: (chain, k) for chain in _chains(scene) for k, one in enumerate(chain)}
     if name not in places:
-        wanted = did_you_mean(name, places) or Phrase("name an angle a travel a coordinate or")
         found = Phrase("is no quantity with a sign here")
-        raise CallError(Problem(Phrase("quantity of name", name=f"{name:.60}"), found, wanted))
+        raise CallError(Problem(Phrase("quantity of name", name=f"{name:.60}"), found, did_you_mean(name, places)))
     return places[name]
 
 
