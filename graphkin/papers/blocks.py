@@ -26,7 +26,6 @@ __all__ = [
     "Paragraph",
     "Picture",
     "Plate",
-    "Room",
     "Said",
     "StepItem",
     "Steps",
@@ -70,10 +69,12 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """Sentences; ``small`` for remarks."""
+    """Sentences; ``small`` for remarks; ``fills`` makes the rest of a page below them room to write in, and leaves them
+    out where little of it is left."""
 
     words: Said
     small: bool = False
+    fills: bool = False
 
 
 @dataclass(frozen=True)
@@ -141,13 +142,6 @@ class Fields:
 
 
 @dataclass(frozen=True)
-class Room:
-    """The rest of a page to write in, with these words above it; nothing where little of it is left."""
-
-    words: Said
-
-
-@dataclass(frozen=True)
 class Beside:
     """Blocks with a narrow figure at their right."""
 
@@ -162,7 +156,7 @@ class Together:
     blocks: tuple[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside, ...]
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Room | Beside | Together
+Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside | Together
 
 
 @dataclass(frozen=True)
@@ -177,9 +171,7 @@ class Document:
     folded: bool = False
 
 
-def laid_out(
-    blocks: Iterable[Block],
-) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Room]:
+def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

@@ -1,29 +1,22 @@
-"""A drawing as a lesson: what belongs together, equation by equation, and what is asked and found; what each step
-finds, so that somebody may try it first: size, unit and direction, and how far an answer may lie off."""
+"""A drawing as a lesson: what belongs together, equation by equation, and what is asked and found."""
 
 from __future__ import annotations
 
-import cmath
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.account.notation import Letters, letters_of
 from graphkin.account.tell import Account
 from graphkin.checking.report import Compared, Report
-from graphkin.checking.uncertainty import COVERAGE, Uncertainty
+from graphkin.checking.uncertainty import Uncertainty
+from graphkin.construction.centres import Centres
 from graphkin.construction.forces import ForceSheet, forces_on
-from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
-from graphkin.construction.strokes import Vector
-from graphkin.drawing.force_stages import ForceStage, ForceStep
 from graphkin.drawing.text import Atom, parsed
-from graphkin.files import Json
-from graphkin.papers.html import words_html
 from graphkin.scene.symbol import Symbol
 
-__all__ = ["Lesson", "Stage", "force_found", "found_in", "plain_words", "stages", "tolerances"]
+__all__ = ["Lesson", "Stage", "plain_words", "stages"]
 
 
 @dataclass(frozen=True)
@@ -69,6 +62,7 @@ class Lesson:
     language : "en", "zh" or "both"
     convention : "chinese", "us", "british" or "russian"
     asked : what is to be found; empty for everything
+    centres : the instant centres of the position, for a screen, where they can be had
     """
 
     sheet: Sheet
@@ -77,6 +71,7 @@ class Lesson:
     language: str
     convention: str
     asked: tuple[Symbol, ...] = ()
+    centres: Centres | None = None
 
     @cached_property
     def letters(self) -> Letters:
@@ -149,68 +144,3 @@ def _plain_atom(atom: Atom) -> str:
     up = "".join(map(_plain_atom, atom.sup))
     down = "".join(map(_plain_atom, atom.sub))
     return atom.text + (f"^{up}" if up else "") + (f"_{down}" if down else "")
-
-
-LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most
-
-
-def found_in(lesson: Lesson, step: Step) -> dict[str, Json]:
-    """What a step finds: ``find`` with symbol, name, size in its unit, and direction (degrees) or sense; empty for a
-    step that finds nothing."""
-    sheet, act = lesson.sheet, step.act
-    if isinstance(act, MeasuredRate | AddedRate) or (isinstance(act, PlanDrawn) and not act.known):
-        omega = act.rate == "omega"
-        rate = (sheet.omega if omega else sheet.alpha).get(act.link)
-        if rate is None or not rate.value:
-            return {}
-        unit = "rad/s" if omega else "rad/s²"
-        name = words_html(f"${'ω' if omega else 'α'}_{{{act.link}}}$")
-        symbol, sense = f"{act.rate}_{act.link}", 1 if rate.value > 0 else -1
-        return {"find": {"symbol": symbol, "name": name, "size": _short(abs(rate.value)), "unit": unit, "sense": sense}}
-    vectors = [s for s in step.strokes if isinstance(s, Vector) and s.span]
-    if not vectors:
-        return {}
-    last = vectors[-1]
-    value = last.span * sheet.scales.of(step.diagram)
-    return {"find": {
-        "symbol": str(last.symbol), "name": words_html(f"${lesson.letters.vector(last.symbol)}$"),
-        "size": _short(lesson.in_unit(last.symbol, abs(value))), "unit": lesson.unit(last.symbol),
-        "angle": round(math.degrees(cmath.phase(value)), 1),
-    }}  # fmt: skip
-
-
-def force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
-    """What a step of the forces finds, where it finds one force or moment; as `found_in`."""
-    if len(step.found) != 1 or lesson.forces is None:
-        return {}
-    (symbol,) = step.found
-    name = words_html(f"${lesson.letters.vector(symbol)}$")
-    back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
-    for one, sign in ((symbol, 1.0), (back, -1.0)):
-        value = stage.state.moments.get(one)
-        span = stage.state.vectors.get(one)
-        if value:
-            size, unit = _short(lesson.in_unit(symbol, abs(value))), lesson.unit(symbol)
-            return {"find": {"symbol": str(symbol), "name": name, "size": size, "unit": unit,
-                             "sense": 1 if sign * value > 0 else -1}}  # fmt: skip
-        if span:
-            size = _short(lesson.in_unit(symbol, abs(span) * lesson.forces.per_mm))
-            return {"find": {"symbol": str(symbol), "name": name, "size": size, "unit": lesson.unit(symbol),
-                             "angle": round(math.degrees(cmath.phase(sign * span)), 1)}}  # fmt: skip
-    return {}
-
-
-def _short(value: float) -> float:
-    return float(f"{value:.5g}")
-
-
-def tolerances(lesson: Lesson) -> dict[str, float]:
-    """By symbol the part of a value within which an answer is taken for right: that of the key, within bounds."""
-    found = {}
-    for row in lesson.results:
-        spread = lesson.tolerance.get(row.symbol)
-        size = abs(row.true)
-        if spread is not None and size:
-            part = COVERAGE * spread.deviation / size
-            found[str(row.symbol)] = round(min(max(part, LEAST), MOST), 4) if math.isfinite(part) else MOST
-    return found

@@ -18,9 +18,9 @@ from markupsafe import Markup
 from graphkin.drawing.font import face_rules, families
 from graphkin.papers.blocks import Block, Document, Heading, Said, said
 from graphkin.papers.html import blocks_html, rendered, said_html, used_characters
-from graphkin.papers.lesson import Lesson, tolerances
+from graphkin.papers.lesson import Lesson
 from graphkin.papers.problem import given, scene_title
-from graphkin.papers.screen_positions import Progress, View, positions_data
+from graphkin.papers.screen import Progress, positions_data, tolerances
 from graphkin.papers.solution import results_blocks, solution, solution_blocks
 from graphkin.words import languages, word
 
@@ -34,7 +34,7 @@ def document_page(document: Document) -> str:
 
 def handout_page(
     lesson: Lesson,
-    views: Sequence[View],
+    views: Sequence[Lesson],
     start: int = 0,
     progress: Progress | None = None,
     moving: Mapping[str, object] | None = None,
@@ -45,10 +45,10 @@ def handout_page(
     Parameters
     ----------
     lesson : the solution on paper, which is what is printed
-    views : the positions of the driver that the screen shows
+    views : a lesson for each position of the driver that the screen shows
     start : which of them is the given one
     progress : called with the number of positions done and the number of all
-    moving : what the page plays (`graphkin.papers.moving`)
+    moving : what the page plays (`graphkin.papers.screen.motion_data`)
     worked : the stages of the solution, where they are there already
     """
     stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)

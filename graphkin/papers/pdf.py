@@ -22,8 +22,8 @@ from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.blocks import Document, Fields, Heading, Paragraph, Picture, Plate, Room, Said, StepItem, clean
-from graphkin.papers.pieces import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, OnPage, Pair, Wrapped, pages_of
+from graphkin.papers.blocks import Beside, Document, Fields, Heading, Paragraph, Picture, Plate, Said, StepItem, clean
+from graphkin.papers.layout import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, Pair, Piece, Row, Wrapped, pages_of
 from graphkin.words import word
 
 if TYPE_CHECKING:
@@ -84,10 +84,7 @@ def pdf(document: Document) -> bytes:
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        pages = [
-            [[_part(part) for part in half] for half in (page.left, page.right) if half]
-            for page in pages_of(document, measured)
-        ]
+        pages = [[[_row(row) for row in half] for half in page] for page in pages_of(document, measured)]
         made = typst.compile(
             template, font_paths=fonts, format="pdf", timestamp=0, sys_inputs=_inputs({**frame, "pages": pages})
         )
@@ -130,6 +127,8 @@ def _block(block: Leaf, bare: bool = False) -> Data:
     """A leaf as the template reads it; ``bare`` without the ink of figures, where only the size counts."""
     if isinstance(block, Heading):
         return {"kind": "heading", "words": _said(block.words), "level": block.level}
+    if isinstance(block, Paragraph) and block.fills:
+        return {"kind": "room", "words": _said(block.words)}
     if isinstance(block, Paragraph):
         return {"kind": "paragraph", "words": _said(block.words), "small": block.small}
     if isinstance(block, Fields):
@@ -137,8 +136,6 @@ def _block(block: Leaf, bare: bool = False) -> Data:
     if isinstance(block, StepItem):
         work = [_words(line) for line in block.work]
         return {"kind": "item", "number": block.number, "words": _said(block.words), "work": work}
-    if isinstance(block, Room):
-        return {"kind": "room", "words": _said(block.words)}
     if isinstance(block, Picture):
         drawing = _drawing(block.drawing, bare)
         return {"kind": "picture", "drawing": drawing, "caption": _said(block.caption), "joined": block.joined}
@@ -162,9 +159,12 @@ def _block(block: Leaf, bare: bool = False) -> Data:
     }
 
 
-def _part(part: OnPage) -> Data:
-    left, right = ([_block(one) for one in side] for side in (part.left, part.right))
-    return {"gap": part.gap, "left": left, "right": right, "height": part.height}
+def _row(row: Row) -> Data:
+    def blocks(side: Sequence[Piece]) -> list[Data]:
+        leaves = (piece.block for piece in side)
+        return [_block(leaf) for leaf in leaves if leaf is not None and not isinstance(leaf, Beside)]
+
+    return {"gap": row.gap, "left": blocks(row.left), "right": blocks(row.right), "height": row.height}
 
 
 def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:

@@ -27,12 +27,11 @@ from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
 from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.moving import motion_data
 from graphkin.papers.page import document_page, handout_page
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, pdf
 from graphkin.papers.problem import problem
-from graphkin.papers.screen_positions import POSITIONS, Progress, View, common_scales
+from graphkin.papers.screen import POSITIONS, Progress, common_scales, motion_data
 from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.model import Mechanism
@@ -115,7 +114,7 @@ def views_of(
     paper: Scales,
     count: int = POSITIONS,
     progress: Progress | None = None,
-) -> tuple[list[View], int]:
+) -> tuple[list[Lesson], int]:
     """The positions that the screen shows, each drawn and with its centres, and which of them is the given one.
 
     ``progress`` is called with the number of positions done and the number of all.  ``paper`` are the scales of the
@@ -133,7 +132,7 @@ def views_of(
     plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
     centres = _centres(structure, sheets, given, progress or _silent)
-    views: list[View] = []
+    views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
         motion = solver.as_drawn(solver.solve(structure, at=sheet.drivers), sheet.structure)
@@ -142,7 +141,7 @@ def views_of(
         if number != given and any(row.ok is False for row in report.rows):
             start -= number < given
             continue
-        views.append(View(Lesson(sheet, report, {}, language, convention, tuple(asked)), here))
+        views.append(Lesson(sheet, report, {}, language, convention, tuple(asked), here))
     return views, start
 
 
@@ -180,7 +179,7 @@ FORMATS = ("html", "pdf")
 
 def handout_files(
     lesson: Lesson,
-    views: Sequence[View] = (),
+    views: Sequence[Lesson] = (),
     start: int = 0,
     formats: Sequence[str] = FORMATS,
     progress: Progress | None = None,
@@ -206,7 +205,7 @@ def handout_files(
         typeset = beside.submit(_typeset, lesson, papers) if "pdf" in formats else None
         made: dict[str, bytes] = {}
         if "html" in formats:
-            shown = views or (View(lesson),)
+            shown = views or (lesson,)
             moving = motion_data(lesson.sheet, lesson.letters, values)
             page = handout_page(lesson, shown, start, progress, moving, papers.worked)
             made |= {**_pages(papers), "handout.html": page.encode()}

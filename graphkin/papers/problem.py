@@ -23,7 +23,6 @@ from graphkin.papers.blocks import (
     Heading,
     Paragraph,
     Picture,
-    Room,
     Said,
     TableBlock,
     Together,
@@ -87,7 +86,8 @@ def problem(lesson: Lesson) -> Document:
     blocks.append(Together((Heading(said("your results", language), 2), _blank_table(lesson))))
     both = _shared_workspace(lesson, layers, paper) if wide else None
     before, after = _polygon_pages(lesson, layers, paper, both)
-    blocks += [*before, Room(said("your sums", language)), *after, *_forces(lesson, layers, paper)]
+    sums = Paragraph(said("your sums", language), small=True, fills=True)
+    blocks += [*before, sums, *after, *_forces(lesson, layers, paper)]
     return Document(paper_title(lesson, "problem sheet"), languages(language), tuple(blocks), paper, _folded(paper))
 
 

@@ -15,7 +15,7 @@ from graphkin.construction import draft
 from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
 from graphkin.construction.sheet import Act
 from graphkin.papers.lesson import plain_words, stages
-from graphkin.papers.moving import motion_data
+from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
 
 pytestmark = pytest.mark.quick

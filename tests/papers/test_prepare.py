@@ -84,7 +84,7 @@ def test_positions_of_the_screen_whose_check_fails_are_left_out(monkeypatch):
     bare = plan(structure, None, ())
     paper = execute(bare).scales
     whole, start = prepare.views_of(structure, None, (), "en", "us", paper, 4)
-    missed = {whole[k].lesson.sheet.drivers[key] for k in (0, start + 1)}
+    missed = {whole[k].sheet.drivers[key] for k in (0, start + 1)}
 
     def wrong(sheet):
         off = 1.01 if sheet.drivers[key] in missed else 1.0
@@ -92,5 +92,5 @@ def test_positions_of_the_screen_whose_check_fails_are_left_out(monkeypatch):
 
     monkeypatch.setattr(prepare, "read_off", wrong)
     kept, now = prepare.views_of(structure, None, (), "en", "us", paper, 4)
-    assert whole[start].lesson.sheet.drivers == kept[now].lesson.sheet.drivers
+    assert whole[start].sheet.drivers == kept[now].sheet.drivers
     assert (start - 1, len(whole) - 2) == (now, len(kept))

@@ -4,13 +4,15 @@ import random
 
 import pytest
 
-from graphkin.papers.page_filling import KEPT, Piece, Placed, balanced, fill_pages
+from graphkin.papers.layout import KEPT, Page, Piece, balanced, fill_pages
 
 HEIGHT = 260.0
 
 
-def numbers(page: tuple[Placed, ...]) -> list[int]:
-    return [n for one in page for n in (*one.left, *one.right)]
+def numbers(pieces: list[Piece], page: Page) -> list[int]:
+    """The pieces of a page by their numbers."""
+    known = {id(piece): n for n, piece in enumerate(pieces)}
+    return [known[id(piece)] for row in page for piece in (*row.left, *row.right)]
 
 
 def drawn_lots(seed: int) -> list[Piece]:
@@ -28,7 +30,7 @@ def drawn_lots(seed: int) -> list[Piece]:
 @pytest.mark.parametrize("seed", range(10))
 def test_every_piece_stands_on_one_page_and_only_figures_are_overtaken(seed):
     pieces = drawn_lots(seed)
-    order = [n for page in fill_pages(pieces, HEIGHT).pages for n in numbers(page)]
+    order = [n for page in fill_pages(pieces, HEIGHT).pages for n in numbers(pieces, page)]
     words = [n for n in order if not pieces[n].floats]
     figures = [n for n in order if pieces[n].floats]
     assert list(range(len(pieces))) == sorted(order)
@@ -40,24 +42,22 @@ def test_no_page_is_higher_than_the_paper(seed):
     pieces = drawn_lots(seed)
     for page in fill_pages(pieces, HEIGHT).pages:
         heights = [
-            balanced([pieces[n].height for n in (*one.left, *one.right)])[1]
-            if pieces[one.left[0]].half
-            else pieces[one.left[0]].height
-            for one in page
+            balanced([piece.height for piece in (*row.left, *row.right)])[1] if row.left[0].half else row.left[0].height
+            for row in page
         ]
-        assert sum(heights) + sum(one.gap for one in page) <= HEIGHT + 1e-9
+        assert sum(heights) + sum(row.gap for row in page) <= HEIGHT + 1e-9
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_an_equation_is_never_parted_from_its_first_step(seed):
     pieces = drawn_lots(seed)
     heads = [page[0].left[0] for page in fill_pages(pieces, HEIGHT).pages]
-    assert not [n for n in heads if pieces[n].tie == KEPT]
+    assert not [piece for piece in heads if piece.tie == KEPT]
 
 
 def test_a_figure_without_room_gives_way_to_the_words_behind_it():
     pieces = [Piece(100.0), Piece(180.0, 3.0, 0.04, floats=True), Piece(100.0, 5.0), Piece(40.0, 5.0)]
-    assert [[0, 2], [1, 3]] == [numbers(page) for page in fill_pages(pieces, HEIGHT).pages]
+    assert [[0, 2], [1, 3]] == [numbers(pieces, page) for page in fill_pages(pieces, HEIGHT).pages]
 
 
 def test_steps_in_two_columns_are_about_as_high_on_both_sides():

@@ -1,0 +1,517 @@
+"""What the page of a handout shows on a screen: the figures and steps of every position of the driver, drawn in the
+same frames, every part with its step; what each step finds, so that somebody may try it first; and the mechanism in
+motion, as plain numbers over what the driver reaches.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, zip_longest
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
+from graphkin.account.notation import Letters, scale_statement
+from graphkin.account.voice import capital
+from graphkin.checking.uncertainty import COVERAGE
+from graphkin.construction import Plan, execute
+from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, OnPlan, PlanDrawn
+from graphkin.construction.scales import next_of_series
+from graphkin.construction.sheet import DiagramName, Scales, Sheet, Step
+from graphkin.construction.strokes import Vector
+from graphkin.drawing.box import Box
+from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
+from graphkin.drawing.figures.centres import background
+from graphkin.drawing.figures.forces import group_equation, group_picture
+from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.figures.train import moving_plans, train_figure
+from graphkin.drawing.force_stages import ForceStage, ForceStep, force_stages
+from graphkin.drawing.ink.primitives import Group
+from graphkin.drawing.parts.centre_marks import centre_marks, near_box
+from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
+from graphkin.drawing.parts.mechanism import mechanism_piece
+from graphkin.drawing.parts.polygon import extent
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, layer_groups, moved_piece
+from graphkin.drawing.stepwise import stepped
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.drawing.write.svg import svg_element
+from graphkin.files import Json
+from graphkin.papers.answer_key import way
+from graphkin.papers.blocks import Said, StepItem, said
+from graphkin.papers.html import blocks_html, said_html, spoken_words, words_html
+from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
+from graphkin.papers.problem import equation_words, given
+from graphkin.papers.solution import results_blocks, stage_title, step_items
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.solver import Motion, solve
+from graphkin.solver.motion import instant_centre
+from graphkin.solver.pose import Array
+from graphkin.words import about, languages
+
+__all__ = ["POSITIONS", "Progress", "common_scales", "motion_data", "positions_data", "tolerances"]
+
+Progress = Callable[[int, int], None]  # positions done, and all of them
+POSITIONS = 12
+MECHANISM, POLYGON = (160.0, 218.0), 190.0  # mm that the mechanism in all positions and a polygon may fill
+WIDE = 96.0  # mm of the sketch of a group, its polygon below
+LISTED = ("figures", "steps")
+LEAST, MOST = 0.01, 0.08  # parts of a value: what is taken for right at least, and at most
+FRAMES = 72  # positions of the mechanism in motion
+FAR = 3.0  # mechanisms: a centre that lies farther away is not shown
+
+FigureName: TypeAlias = Literal["mechanism", "velocity", "acceleration", "centres", "force"]
+Figure: TypeAlias = dict[str, str]
+"""A figure of the page: its name, its drawing as SVG, its caption as HTML."""
+
+
+def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
+    """Scales for several positions: those of the paper, and coarser ones for the polygons that would be too large.
+
+    The mechanism has one scale in all positions.
+    """
+    sheets = [execute(plan) for plan in plans]
+    metres = sheets[0].scene.units.rates.metres
+    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
+    size = sheets[0].scales.length / paper.length * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])
+    length = _coarser(paper.length * 1e3, size) * 1e-3
+
+    def fitting(sheet: Sheet, diagram: DiagramName) -> float:
+        scale, box = paper.of(diagram), extent(sheet, diagram)
+        size = max(box.width, box.height) * sheet.scales.of(diagram)
+        return _coarser(scale / metres, size / scale / POLYGON) * metres
+
+    return [Scales(length, fitting(sheet, "velocity"), fitting(sheet, "acceleration")) for sheet in sheets]
+
+
+def _coarser(scale: float, factor: float) -> float:
+    """The scale itself where it is coarse enough, else the first of the series so many times coarser."""
+    return scale if factor <= 1.0 else next_of_series(scale * factor)
+
+
+def _joined(boxes: Iterable[Box]) -> Box:
+    first, *rest = boxes
+    for box in rest:
+        first = first.joined(box)
+    return first
+
+
+def positions_data(views: Sequence[Lesson], progress: Progress | None = None) -> dict[str, object]:
+    """Names, figures and steps of the positions, ready for the page, and the stages of all of them, each once.
+
+    What is alike stands together, by key the values of all positions, of figures and steps row by row (None where a
+    position has fewer): so packed it takes two thirds of the room.
+
+    Parameters
+    ---------
+    views : a lesson for each position, with its instant centres where they can be had
+    progress : called with the number of positions done and the number of all
+    """
+    pieces = [mechanism_piece(v.sheet, v.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views]
+    frames = _frames(views, pieces)
+    stages: list[dict[str, str]] = []
+    positions = []
+    for done, (view, (piece, _)) in enumerate(zip(views, pieces, strict=True), 1):
+        positions.append(_position(view, piece, frames, stages))
+        if progress is not None:
+            progress(done, len(views))
+    columns: dict[str, list[object]] = {key: [one[key] for one in positions] for key in positions[0]}
+    for key in LISTED:
+        columns[key] = [list(row) for row in zip_longest(*columns[key])]  # type: ignore[call-overload]
+    return {"positions": columns, "stages": stages}
+
+
+@dataclass(frozen=True)
+class _Frames:
+    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places.
+
+    polygons : width and height (mm) in which the polygon of every position has room, and the height of the strip below
+        it; centres : None where no position has any; cams : the figures of the cams, which are the same everywhere
+    """
+
+    mechanism: Box
+    polygons: Mapping[DiagramName, tuple[complex, float]]
+    centres: Box | None
+    cams: tuple[Figure, ...]
+
+
+def _frames(views: Sequence[Lesson], pieces: Sequence[tuple[Piece, Box]]) -> _Frames:
+    polygons: dict[DiagramName, tuple[complex, float]] = {}
+    for diagram in POLYGONS:
+        boxes = [extent(view.sheet, diagram).grown(ROOM) for view in views]
+        size = complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
+        polygons[diagram] = size, max(strip_height(view.sheet, diagram, size.real) for view in views)
+    near = [
+        near_box(view.centres, ink_box(background(piece).drawn) or box, MECHANISM)
+        for view, (piece, box) in zip(views, pieces, strict=True) if view.centres is not None
+    ]  # fmt: skip
+    mechanism = _joined(box for _, box in pieces).grown(ROOM)
+    return _Frames(mechanism, polygons, _joined(near).grown(ROOM) if near else None, tuple(_cams(views[0])))
+
+
+def _position(lesson: Lesson, piece: Piece, frames: _Frames, table: list[dict[str, str]]) -> dict[str, object]:
+    """One position as the page takes it; its stages are put into the table of all."""
+    first = languages(lesson.language)[0]
+    name = drivers(lesson.sheet, lesson.letters)
+    figures = [*_figures(lesson, piece, frames), *_plans(lesson)]
+    stages, steps = list[int](), list[dict[str, object]]()
+    for count, stage in enumerate(lesson.stages):
+        stages.append(_place(table, said_html(stage_title(lesson, stage)), _equation(lesson, stage)))
+        for step, item in zip(stage.steps, step_items(lesson, stage), strict=True):
+            steps.append(_step(item, stage.diagram, count, first) | _found(lesson, step))
+    _forces(lesson, figures, stages, steps, table)
+    driver = lesson.sheet.scene.drivers[0]
+    at = lesson.sheet.scene.unit_of(driver).of(lesson.sheet.drivers[driver.key])
+    return {
+        "name": plain_words(name),
+        "label": words_html(name, first),
+        "at": round(float(at), 3),
+        "figures": [*figures, *frames.cams],
+        "stages": stages,
+        "results": blocks_html(results_blocks(lesson), first) if lesson.report.rows else "",
+        "given": blocks_html(given(lesson), first),
+        "steps": steps,
+    }
+
+
+def _place(table: list[dict[str, str]], title: str, svg: str) -> int:
+    """Place of a stage in the table of all: most of them are the same in every position."""
+    stage = {"title": title, "svg": svg}
+    if stage not in table:
+        table.append(stage)
+    return table.index(stage)
+
+
+def _step(item: StepItem | ForceStep, figure: str, stage: int, language: str) -> dict[str, object]:
+    """A step: the figure and the stage that it belongs to, its number, its words on the page and aloud."""
+    work = "".join(f'<p class="work">{words_html(line, language)}</p>' for line in item.work)
+    aloud = " ".join(spoken_words(markup, each) for each, markup in item.words)
+    return {"d": figure, "e": stage, "n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
+
+
+def _equation(lesson: Lesson, stage: Stage) -> str:
+    if stage.equation is None:
+        return ""
+    words = equation_words(lesson, stage.equation)
+    return svg_element(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+
+
+# -- figures of a position ---------------------------------------------------------------------------------------------
+
+
+def _figure(name: str, drawing: Drawing, caption: str, scale: str = "", named: bool = False) -> Figure:
+    """A figure with its caption (HTML), and its scale behind that."""
+    shown = f'{caption} <span class="scale">{scale}</span>' if scale else caption
+    return {"name": name, "svg": svg_element(drawing, named=named), "caption": shown}
+
+
+def _figures(lesson: Lesson, piece: Piece, frames: _Frames) -> Iterator[Figure]:
+    """Mechanism, polygons and centres, with what they show in words."""
+    first, letters = languages(lesson.language)[0], lesson.letters
+    for name, drawing in _drawings(lesson, piece, frames):
+        is_stepped = name != "centres"
+        children = stepped(drawing.children) if is_stepped else drawing.children
+        desc = f"{spoken_words(drivers(lesson.sheet, letters), first)}. {_described(lesson, name, first)}"
+        scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
+        title, shown = words_html(_title(lesson, name), first), replace(drawing, children=children, desc=desc)
+        yield _figure(name, shown, title, words_html(scale, first), named=is_stepped)
+
+
+def _drawings(lesson: Lesson, piece: Piece, frames: _Frames) -> Iterator[tuple[FigureName, Drawing]]:
+    sheet, letters = lesson.sheet, lesson.letters
+    yield "mechanism", _page(lesson, "mechanism", with_labels(piece, frames.mechanism), frames.mechanism)
+    for diagram in POLYGONS:
+        if sheet.vectors(diagram):
+            size, low = frames.polygons[diagram]
+            middle = extent(sheet, diagram).centre
+            panel = Box.around((middle - size / 2, middle + size / 2))
+            strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + low)
+            made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
+            yield diagram, _page(lesson, diagram, made, panel.joined(strip))
+    if lesson.centres is not None and frames.centres is not None:
+        back = background(piece)
+        marks = centre_marks(lesson.centres, letters, frames.centres, back.drawn)
+        made = with_labels(joined((back, marks)), frames.centres)
+        yield "centres", _page(lesson, "centres", made, frames.centres)
+
+
+def _page(lesson: Lesson, name: FigureName, piece: Piece, panel: Box) -> Drawing:
+    groups = layer_groups(moved_piece(piece, -panel.corners[0]))
+    desc = plain_words(drivers(lesson.sheet, lesson.letters))
+    first = languages(lesson.language)[0]
+    return Drawing(panel.width, panel.height, groups, _title(lesson, name), desc, first)
+
+
+def _title(lesson: Lesson, figure: FigureName) -> str:
+    return term(figure if figure == "centres" else FIGURE_WORDS[figure], lesson.language)
+
+
+def _described(lesson: Lesson, name: str, language: str) -> str:
+    """What a polygon shows at this position, in words: each vector with its size and direction."""
+    rows = (row for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name)
+    return "; ".join(
+        f"{spoken_words(f'${lesson.letters.vector(row.symbol)}$', language)} "
+        f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, language)}"
+        for row in rows
+    )
+
+
+def _plans(lesson: Lesson) -> Iterator[Figure]:
+    """The velocity plans of what rolls, each there from the step on that ends it."""
+    sheet, language = lesson.sheet, lesson.language
+    figure = train_figure(sheet, language=language, convention=lesson.convention)
+    for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
+        last = [step.number for step in sheet.steps if step.diagram == plan.order and isinstance(step.act, OnPlan)][-1:]
+        bare = bare_picture(page)
+        drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last[0]}",)),)) if last else bare
+        told = said("plan" if plan.order == "velocity" else "plan accelerations", language)
+        yield _figure(f"plan-{plan.order}", drawn, _caption(told))
+
+
+def _cams(lesson: Lesson) -> Iterator[Figure]:
+    """Displacement diagram and inversion of each cam that is drawn by its law."""
+    scene, language = lesson.sheet.scene, lesson.language
+    for i, cam in enumerate(scene.cams):
+        pictures = cam_pictures(scene, scaled_cam(scene, cam), language)
+        for key, picture in zip(("cam diagram", "cam figure"), pictures, strict=True):
+            yield _figure(f"{key.replace(' ', '-')}-{i}", picture, _caption(said(key, language)))
+
+
+def _caption(told: Said) -> str:
+    return said_html(tuple((each, capital(text)) for each, text in told))
+
+
+def _forces(
+    lesson: Lesson, figures: list[Figure], stages: list[int], steps: list[dict[str, object]],
+    table: list[dict[str, str]],
+) -> None:  # fmt: skip
+    """Add figures, stages and steps of the forces, behind those of the motion."""
+    forces, language = lesson.forces, lesson.language
+    if forces is None:
+        return
+    sheet = replace(lesson.sheet, scales=replace(lesson.sheet.scales, force=forces.per_mm))
+    first = languages(language)[0]
+    scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
+    before = len(stages)
+    for turn, stage in enumerate(force_stages(sheet, forces, lesson.letters, language)):
+        name, svg, title, group = str(stage.figure), "", said_html(stage.title), stage.group
+        if group is not None:
+            name = f"force-{turn}"
+            drawn = group_picture(sheet, forces, stage, group, lesson.letters, language, WIDE, f"-{turn}")
+            links = said(about("force on links", group.links), language, ", ".join(group.links))
+            figures.append(_figure(name, drawn, said_html(links), scale, named=True))
+            equation = group_equation(sheet, group, lesson.letters, language, WIDE)
+            svg = "" if equation is None else svg_element(equation)
+        if len(forces.states) > 1 and group is not None:
+            load = said("force with load" if stage.again else "force without load", language)
+            title += f" <small>{said_html(load)}</small>"
+        stages.append(_place(table, title, svg))
+        steps += [_step(one, name, before + turn, first) | _force_found(lesson, stage, one) for one in stage.steps]
+    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    if lever is not None:
+        figures.append(_figure("lever", lever, said_html(said("lever", language))))
+
+
+# -- what a step finds, to be tried first ------------------------------------------------------------------------------
+
+
+def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> dict[str, Json]:
+    """What is to be found: symbol, name, size in its unit, and direction (degrees) or sense; nothing for a zero."""
+    if not value:
+        return {}
+    size = float(f"{lesson.in_unit(symbol, abs(value)):.5g}")
+    find: dict[str, Json] = {"symbol": str(symbol), "name": words_html(f"${name}$"), "size": size,
+                             "unit": lesson.unit(symbol)}  # fmt: skip
+    if isinstance(value, complex):
+        return {"find": find | {"angle": round(math.degrees(cmath.phase(value)), 1)}}
+    return {"find": find | {"sense": 1 if value > 0 else -1}}
+
+
+def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
+    """What a step of the motion finds: the rate that it measures, or its last vector."""
+    sheet, act = lesson.sheet, step.act
+    if isinstance(act, MeasuredRate | AddedRate) or (isinstance(act, PlanDrawn) and not act.known):
+        omega = act.rate == "omega"
+        rate = (sheet.omega if omega else sheet.alpha).get(act.link)
+        name = f"{'ω' if omega else 'α'}_{{{act.link}}}"
+        return {} if rate is None else _find(lesson, Symbol(act.rate, link=act.link), name, rate.value)
+    vectors = [s for s in step.strokes if isinstance(s, Vector) and s.span]
+    if not vectors:
+        return {}
+    last = vectors[-1]
+    value = last.span * sheet.scales.of(step.diagram)
+    return _find(lesson, last.symbol, lesson.letters.vector(last.symbol), value)
+
+
+def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str, Json]:
+    """What a step of the forces finds, where it finds one force or moment."""
+    if len(step.found) != 1 or lesson.forces is None:
+        return {}
+    (symbol,) = step.found
+    back = replace(symbol, link=symbol.other, other=symbol.link) if symbol.other else symbol
+    for one, sign in ((symbol, 1.0), (back, -1.0)):
+        moment, span = stage.state.moments.get(one), stage.state.vectors.get(one)
+        if moment or span:
+            value = moment or (span or 0j) * lesson.forces.per_mm
+            return _find(lesson, symbol, lesson.letters.vector(symbol), sign * value)
+    return {}
+
+
+def tolerances(lesson: Lesson) -> dict[str, float]:
+    """By symbol the part of a value within which an answer is taken for right: that of the key, within bounds."""
+    parts = {}
+    for row in lesson.results:
+        spread = lesson.tolerance.get(row.symbol)
+        size = abs(row.true)
+        if spread is not None and size:
+            part = COVERAGE * spread.deviation / size
+            parts[str(row.symbol)] = round(min(max(part, LEAST), MOST), 4) if math.isfinite(part) else MOST
+    return parts
+
+
+# -- the mechanism in motion -------------------------------------------------------------------------------------------
+
+Track: TypeAlias = list[float | None]
+"""Coordinates of a place over the motion, [x0, y0, x1, y1, ...], to 0.01 mm."""
+Place: TypeAlias = Callable[[Array], int]
+"""Number of the track on which a place (mm) moves; each is kept once."""
+
+
+def motion_data(
+    sheet: Sheet, letters: Letters, values: Mapping[str, float] | None, count: int = FRAMES
+) -> dict[str, Json]:
+    """Everything that moves, ready for the page, in mm on paper at the scales of the handout; the page joins places, it
+    computes nothing.  Empty where the driver reaches no two places.
+
+    Returns
+    ------
+    ``at`` : values of the first driver (degrees, or travel in scene units); ``tracks`` : coordinates of each place over
+    them, [x0, y0, x1, y1, ...]; ``bars`` : places joined, with the number of their link; ``lines`` : ends of guides;
+    ``points``, ``centres`` : places with their names; ``fixed`` : places that stand; ``velocity``, ``acceleration`` :
+    vectors as pairs of places and names of ends
+    """
+    scene = sheet.scene.instead_of or sheet.scene  # what stands for a cam does so at one position only
+    motion = solve(scene, at=values, sweep=count)
+    rows = _in_order(motion)
+    if len(rows) < 2:
+        return {}
+    tracks: list[Track] = []
+
+    def place(z: Array) -> int:
+        track = _track(z, rows)
+        if track not in tracks:
+            tracks.append(track)
+        return tracks.index(track)
+
+    length = sheet.scales.length
+    places = {
+        (link.name, point): place(motion.position(point, link.name) / length)
+        for link in scene.links
+        for point in link.points
+    }
+    fixed = {p: place(np.full(len(motion.ok), z / length)) for p, z in scene.frame.points.items()}
+    shared = {point: number for (_, point), number in places.items()} | fixed
+    size = scene.size / length
+    bars = [
+        [number, *(fixed.get(p, places[link.name, p]) for p in link.points)]
+        for number, link in enumerate(scene.links)
+        if len(link.points) > 1
+    ]
+    driver = scene.drivers[0]
+    unit = scene.units.metres if "/" in driver.key else math.pi / 180.0
+    guides = dict.fromkeys([(s.on, s.guide) for s in scene.slidings] + [(p.on, p.guide) for p in scene.pins])
+    return {
+        "at": [round(float(v) / unit, 3) for v in motion.values[rows, 0]],
+        "driver": plain_words(f"${'s' if '/' in driver.key else 'φ'}_{{{driver.key}}}$"),
+        "unit": f" {scene.units.length}" if "/" in driver.key else "°",
+        "bars": bars,
+        "lines": [[place(end) for end in _guide(motion, on, guide, size, length)] for on, guide in guides],
+        "points": [[number, plain_words(f"${letters.point(p)}$")] for p, number in shared.items()],
+        "fixed": sorted(fixed.values()),
+        "blocks": [[places.get((s.link, s.pin or ""), -1)] for s in scene.slidings if (s.link, s.pin or "") in places],
+        "centres": list(_centres(motion, place, tracks, letters, size, length)),
+        "velocity": _vectors(motion, sheet, letters, "velocity", place),
+        "acceleration": _vectors(motion, sheet, letters, "acceleration", place),
+        "tracks": tracks,
+    }
+
+
+def _in_order(motion: Motion) -> list[int]:
+    """The rows that stand, beginning behind the gap where there is one."""
+    good = [bool(ok) for ok in motion.ok]
+    if all(good):
+        return list(range(len(good)))
+    cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
+    return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]
+
+
+def _track(z: Array, rows: Sequence[int]) -> Track:
+    track: Track = []
+    for one in np.asarray(z)[rows].tolist():
+        sound = math.isfinite(one.real) and math.isfinite(one.imag)
+        track += [round(one.real, 2) + 0.0, round(-one.imag, 2) + 0.0] if sound else [None, None]
+    return track
+
+
+def _guide(motion: Motion, on: str, guide: str, size: float, length: float) -> list[Array]:
+    """Both ends of a guide: of the frame's through the whole mechanism, of a link's along the link."""
+    placed = motion.link(on).guides[guide]
+    if on == motion.scene.frame.name:
+        ends = (placed.through / length + way * size * placed.direction for way in (-1, 1))
+        return [np.full(len(motion.ok), end) for end in ends]
+    pose, reach = motion.poses[on], 0.6 * size
+    start = (pose.z + pose.u * placed.through) / length
+    return [start + way * pose.u * placed.direction for way in (-0.15 * reach, reach)]
+
+
+def _centres(
+    motion: Motion, place: Place, tracks: Sequence[Track], letters: Letters, size: float, length: float
+) -> Iterator[list[int | str]]:
+    """Instant centres, where they lie within reach; permanent ones bear the names of their points."""
+    scene = motion.scene
+    middle = np.mean(list(scene.frame.points.values()) or [0j]) / length
+    for a, b in combinations([scene.frame.name, *(link.name for link in scene.links)], 2):
+        q, omega = instant_centre(motion, b, a)
+        with np.errstate(all="ignore"):
+            z = np.where(np.abs(omega) > 0, q / omega, np.nan) / length
+        z = np.where(np.abs(z - middle) < FAR * size, z, np.nan + 0j)
+        known = len(tracks)
+        if np.isfinite(z).any() and (number := place(z)) == known:
+            pair = (b, a) if a == scene.frame.name else (a, b)
+            yield [number, plain_words(f"${letters.centre(pair)}$")]
+
+
+def _vectors(motion: Motion, sheet: Sheet, letters: Letters, diagram: DiagramName, place: Place) -> dict[str, Json]:
+    """Absolute vectors from the pole, relative ones between their end points."""
+    kind = "v" if diagram == "velocity" else "a"
+    ends = dict[PointRef, int]()
+    for ref in sheet.ends[diagram]:
+        if _moves(motion.scene, ref, motion):
+            try:
+                ends[ref] = place(motion.value(Symbol(kind, ref)) / sheet.scales.of(diagram))
+            except (KeyError, ValueError):
+                continue
+    vectors = [(-1, number) for number in dict.fromkeys(ends.values())]
+    relative = [s for s in sheet.vectors(diagram) if s.to is not None and s.to in ends and s.of in ends]
+    # components of accelerations hide between two ends that are joined
+    for symbol in (*(s for s in relative if s.kind == kind), *(relative if diagram == "acceleration" else ())):
+        assert symbol.to is not None
+        assert symbol.of is not None
+        vectors.append((ends[symbol.to], ends[symbol.of]))
+    named: list[list[Json]] = [
+        [number, plain_words(f"${letters.end(diagram, ref) or letters.vector(Symbol(kind, ref))}$")]
+        for ref, number in ends.items()
+    ]
+    return {"vectors": [list(pair) for pair in dict.fromkeys(vectors)], "ends": named}
+
+
+def _moves(scene: Mechanism, ref: PointRef, motion: Motion) -> bool:
+    """Whether a point is one of a moving link, not of the frame, nor one that is only there to draw."""
+    fixed = ref.point in scene.frame.points and ref.link in ("", scene.frame.name)
+    return not fixed and ref.link in ("", *motion.poses) and any(ref.point in link.points for link in scene.links)
