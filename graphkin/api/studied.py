@@ -18,7 +18,7 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.drawing.chart import ChartPage
     from graphkin.races import Entry, Race
-    from graphkin.study.stability import Singularity
+    from graphkin.study.error_laws import Singularity
     from graphkin.table import Table
 
 __all__ = ["SpeedAccuracy", "Stability", "speed_accuracy", "stability"]
@@ -130,7 +130,7 @@ class Stability(_Charted):
     @cached_property
     def figures(self) -> Mapping[str, ChartPage]:
         """The charts by name, six singularities on each."""
-        from graphkin.study.stability import stability_pages
+        from graphkin.study.error_laws import stability_pages
 
         return stability_pages(self.singularities, self.language)
 
@@ -142,14 +142,14 @@ class Stability(_Charted):
     @cached_property
     def table(self) -> Table:
         """All points of all curves; a point without an error is a refusal."""
-        from graphkin.study.stability import laws_table
+        from graphkin.study.error_laws import laws_table
 
         return laws_table(self.singularities)
 
     @cached_property
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin study stability --json`` prints."""
-        from graphkin.study.stability import to_json
+        from graphkin.study.error_laws import to_json
 
         return to_json(self.singularities, self.language)
 
@@ -178,7 +178,7 @@ def stability(
     >>> round(found["crossing height"]["height by squares"].slope, 1)
     -1.0
     """
-    from graphkin.study.stability import KINDS, run_singularities
+    from graphkin.study.singular_positions import KINDS, run_singularities
 
     wanted = tuple(as_list("kinds", kinds, Phrase("give a list of", names='["dead point RRR"]')))
     if wrong := unknown_words("kind", wanted, KINDS):

@@ -13,17 +13,16 @@ import pytest
 
 from graphkin.api.studied import Stability
 from graphkin.errors import CallError
-from graphkin.study.stability import (
-    KINDS,
+from graphkin.study.error_laws import (
     ErrorLaw,
     Singularity,
+    in_powers,
     laws_table,
-    run_singularities,
+    lessons,
     stability_pages,
     to_json,
 )
-from graphkin.study.stability.chart import lessons
-from graphkin.study.stability.laws import in_powers
+from graphkin.study.singular_positions import KINDS, run_singularities
 from graphkin.words import Phrase, say
 from tests.drawing.chart_words import off_the_page, overlapping
 
