@@ -200,7 +200,7 @@ class _Moved:
         """What to draw at values of the drivers.  Raises Unsolvable for a position that cannot be had."""
         asked = asked_here(tuple(self.structure.scene.find))
         try:
-            return plan(self.structure, values, asked, follows=self.last)
+            return plan(self.structure, values, asked, near=None if self.last is None else self.last.exact)
         except Unsolvable:  # the way from there may be barred
             return plan(self.structure, values, asked)
 

@@ -8,8 +8,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from graphkin.construction.assembly import assembly_at, own_position
+from graphkin.construction.follow import Choices
 from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.position import branches_at, place
+from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
@@ -76,8 +78,8 @@ def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen
 def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
     """A mechanism without cams, moved from its own position to driver values, on paper of its size."""
     drivers = structure.scene.drivers
-    kept, own = {d.key: values[d.key] for d in drivers}, {d.key: d.values[0] for d in drivers}
-    branches = branches_at(structure, structure.elements, kept, own, None)
+    kept = {d.key: values[d.key] for d in drivers}
+    branches = assembly_at(structure, structure.elements, kept)[0]
     return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
 
 
@@ -101,9 +103,9 @@ def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
 
 
 def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
+    """A mechanism at driver values that are its own, on paper of its size."""
     kept = {d.key: values[d.key] for d in structure.scene.drivers}
-    branches = branches_at(structure, structure.elements, kept, kept, None)
-    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
+    return own_position(Choices(structure, structure.elements), structure.elements, kept)
 
 
 def _places(structure: Structure, values: Mapping[str, float]) -> dict[str, complex]:

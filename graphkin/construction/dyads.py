@@ -34,11 +34,25 @@ from graphkin.construction.mechanism_acts import (
     SlidToMeet,
 )
 from graphkin.construction.strokes import Bar, CompassArc, Stroke
+from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver
-from graphkin.structure import Cluster, Driven, Dyad, DyadKind, Element, Rolled
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    DyadKind,
+    Element,
+    Rolled,
+    Structure,
+    named_with_contact,
+    pick,
+)
+from graphkin.words import Phrase
 
-__all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meet"]
+__all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "meant", "meet", "refuse"]
+
+DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 
 Story = tuple[tuple[OnMechanism, tuple[Stroke, ...]], ...]
 
@@ -248,6 +262,43 @@ _MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody],
 def meet(paper: PlacedLinks, dyad: Dyad) -> Meeting:
     """Draw the loci of a dyad and find where they meet."""
     return _MEETINGS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
+
+
+def refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
+    """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
+    names = named_with_contact(structure, element)
+    if meeting.gap < -1e-14 and not element.is_two_lines:
+        raise Unsolvable(
+            "not assembled",
+            Problem(
+                names,
+                Phrase("the two loci of the group do not", kind=element.kind),
+                Phrase("choose a driver value at which the mechanism"),
+            ),
+        )
+    if not meeting.poses or meeting.sine < DEAD:
+        raise Unsolvable(
+            "dead point",
+            Problem(
+                names,
+                Phrase("the group stands at a dead point its", kind=element.kind),
+                Phrase("move the driver off this position"),
+            ),
+        )
+
+
+def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
+    """The assembly of a dyad that the scene means at its own position.
+
+    Raises
+    ------
+    Unsolvable : as `refuse`
+    SceneError : a sketch that fits none
+    """
+    meeting = meet(paper, dyad)
+    refuse(structure, dyad, meeting)
+    candidates = [paper.fresh(poses) for poses in meeting.poses]
+    return meeting.poses[pick(structure.scene, dyad.links, candidates, 0).index]
 
 
 Choose = Callable[[int, Dyad | Cluster], Poses | None]

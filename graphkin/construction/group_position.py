@@ -21,7 +21,7 @@ from itertools import pairwise
 import numpy as np
 
 from graphkin.construction.dyads import Story, drive, meet
-from graphkin.construction.follow import Choices, best_first, best_reduced, drawn_near, fitted, standing
+from graphkin.construction.follow import best_first, drawn_near, fitted
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.mechanism_acts import (
@@ -39,10 +39,10 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedCon
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver
-from graphkin.structure import Cluster, Driven, Dyad, Element, links_of
+from graphkin.structure import Driven, links_of
 from graphkin.words import Phrase
 
-__all__ = ["GroupTrial", "nearest_assembly", "table_of_one", "table_of_several"]
+__all__ = ["GroupTrial"]
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -138,36 +138,6 @@ class GroupTrial:
             for name in links_of(element):
                 board.poses[name] = poses[name]
         return tuple(story)
-
-
-def nearest_assembly(
-    choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
-) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
-    """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
-    placed, so that links lie where they are known to lie (``poses``).
-
-    Parameters
-    ----------
-    starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
-    """
-    branches: dict[int, int] = {}
-    trials: dict[Cluster, GroupTrial] = {}
-    for i, element in enumerate(elements):
-        if isinstance(element, Dyad):
-            branches[i] = meet(paper, element).nearest(poses) or 0
-        elif isinstance(element, Cluster):
-            if starting is not None and element.rolling:
-                reduced = standing(starting, element, paper, poses)
-            else:
-                reduced = best_reduced(choices, element, paper, poses)
-            if reduced is None:
-                links = Phrase("links", links=", ".join(element.links))
-                raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
-            given = starting is not None and bool(element.rolling)
-            trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
-        for name in links_of(element):
-            paper.poses[name] = poses[name]
-    return branches, trials
 
 
 def _to_hand(paper: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:

@@ -12,10 +12,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from graphkin.construction.dyads import assembled, drive, meet
+from graphkin.construction.assembly import assembly_at
+from graphkin.construction.dyads import assembled, drive, meant, meet
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, travel
-from graphkin.construction.position import Branches, as_meant, branches_at, place, start_board
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, start_board, travel
+from graphkin.construction.position import place
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Structure, analyse, pick
@@ -41,8 +42,9 @@ class Inversion:
     def branch(self, own: Mapping[str, float], values: Mapping[str, float], branch: int) -> int:
         """The assembly of the triangle at some driver values, followed from the scene's own."""
         key = self.triangle.driver.key
-        elements = self.structure.elements
-        return branches_at(self.structure, elements, {key: values[key]}, {key: own[key]}, {0: branch})[0]
+        start = place(self.structure, self.structure.elements, 1.0 / self.structure.scene.size, own, {0: branch})
+        near = {key: own[key]}, start.paper.poses
+        return assembly_at(self.structure, self.structure.elements, {key: values[key]}, near)[0][0]
 
     def value(self, values: Mapping[str, float], branch: int) -> float:
         """The stand-in's value (rad, m) as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
@@ -104,11 +106,10 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
 
 @dataclass(frozen=True)
 class _Way:
-    """One assembly of a group: that of each triangle, the stand-ins' values, that of each dyad, and the links."""
+    """One assembly of a group: that of each triangle, the driver values with the stand-ins', and the links."""
 
     triangles: tuple[int, ...]
     values: Mapping[str, float]
-    branches: Branches
     poses: Mapping[str, Pose]
 
 
@@ -118,13 +119,13 @@ def own_assembly(
     elements: Sequence[Driven | Dyad],
     inversions: Sequence[Inversion],
     own: Mapping[str, float],
-) -> tuple[dict[str, int], dict[str, float], dict[int, int]]:
+) -> tuple[dict[str, int], dict[str, float], Poses]:
     """Which assembly a scene with driven triangles means at its own position.
 
     Returns
     -------
-    that of each triangle by the key of its stand-in, all driver values with those of the stand-ins, and that of each
-    dyad by its place among the elements
+    that of each triangle by the key of its stand-in, all driver values with those of the stand-ins, and where the links
+    lie with the mechanism of size 1
 
     Raises
     ------
@@ -133,13 +134,11 @@ def own_assembly(
     """
     paper = start_board(opened, 1.0 / structure.scene.size, own)
     taken: dict[str, int] = {}
-    chosen: dict[int, int] = {}
     i = 0
     while i < len(elements):
         group = next((e for e in structure.elements if isinstance(e, Cluster) and elements[i] in e.parts), None)
         if group is None:
-            meant = as_meant(opened, paper, chosen)
-            assembled(paper, elements[i : i + 1], lambda _, dyad, i=i, meant=meant: meant(i, dyad))  # type: ignore[misc]
+            assembled(paper, elements[i : i + 1], lambda _, dyad: meant(opened, paper, dyad))  # type: ignore[arg-type]
             i += 1
             continue
         run = [j for j in range(i, len(elements)) if elements[j] in group.parts]
@@ -155,10 +154,9 @@ def own_assembly(
         way = found[index]
         taken.update({v.key: branch for v, branch in zip(mine, way.triangles, strict=True)})
         paper.values = way.values
-        chosen.update(way.branches)
         paper.poses.update(way.poses)
         i = run[-1] + 1
-    return taken, dict(paper.values), chosen
+    return taken, dict(paper.values), dict(paper.poses)
 
 
 def _ways(
@@ -172,26 +170,25 @@ def _ways(
             continue
         values = {**paper.values, **given}
         begun = PlacedLinks(paper.links, paper.mm, values, dict(paper.poses), EXACT)
-        for chosen, poses in _assembled(begun, elements, run):
+        for poses in _assembled(begun, [elements[i] for i in run]):
             if all(_has_its_travel(begun, v, poses) for v in inversions):
-                yield _Way(branches, values, chosen, poses)
+                yield _Way(branches, values, poses)
 
 
-def _assembled(
-    paper: PlacedLinks, elements: Sequence[Driven | Dyad], run: Sequence[int]
-) -> Iterator[tuple[dict[int, int], dict[str, Pose]]]:
-    if not run:
-        yield {}, {}
+def _assembled(paper: PlacedLinks, elements: Sequence[Driven | Dyad]) -> Iterator[dict[str, Pose]]:
+    """The links in every assembly of the dyads."""
+    if not elements:
+        yield {}
         return
-    first, element = run[0], elements[run[0]]
+    element, *left = elements
     if isinstance(element, Driven):
-        several: Sequence[Mapping[str, Pose]] = ({element.link: drive(paper, element)[0]},)
+        several: Sequence[Poses] = ({element.link: drive(paper, element)[0]},)
     else:
         several = meet(paper, element).poses
-    for branch, poses in enumerate(several):
+    for poses in several:
         further = PlacedLinks(paper.links, paper.mm, paper.values, {**paper.poses, **poses})
-        for chosen, rest in _assembled(further, elements, run[1:]):
-            yield ({first: branch, **chosen} if isinstance(element, Dyad) else chosen), {**poses, **rest}
+        for rest in _assembled(further, left):
+            yield {**poses, **rest}
 
 
 def _has_its_travel(paper: PlacedLinks, inversion: Inversion, poses: Mapping[str, Pose]) -> bool:

@@ -13,7 +13,7 @@ from graphkin.structure import Body, Dyad, Pair, Structure
 
 __all__ = [
     "LinkMotion", "PlacedLinks", "Pose", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
-    "pushed_by_driver", "rail", "travel",
+    "pushed_by_driver", "rail", "start_board", "travel",
 ]  # fmt: skip
 
 
@@ -110,6 +110,17 @@ class PlacedLinks:
         span = link.points[b] - link.points[a]
         axis = unit((self.pricked[b] - self.pricked[a]) / span) if abs(span) * self.mm > 1.0 else pose.axis
         return Pose(self.pricked[a] - axis * (link.points[a] * self.mm), axis)
+
+
+def start_board(
+    structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT
+) -> PlacedLinks:
+    """The empty paper with the fixed points pricked, at driver values (rad, m); ``mm`` of paper for one m."""
+    ground = structure.scene.frame.name
+    paper = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
+    if not instrument.faultless:
+        paper.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
+    return paper
 
 
 class RigidBody:

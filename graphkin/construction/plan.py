@@ -13,15 +13,15 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.asked_vectors import show
+from graphkin.construction.assembly import Known, assembly_at
 from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.larger_groups import draw_group, drawn_group
-from graphkin.construction.links_on_paper import PlacedLinks, Pose
 from graphkin.construction.mechanism_acts import HeldStill
 from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import RATE, Polygons
-from graphkin.construction.position import branches_at, draw_position, place
+from graphkin.construction.position import draw_position, place
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
@@ -40,7 +40,6 @@ from graphkin.structure import (
     DrivenTriangle,
     Dyad,
     Element,
-    Rolled,
     Structure,
     analyse,
     links_of,
@@ -53,7 +52,6 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
     from graphkin.construction.group_position import GroupTrial
-    from graphkin.construction.trial import Known
 
 __all__ = [
     "GoneOn", "OnBoard", "Plan", "Redrawn", "Task", "carried_out", "draft", "draw", "execute", "finished", "plan",
@@ -463,13 +461,11 @@ def plan(
     find: Iterable[Symbol] | None = None,
     room: Room | None = None,
     near: Sheet | None = None,
-    follows: Plan | None = None,
     bars: bool = True,
 ) -> Plan:
     """Decide what to draw, and carry it out exactly; parameters and errors as for `draft`.
 
-    ``follows`` is the same task at another position: the assembly is followed from there, which is shorter than from
-    the scene's own.  With ``bars`` these stand for rollers and edges of cams, else pins on the pitch curves.
+    With ``bars`` these stand for rollers and edges of cams, else pins on the pitch curves.
     """
     structure = analyse(with_cams(scene))
     scene = structure.scene
@@ -485,48 +481,22 @@ def plan(
     elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | {key: value for key, value in (at or {}).items() if key in own}
-    if any(isinstance(e, Cluster) or (isinstance(e, Driven) and isinstance(e.driver, Rolled)) for e in elements):
-        branches, trials, rolled = _by_trial(structure, elements, values, near)
-        values |= rolled
-        task = Task(structure, structure, asked, elements, values, branches, trials, {}, {}, (), {}, {}, ())
-        return _planned(task, room)
-    dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
-    inversions = inversions_of(structure)
     triangles: tuple[tuple[Inversion, int], ...] = ()
-    chosen = None
-    if inversions:
-        taken, own, chosen = own_assembly(structure, opened, dyads, inversions, own)
+    start: Known | None = None
+    if opened is not structure:
+        dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
+        inversions = inversions_of(structure)
+        taken, own, poses = own_assembly(structure, opened, dyads, inversions, own)
+        start = {d.key: own[d.key] for d in opened.scene.drivers}, poses
         triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
         values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
-    keys = [d.key for d in opened.scene.drivers]
-    if follows is not None and not inversions and follows.elements == elements:
-        own, chosen = dict(follows.values), dict(follows.branches)
-    branches = branches_at(opened, elements, {k: values[k] for k in keys}, {k: own[k] for k in keys}, chosen)
-    return _planned(Task(structure, opened, asked, elements, values, branches, {}, {}, {}, triangles, {}, {}, ()), room)
-
-
-def _by_trial(
-    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Sheet | None
-) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
-    """The assembly of each dyad, by what trial positions each larger group is placed, and how far what rolls on them
-    has gone (rad, m)."""
-    from graphkin.construction.follow import Choices
-    from graphkin.construction.group_position import nearest_assembly
-    from graphkin.construction.touching import coordinate_on_paper
-    from graphkin.construction.trial import found_by_trial
-
-    choices = Choices(structure, elements)
-    poses = found_by_trial(choices, elements, values, None if near is None else _known(near))
-    scene = structure.scene
-    at_start = all(values[d.key] == d.values[0] for d in scene.drivers)
-    there = choices.at_start if at_start else choices
-    starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
-    placed = structure.followed(values) | starts
-    paper = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
-    branches, trials = nearest_assembly(choices, elements, paper, poses, there if at_start else None)
-    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
-    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
-    return branches, trials, starts | rolled
+    elif near is not None and {n for e in elements for n in links_of(e)} <= near.poses.keys() and not scene.instead_of:
+        start = _known(near)
+    here = {d.key: values[d.key] for d in opened.scene.drivers}
+    branches, trials, rolled = assembly_at(opened, elements, here, start)
+    values |= rolled
+    task = Task(structure, opened, asked, elements, values, branches, trials, {}, {}, triangles, {}, {}, ())
+    return _planned(task, room)
 
 
 def _known(sheet: Sheet) -> Known:
@@ -608,8 +578,8 @@ def draft(
     instrument : what draws and reads
     room : paper to fill, with scales chosen from the 1-2-2.5-5 series; None takes the scene's own scales where it
         gives them
-    near : everything drawn at other driver values already, from where a mechanism with larger groups is followed;
-        without it from the scene's own
+    near : the same scene drawn at other driver values already, from where the motion is followed; without it from the
+        scene's own position
 
     Raises
     ------

@@ -6,10 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from graphkin.construction.dyads import Choose, Meeting, Story, assemble, assembled, drive, meet
-from graphkin.construction.follow import Choices, moved_to
+from graphkin.construction.dyads import Meeting, Story, assemble, drive, meet, refuse
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
 from graphkin.construction.mechanism_acts import (
     ArcOnPath,
     CompassArcs,
@@ -21,14 +20,19 @@ from graphkin.construction.mechanism_acts import (
 from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.sheet import Board, Cause, Placing
 from graphkin.construction.strokes import Mark
-from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, links_of, named_with_contact, pick
+from graphkin.structure import (
+    Cluster,
+    Driven,
+    Dyad,
+    Element,
+    Structure,
+    links_of,
+)
 from graphkin.words import Phrase
 
-__all__ = ["Branches", "as_meant", "branches_at", "draw_position", "place", "start_board"]
+__all__ = ["Branches", "draw_position", "place"]
 
-DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 
 
@@ -86,107 +90,12 @@ def place(
             (trials or {})[element].place(paper)
             return {}
         meeting = meetings[i] = meet(paper, element)
-        _refuse(structure, element, meeting)
+        refuse(structure, element, meeting)
         return meeting.poses[branches.get(i, 0) % len(meeting.poses)]
 
     for element in assemble(paper, elements, chosen):
         causes.append((instrument.acts, Placing((element.link,) if isinstance(element, Driven) else element.links)))
     return Position(paper, meetings, causes)
-
-
-def start_board(
-    structure: Structure, mm: float, values: Mapping[str, float], instrument: Instrument = EXACT
-) -> PlacedLinks:
-    """The empty sheet with the fixed points pricked."""
-    ground = structure.scene.frame.name
-    paper = PlacedLinks(structure.links, mm, structure.followed(values), {ground: Pose(0j, 1 + 0j)}, instrument)
-    if not instrument.faultless:
-        paper.pricked.update({p: instrument.point(z * mm) for p, z in structure.links[ground].points.items()})
-    return paper
-
-
-def _refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
-    names = named_with_contact(structure, element)
-    if meeting.gap < -1e-14 and not element.is_two_lines:
-        raise Unsolvable(
-            "not assembled",
-            Problem(
-                names,
-                Phrase("the two loci of the group do not", kind=element.kind),
-                Phrase("choose a driver value at which the mechanism"),
-            ),
-        )
-    if not meeting.poses or meeting.sine < DEAD:
-        raise Unsolvable(
-            "dead point",
-            Problem(
-                names,
-                Phrase("the group stands at a dead point its", kind=element.kind),
-                Phrase("move the driver off this position"),
-            ),
-        )
-
-
-def branches_at(
-    structure: Structure,
-    elements: Sequence[Element],
-    values: Mapping[str, float],
-    own: Mapping[str, float] | None = None,
-    chosen: Mapping[int, int] | None = None,
-) -> dict[int, int]:
-    """The assembly of each dyad at some driver values.
-
-    It is chosen once, at the scene's own position (``own`` values and ``chosen`` assemblies, where these are known),
-    and followed from there without a jump; where the straight way is barred the other way round is tried.
-
-    Raises
-    ------
-    Unsolvable
-        status "not assembled": the motion does not reach the values; the message gives the limit
-    """
-    if own is None:
-        own = {d.key: d.values[0] for d in structure.scene.drivers}
-    paper, branches = start_board(structure, 1.0 / structure.scene.size, own), dict(chosen or {})
-    if chosen is None:
-        assembled(paper, elements, as_meant(structure, paper, branches))
-    if all(values[k] == v for k, v in own.items()):
-        return branches
-    if chosen is not None:
-        assembled(paper, elements, in_branches(paper, branches))
-    poses = moved_to(Choices(structure, elements), elements, own, values, paper.poses)
-    paper = start_board(structure, 1.0 / structure.scene.size, values)
-
-    def nearest(i: int, element: Dyad | Cluster) -> Poses:
-        assert isinstance(element, Dyad)
-        branches[i] = meet(paper, element).nearest(poses) or 0
-        return {name: poses[name] for name in links_of(element)}
-
-    assembled(paper, elements, nearest)
-    return branches
-
-
-def in_branches(paper: PlacedLinks, branches: Branches) -> Choose:
-    """Each dyad in a known assembly."""
-
-    def choose(i: int, element: Dyad | Cluster) -> Poses:
-        assert isinstance(element, Dyad)
-        return meet(paper, element).poses[branches[i]]
-
-    return choose
-
-
-def as_meant(structure: Structure, paper: PlacedLinks, chosen: dict[int, int]) -> Choose:
-    """Each dyad in the assembly that the scene means at its own position, noted in ``chosen``."""
-
-    def choose(i: int, element: Dyad | Cluster) -> Poses:
-        assert isinstance(element, Dyad)
-        meeting = meet(paper, element)
-        _refuse(structure, element, meeting)
-        candidates = [paper.fresh(poses) for poses in meeting.poses]
-        chosen[i] = pick(structure.scene, element.links, candidates, 0).index
-        return meeting.poses[chosen[i]]
-
-    return choose
 
 
 def draw_position(

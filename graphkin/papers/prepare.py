@@ -148,7 +148,7 @@ def views_of(
 def _followed(structure: Structure, row: Mapping[str, float], asked: Sequence[Symbol], last: Plan) -> Plan:
     """A plan reached from its neighbour, or where the way from there is barred from the scene's own position."""
     try:
-        return plan(structure, row, asked, follows=last)
+        return plan(structure, row, asked, near=last.exact)
     except Unsolvable:
         return plan(structure, row, asked)
 

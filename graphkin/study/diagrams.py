@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.construction import Plan, Sheet, execute, plan
+from graphkin.construction import Sheet, execute, plan
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look
@@ -244,7 +244,6 @@ def measured(
         return found
     low, high = reach.ends
     count *= max(reach.turns, 1)
-    last: Plan | None = None
     sheet: Sheet | None = None
     for k in range(count):
         offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
@@ -252,8 +251,7 @@ def measured(
         values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
         try:
             # the assembly is followed from the last position
-            last = plan(reach.structure, values, asked, near=sheet, follows=last)
-            sheet = execute(last)
+            sheet = execute(plan(reach.structure, values, asked, near=sheet))
         except GraphkinError:
             continue
         for quantity in outputs:

@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin import solver
-from graphkin.construction import trial
+from graphkin.construction import assembly
 from graphkin.construction.centres import work
 from graphkin.construction.centres.find import Worked
 from graphkin.construction.mechanism_acts import TrialPositions
@@ -114,7 +114,7 @@ def test_the_last_value_that_can_be_drawn_is_found_to_rounding(root, told):
     def rooms(value):
         return [1.0, (root - value) * (3.0 + value) if told else 1.0]
 
-    good, last = trial._inside(gap, rooms, (1.0, math.nan), (0.0, 1.0))
+    good, last = assembly._inside(gap, rooms, (1.0, math.nan), (0.0, 1.0))
     assert (0.0, 1.0) == good
     assert root - 1e-13 <= last[0] <= root
     assert told is (len(asked) < 20)

@@ -1,10 +1,11 @@
-"""Where the links of a mechanism with larger groups lie, by trial drawings (method of trial positions).
+"""In which assembly the groups of a mechanism stand: the scene's own position as it is meant, others followed from it.
 
-The trial driver of a reduced mechanism is moved until what was left out fits; from one position of the real driver to
-the next the trial starts where the last one ended.  At the scene's own position the gaps of trial drawings are closed
-over the whole range of a trial driver, on a grid of several, or near the sketch of the problem: two sketched points of
-a link tell its direction.  Sliding pairs and driven angles tell it of others; where links are joined so but none of
-them has two such points, a guide and what slides on it tell it, once for either sense.
+Where larger groups lie is found by trial drawings (method of trial positions).  The trial driver of a reduced mechanism
+is moved until what was left out fits; from one position of the real driver to the next the trial starts where the last
+one ended.  At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, on
+a grid of several, or near the sketch of the problem: two sketched points of a link tell its direction.  Sliding pairs
+and driven angles tell it of others; where links are joined so but none of them has two such points, a guide and what
+slides on it tell it, once for either sense.
 """
 
 from __future__ import annotations
@@ -17,17 +18,18 @@ from itertools import islice, pairwise, product
 
 import numpy as np
 
-from graphkin.construction.dyads import assembled, drive, meet
-from graphkin.construction.follow import Choices, fitted, moved_to
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.dyads import assembled, drive, meant, meet
+from graphkin.construction.follow import Choices, best_reduced, fitted, moved_to, standing
+from graphkin.construction.group_position import GroupTrial
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, start_board
 from graphkin.construction.reduced_mechanism import ReducedMechanism
+from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.model import Mechanism
-from graphkin.structure import Cluster, Driven, Dyad, Element, Structure, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, pick
 from graphkin.words import Phrase
 
-__all__ = ["Known", "all_fits", "as_sketched", "fits_between", "found_by_trial"]
+__all__ = ["Known", "all_fits", "as_sketched", "assembly_at", "fits_between", "nearest_assembly", "own_position"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 # to either side of a sketch, looked at one after the other
@@ -44,60 +46,94 @@ ACROSS = 0.1  # sine of the least angle at which two guides tell a place
 Axes = dict[str, complex]
 
 
-def found_by_trial(
-    choices: Choices, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
-) -> dict[str, Pose]:
-    """Where every link of some elements lies at driver values, with the mechanism of size 1.
+def assembly_at(
+    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
+) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
+    """In which assembly the groups of some elements stand at driver values (rad, m).
 
     Parameters
     ----------
     near : a position known already, from which the motion is followed; without one the scene's own is found first
 
+    Returns
+    -------
+    the assembly of each dyad by its place among the elements, by what trial positions each larger group is placed, and
+    how far what rolls has gone (rad, m)
+
     Raises
     ------
     Unsolvable
-        "not drawn": no link can be left out so that dyads remain; "not assembled": nothing fits at these values
+        "not drawn": no link of a larger group can be left out so that dyads remain; "not assembled": nothing fits at
+        these values, or the motion does not reach them, and then the message gives the limit; "dead point"
     SceneError : a group has several assemblies and no sketch says which is meant
     """
+    scene, choices = structure.scene, Choices(structure, elements)
+    own: Mapping[str, float] = {d.key: d.values[0] for d in scene.drivers}
+    at_start = all(values[key] == value for key, value in own.items())
+    there = choices.at_start if at_start else choices
     if near is None:
-        own: Mapping[str, float] = {d.key: d.values[0] for d in choices.structure.scene.drivers}
-        poses: Poses = _own_position(choices.at_start, elements)
+        start = choices.at_start
+        begin = {d.key: d.values[0] for d in start.structure.scene.drivers}
+        poses: Poses = own_position(start, elements, begin).poses
     else:
         own, poses = near
-    if any(v != own[k] for k, v in values.items()):
-        return moved_to(choices, elements, own, values, poses)
-    return dict(poses)
+    if any(values[key] != value for key, value in own.items()):
+        poses = moved_to(choices, elements, own, values, poses)
+    starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
+    paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
+    branches, trials = nearest_assembly(choices, elements, paper, poses, there if at_start else None)
+    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
+    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
+    return branches, trials, starts | rolled
+
+
+def nearest_assembly(
+    choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
+) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
+    """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
+    placed, so that links lie where they are known to lie (``poses``).
+
+    Parameters
+    ----------
+    starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
+    """
+    branches: dict[int, int] = {}
+    trials: dict[Cluster, GroupTrial] = {}
+    for i, element in enumerate(elements):
+        if isinstance(element, Dyad):
+            branches[i] = meet(paper, element).nearest(poses) or 0
+        elif isinstance(element, Cluster):
+            if starting is not None and element.rolling:
+                reduced = standing(starting, element, paper, poses)
+            else:
+                reduced = best_reduced(choices, element, paper, poses)
+            if reduced is None:
+                links = Phrase("links", links=", ".join(element.links))
+                raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
+            given = starting is not None and bool(element.rolling)
+            trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
+        for name in links_of(element):
+            paper.poses[name] = poses[name]
+    return branches, trials
 
 
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def _own_position(choices: Choices, elements: Sequence[Element]) -> dict[str, Pose]:
+def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[str, float]) -> PlacedLinks:
+    """The links of some elements at driver values (rad, m) that are the scene's own, on paper of its size."""
     structure = choices.structure
-    scene = structure.scene
-    own = {d.key: d.values[0] for d in scene.drivers}
+    paper = start_board(structure, 1.0 / structure.scene.size, values)
     wanted = {n for element in elements for n in links_of(element)}
-    elements = [element for element in structure.elements if wanted.intersection(links_of(element))]
-    placed = structure.followed(own)
-    paper = PlacedLinks(structure.links, 1.0 / scene.size, placed, {scene.frame.name: Pose(0j, 1 + 0j)})
 
     def choose(_: int, element: Dyad | Cluster) -> Poses:
-        return _dyad_by_sketch(scene, paper, element) if isinstance(element, Dyad) else (
-            _cluster_by_sketch(choices, paper, element)
-        )
+        if isinstance(element, Dyad):
+            return meant(structure, paper, element)
+        return _cluster_by_sketch(choices, paper, element)
 
-    assembled(paper, elements, choose, lambda driver: driver.start)
-    return dict(paper.poses)
-
-
-def _dyad_by_sketch(scene: Mechanism, paper: PlacedLinks, dyad: Dyad) -> Poses:
-    meeting = meet(paper, dyad)
-    if not meeting.poses:
-        raise Unsolvable(
-            "not assembled",
-            Problem(Phrase("links", links=", ".join(dyad.links)), Phrase("their loci do not meet here")),
-        )
-    return meeting.poses[pick(scene, dyad.links, [paper.fresh(poses) for poses in meeting.poses], 0).index]
+    here = [element for element in structure.elements if wanted.intersection(links_of(element))]
+    assembled(paper, here, choose, lambda driver: driver.start)
+    return paper
 
 
 def _cluster_by_sketch(choices: Choices, paper: PlacedLinks, cluster: Cluster) -> Poses:
