@@ -64,13 +64,16 @@ if TYPE_CHECKING:
     from graphkin.api.swept import Swept
     from graphkin.board.notebook import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
-    from graphkin.scene.asked_tables import Positions, PrintedTable, StrokeStart, Vary
-    from graphkin.scene.contact_tables import AllowedPressure, BaseCircle, Cam, Contact, Disc, Gear, LawPiece
-    from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
-    from graphkin.scene.sheet_tables import Background, SheetWishes, Tools
-    from graphkin.scene.source import read
-    from graphkin.scene.tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, Units
-    from graphkin.scene.written import Scene
+    from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
+    from graphkin.scene.bodies import Compass, Disc, Frame, Guide, Link, Pin, Polar
+    from graphkin.scene.cams import AllowedPressure, BaseCircle, Cam
+    from graphkin.scene.drivers import DrivenSlide, Driver
+    from graphkin.scene.laws import LawPiece
+    from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
+    from graphkin.scene.scene import Scene, read
+    from graphkin.scene.sheet import Background, SheetWishes, Tools, Vary
+    from graphkin.scene.tables import Units
+    from graphkin.scene.touching import Contact, Gear
 
 __all__ = [
     "AllowedPressure",
@@ -172,13 +175,16 @@ _PLACES = {
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
     "api.sweep": "sweep",
     "api.swept": "Swept",
-    "scene.asked_tables": "Positions PrintedTable StrokeStart Vary",
-    "scene.contact_tables": "AllowedPressure BaseCircle Cam Contact Disc Gear LawPiece",
-    "scene.load_tables": "Balance Flywheel Gravity Load LoadPhase Mass Spring",
-    "scene.sheet_tables": "Background SheetWishes Tools",
-    "scene.source": "read",
-    "scene.tables": "Compass DrivenSlide Driver Frame Guide Link Pin Polar Units",
-    "scene.written": "Scene",
+    "scene.asked": "Positions PrintedTable StrokeStart",
+    "scene.bodies": "Compass Disc Frame Guide Link Pin Polar",
+    "scene.cams": "AllowedPressure BaseCircle Cam",
+    "scene.drivers": "DrivenSlide Driver",
+    "scene.laws": "LawPiece",
+    "scene.loads": "Balance Flywheel Gravity Load LoadPhase Mass Spring",
+    "scene.scene": "Scene read",
+    "scene.sheet": "Background SheetWishes Tools Vary",
+    "scene.tables": "Units",
+    "scene.touching": "Contact Gear",
 }
 
 

@@ -16,10 +16,10 @@ import pytest
 import graphkin
 from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Problem
-from graphkin.scene import reading
 from graphkin.scene.design_file import KINDS
-from graphkin.scene.file_table import FileTable, keys_of
-from graphkin.scene.source import library_text
+from graphkin.scene.files import library_text
+from graphkin.scene.form import clause_of
+from graphkin.scene.tables import FileTable, keys_of
 from graphkin.words import Phrase, area, from_others, say, word
 from tests.command import run
 
@@ -63,7 +63,7 @@ def test_every_problem_has_other_words_in_chinese():
 
 def test_what_a_key_is_about_has_chinese():
     about = {
-        reading.clause_of(key.metadata.get("description", ""))
+        clause_of(key.metadata.get("description", ""))
         for table in FileTable.__subclasses__()
         for key in keys_of(table)
     }

@@ -15,8 +15,8 @@ from graphkin.account.notation import Letters
 from graphkin.construction.remarks import ZeroVector
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, plain_in
+from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.scene.over_time import asked_time, moves_by_law
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 from graphkin.version import __version__

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from graphkin.account.headings import number
 from graphkin.account.notation import as_vector
 from graphkin.scene.model import Mechanism
-from graphkin.scene.sheet_tables import Convention
+from graphkin.scene.sheet import Convention
 from graphkin.structure.loop_values import ArrowValue, LoopBlock, LoopValue, Root
 from graphkin.structure.loops import Unknown
 from graphkin.words import Phrase, say

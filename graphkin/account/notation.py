@@ -16,7 +16,7 @@ from typing import Literal
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
-from graphkin.scene.sheet_tables import Convention
+from graphkin.scene.sheet import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import true_minus
 

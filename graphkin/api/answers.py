@@ -13,9 +13,10 @@ from typing import Literal
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
 from graphkin.files import opened, path_of
+from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed, Unreadable
-from graphkin.scene.spelling import Spelling, Way, is_blank, plain_text, read_cell, read_way, unit_factor
+from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.words import Phrase, Wording, from_others
 
@@ -170,7 +171,7 @@ class _Columns:
 
 
 def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[Problem]) -> _Columns:
-    spelling = Spelling.of(scene)
+    spelling = spelling_of(scene)
     values: dict[int, Symbol] = {}
     units: dict[int, str] = {}
     ways: dict[int, Symbol] = {}

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, get_args
 from graphkin.errors import CallError, Problem, as_list, did_you_mean
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Driver, Mechanism
-from graphkin.scene.sheet_tables import Convention
-from graphkin.scene.source import SceneLike, mechanism_of
+from graphkin.scene.scene import SceneLike, mechanism_of
+from graphkin.scene.sheet import Convention
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
@@ -233,7 +233,7 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         time = at[TIME]
         if not isinstance(time, Real) or not math.isfinite(time):
             raise CallError(Problem(f"at {TIME}", Phrase("is no time", time=f'{time!r}'), Phrase("give seconds")))
-        from graphkin.scene.over_time import at_time
+        from graphkin.scene.drivers import at_time
 
         return at_time(scene, float(time))
     values = driver_values(scene, at) or {}
@@ -344,7 +344,7 @@ def _unknown_names(scene: Mechanism, symbol: Symbol) -> list[Problem]:
 def own_folder(folder: str | os.PathLike[str] | None, name: str) -> Path:
     """The folder that was given, or else one here with the name of the scene.  Raises CallError for what is no path."""
     from graphkin.files import path_of
-    from graphkin.scene.written import safe_name
+    from graphkin.scene.scene import safe_name
 
     return path_of(folder) if folder is not None else Path(safe_name(name))
 

@@ -25,8 +25,8 @@ from graphkin.construction import execute, plan
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.plane import added_up
+from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.spelling import Spelling
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.words import Phrase, say, word
 
@@ -407,7 +407,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
         raise CallError(Problem("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted))
     if not weights:
         return None
-    spelling = Spelling.of(scene)
+    spelling = spelling_of(scene)
     parts: dict[str, float] = {}
     symbols: dict[Symbol, float] = {}
     problems = []

@@ -14,9 +14,9 @@ from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
-from graphkin.scene.mapping import toml_text
+from graphkin.scene.files import toml_text
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.written import Scene, safe_name
+from graphkin.scene.scene import Scene, safe_name
 from graphkin.table import Table
 from graphkin.words import Phrase
 
@@ -128,7 +128,7 @@ def _is_file(path: str) -> bool:
 
 
 def _written(source: SceneLike, given: Mechanism) -> Tables:
-    from graphkin.scene.source import written
+    from graphkin.scene.scene import written
 
     return written(source)[0] if source is not given else written(given)[0]
 

@@ -53,8 +53,8 @@ from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
 from graphkin.papers.prepare import FORMATS, lesson_of, positions
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
+from graphkin.scene.scene import safe_name
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.written import safe_name
 from graphkin.solver.named_positions import named_positions
 from graphkin.table import Table
 from graphkin.words import Phrase, languages

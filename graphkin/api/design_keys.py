@@ -19,8 +19,8 @@ from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Tables
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
-from graphkin.scene.file_keys import path_of_key, value_at
 from graphkin.scene.model import Mechanism
+from graphkin.scene.tables import path_of_key, value_at
 from graphkin.solver.pose import turned
 from graphkin.study.designs import applied
 from graphkin.words import Phrase

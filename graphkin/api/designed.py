@@ -19,6 +19,7 @@ from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction
 from graphkin.scene.design_file import DesignLike, design_of
+from graphkin.scene.scene import Scene
 from graphkin.scene.synthesis import (
     BarPositionsTask,
     CrankRockerTask,
@@ -29,7 +30,6 @@ from graphkin.scene.synthesis import (
     SliderCrankTask,
     scene_table,
 )
-from graphkin.scene.written import Scene
 from graphkin.words import LANGUAGES, Neutral, Phrase, say
 
 if TYPE_CHECKING:
@@ -260,7 +260,7 @@ class Designed(Result):
     @property
     def files(self) -> Mapping[str, bytes]:
         """The scene with the found lengths."""
-        from graphkin.scene.mapping import toml_text
+        from graphkin.scene.files import toml_text
 
         return {"scene.toml": toml_text(self.scene.to_dict()).encode()}
 

@@ -32,8 +32,8 @@ from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.prepare import FORMATS, Papers, evidence_of, handout_files, lesson_of, usual_count, views_of
 from graphkin.papers.screen import Progress
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

@@ -16,7 +16,7 @@ from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
 from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
 from graphkin.scene.model import Mechanism
-from graphkin.scene.source import written
+from graphkin.scene.scene import written
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.study.quantities import settled

@@ -38,12 +38,12 @@ from graphkin.papers.pdf import can_join, one_after_another
 from graphkin.papers.problem_set import Job, MadeSet, Render, accepted, jobs_of_rows, jobs_of_seed, make
 from graphkin.papers.variants import Answer, Variant, asked_of
 from graphkin.papers.vary_rules import rules_checked
-from graphkin.scene.file_keys import KeyPath, value_at
-from graphkin.scene.mapping import as_mapping, toml_text
+from graphkin.scene.files import toml_text
 from graphkin.scene.model import Mechanism
-from graphkin.scene.source import written
+from graphkin.scene.scene import safe_name, written
+from graphkin.scene.scene_tables import as_mapping
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.written import safe_name
+from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
 from graphkin.table import Table
 from graphkin.words import Phrase, languages

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.drawing.chart import ChartPage
     from graphkin.scene.model import Mechanism
-    from graphkin.scene.written import Scene
+    from graphkin.scene.scene import Scene
     from graphkin.table import Table
     from graphkin.words import Wording
 
@@ -109,7 +109,7 @@ class OfScene:
     @cached_property
     def scene(self: _OfMechanism) -> Scene:
         """The scene, as it was given: to be changed by key (``scene.replace("links.1.length", 60)``) and saved."""
-        from graphkin.scene.written import Scene
+        from graphkin.scene.scene import Scene
 
         return Scene.saying(self.mechanism)
 

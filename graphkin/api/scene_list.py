@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.results import Result, named
 from graphkin.files import Json
-from graphkin.scene.source import library, library_text, mechanism_of, read
+from graphkin.scene.files import library, library_text
+from graphkin.scene.scene import mechanism_of, read
 from graphkin.structure import analyse
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.scene.written import Scene
+    from graphkin.scene.scene import Scene
     from graphkin.table import Table
 
 __all__ = ["Listed", "scenes"]

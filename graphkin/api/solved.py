@@ -23,8 +23,8 @@ from graphkin.api.arguments import (
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import CallError, Problem, Unsolvable, as_list, as_text
 from graphkin.files import Json
+from graphkin.scene.drivers import asked_time, moments, moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import asked_time, moments, moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import mobility_of
 from graphkin.table import Values

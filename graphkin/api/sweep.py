@@ -23,9 +23,9 @@ from graphkin.api.swept import Swept
 from graphkin.errors import CallError, Problem, as_list, as_text
 from graphkin.files import path_of
 from graphkin.jobs import Progress, Workers, cluster
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import moves_by_law
-from graphkin.scene.source import written
+from graphkin.scene.scene import written
 from graphkin.scene.symbol import KINDS, Symbol
 from graphkin.table import have
 from graphkin.words import Phrase

@@ -17,8 +17,8 @@ from graphkin.api.arguments import CHART_FORMATS, write_files
 from graphkin.api.results import OfScene, Result
 from graphkin.errors import as_text
 from graphkin.files import Json, path_of
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.table import Table, Values, have
 from graphkin.table.csv_files import table_of_csv

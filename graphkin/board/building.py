@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from graphkin.board.scene_text import changed
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import OwnTables, Tables
-from graphkin.scene.source import parsed
+from graphkin.scene.files import parsed
 from graphkin.words import Phrase
 
 __all__ = ["EMPTY", "STEPS", "built", "draft", "trial_driver"]

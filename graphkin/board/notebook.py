@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from graphkin.board.answers import Desk, answer
 from graphkin.board.server import STATIC
 from graphkin.errors import CallError, Problem, SceneError
-from graphkin.scene.mapping import toml_text
-from graphkin.scene.source import SceneLike, library, library_text, written
+from graphkin.scene.files import library, library_text, toml_text
+from graphkin.scene.scene import SceneLike, written
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
-from graphkin.scene.file_keys import item_of
-from graphkin.scene.source import LARGEST_FILE, parsed
+from graphkin.scene.files import LARGEST_FILE, parsed
+from graphkin.scene.tables import item_of
 from graphkin.words import Phrase
 
 __all__ = ["changed", "completions", "line_of", "places"]
@@ -234,7 +234,7 @@ def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
     -------
     label and detail of each
     """
-    from graphkin.scene.reading import keys_at
+    from graphkin.scene.scene_tables import SCENE
 
     lines = text.split("\n")
     before = lines[line - 1][:column] if 0 < line <= len(lines) else ""
@@ -243,7 +243,7 @@ def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
         if table := _HEAD.match(above):
             head = _parts(table[1])
     if re.match(r"^\s*\[\[?[^\]]*$", before):
-        tables = keys_at(())
+        tables = SCENE.keys_at(())
         return [{"label": name, "detail": tables[name]} for name in sorted(tables)]
     entry = _ENTRY.match(before)
     if entry is None:
@@ -252,11 +252,11 @@ def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
 
 
 def _keys_of(head: tuple[str, ...]) -> dict[str, str]:
-    from graphkin.scene.reading import keys_at
+    from graphkin.scene.scene_tables import SCENE
 
     if head[:1] == ("driver",):
-        return {k: d for kind in ("<angle>", "<slide>") for k, d in keys_at(("driver", "<one>", kind)).items()}
-    return keys_at(head)
+        return {k: d for kind in ("<angle>", "<slide>") for k, d in SCENE.keys_at(("driver", "<one>", kind)).items()}
+    return SCENE.keys_at(head)
 
 
 def _names(text: str, key: str, quoted: bool) -> list[str]:

@@ -15,7 +15,7 @@ from itertools import combinations
 
 from graphkin.construction.sheet import DiagramName, Sheet
 from graphkin.errors import CallError, Problem, did_you_mean
-from graphkin.scene.background import PlacedScan
+from graphkin.scene.sheet import PlacedScan
 from graphkin.words import Phrase
 
 __all__ = ["JudgedScan", "ReadLine", "judge_scans"]

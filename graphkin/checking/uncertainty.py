@@ -31,7 +31,7 @@ from graphkin.construction.sheet import Cause, ReadOff, phrase_of
 from graphkin.construction.sizes import Order
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.sheet import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.sheet import Tools
 from graphkin.words.written import computed, on_paper
 
 __all__ = ["EXACT", "EXACT_NAME", "Cad", "ErringInstrument", "Exact", "Instrument", "erring", "nudged", "pencil"]

@@ -22,8 +22,8 @@ from graphkin.papers.vary_rules import asked_now, free_of_rules, round_step, rul
 from graphkin.plane import added_up
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear
-from graphkin.scene.file_keys import KeyPath, put_at, value_at
 from graphkin.scene.model import Mechanism
+from graphkin.scene.tables import KeyPath, put_at, value_at
 
 __all__ = ["Spread", "candidate", "varied_keys"]
 

@@ -34,8 +34,8 @@ from graphkin.papers.problem import problem
 from graphkin.papers.screen import POSITIONS, Progress, common_scales, motion_data
 from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import moves_by_law
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.values import force_values

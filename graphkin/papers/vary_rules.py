@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
-from graphkin.scene.file_keys import KeyPath, path_of_key, put_at, value_at
+from graphkin.scene.tables import KeyPath, path_of_key, put_at, value_at
 from graphkin.words import Phrase
 
 __all__ = [

@@ -35,13 +35,13 @@ Where the format leaves something open, the reader decides as follows.
 from __future__ import annotations
 
 from graphkin.files import Json
-from graphkin.scene.source import library, library_text, mechanism_of, mechanism_of_text, read
+from graphkin.scene.files import library, library_text
+from graphkin.scene.scene import mechanism_of, mechanism_of_text, read
+from graphkin.scene.scene_tables import SCENE
 
 __all__ = ["library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema"]
 
 
 def schema() -> dict[str, Json]:
     """The JSON schema of a scene file, for editors that complete and check TOML."""
-    from graphkin.scene.form import schema as of_file
-
-    return of_file()
+    return SCENE.schema()

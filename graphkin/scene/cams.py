@@ -1,5 +1,4 @@
-"""Cams by the law of their follower, resolved, in SI units, and that law: the lift over the angle of the cam, piece by
-piece, with three derivatives.
+"""Cams by the law of their follower, as a scene file has them and as they are, in SI units.
 
 A sliding follower's first point stands beyond the foot of the axis on its line by the root of base radius and offset
 plus the lift (a flat face: by base radius plus lift); a swinging one's bar turns by the lift from where its roller's
@@ -10,193 +9,66 @@ from __future__ import annotations
 
 import cmath
 import math
-from bisect import bisect_right
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
-from types import ModuleType
-from typing import ClassVar, NamedTuple
+from typing import ClassVar, Literal, NamedTuple
 
-from graphkin.plane import Values
+from graphkin.plane import Values, cross, dot
+from graphkin.scene.bodies import Reading
+from graphkin.scene.laws import FollowerLaw, LawPiece, Lift, follower_law, stated_pieces
+from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, in_si, key, table, tidy
+from graphkin.words import Phrase
 
 __all__ = [
-    "LAWS", "SPELLINGS", "Course", "FollowerLaw", "LawCam", "Lift", "LiftPiece", "SlidingFollower", "SmoothPart",
-    "SwingingFollower", "form_of",
+    "AllowedPressure", "BaseCircle", "Cam", "Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of",
+    "stated_cam",
 ]  # fmt: skip
 
-TURN = 2 * math.pi
-SEAM = 1e-12
-"""An angle (rad) nearer than this before a seam belongs to the piece after it."""
+AGREES = 1e-6
+
+# -- tables of the file ------------------------------------------------------------------------------------------------
 
 
-class Lift(NamedTuple):
-    """Lift and its first three derivatives by the angle of the cam (m or rad, per rad)."""
+@table
+class BaseCircle(FileTable):
+    """The base circle of a cam."""
 
-    lift: Values
-    slope: Values
-    bend: Values
-    jerk: Values
-
-
-Form = Callable[[Values, ModuleType], tuple[Values, Values, Values, Values]]
-"""From 0 to 1 over 0 to 1, with three derivatives; of floats with the functions of math, of arrays with NumPy's."""
+    r: Magnitude = key("Its radius.", unit="length")
+    of: Literal["profile", "pitch"] = key(
+        "Of the profile, or of the pitch curve, on which the roller's centre runs.", default="profile"
+    )
 
 
-def _uniform(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
-    return x, 1.0 + 0 * x, 0.0 * x, 0.0 * x
+@table
+class AllowedPressure(FileTable):
+    """Greatest pressure angles that are allowed."""
+
+    rise: Number | None = key("Degrees, while the follower rises.", unit="angle", default=None)
+    fall: Number | None = key("Degrees, while it falls.", unit="angle", default=None)
 
 
-def _accelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
-    return x * x, 2 * x, 2.0 + 0 * x, 0.0 * x
+@table
+class Cam(FileTable):
+    """A cam that turns about its first point, given by the law of its follower."""
+
+    follower: LinkName = key(
+        "The link that it moves: on a guide of the frame, or swinging about a point of the frame."
+    )
+    law: List[LawPiece] = key('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].')
+    base: BaseCircle = key('The base circle: { r = 30, of = "profile" }.')
+    sense: Literal[1, -1] = key(
+        "The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.", default=1
+    )
+    offset: Number | None = key(
+        "Distance of a sliding follower's line from the axis, positive where the axis is to its left.", unit="length",
+        default=None,
+    )  # fmt: skip
+    roller: Magnitude | None = key("Radius of the roller; a knife edge if left out.", unit="length", default=None)
+    flat: Switch = key("A flat face square to the line of a sliding follower.", default=False)
+    allow: AllowedPressure | None = key("Greatest pressure angles, judged.", default=None)
 
 
-def _decelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
-    return x * (2 - x), 2 * (1 - x), -2.0 + 0 * x, 0.0 * x
-
-
-def _harmonic(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
-    c, s, w = m.cos(math.pi * x), m.sin(math.pi * x), math.pi
-    return (1 - c) / 2, w * s / 2, w**2 * c / 2, -(w**3) * s / 2
-
-
-def _cycloidal(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
-    c, s, w = m.cos(TURN * x), m.sin(TURN * x), TURN
-    return x - s / w, 1 - c, w * s, w**2 * c
-
-
-def _345(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
-    y = 1 - x
-    return x**3 * (10 + x * (6 * x - 15)), 30 * (x * y) ** 2, 60 * x * y * (1 - 2 * x), 60 - 360 * x * y
-
-
-def _4567(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
-    xy = x * (1 - x)
-    lift = x**4 * (35 + x * (x * (70 - 20 * x) - 84))
-    return lift, 140 * xy**3, 420 * xy**2 * (1 - 2 * x), 840 * xy * (1 - 5 * xy)
-
-
-LAWS: Mapping[str, tuple[tuple[float, Form], ...]] = {
-    "uniform": ((1.0, _uniform),),
-    "parabolic": ((0.5, _accelerated), (1.0, _decelerated)),
-    "harmonic": ((1.0, _harmonic),),
-    "cycloidal": ((1.0, _cycloidal),),
-    "345": ((1.0, _345),),
-    "4567": ((1.0, _4567),),
-}
-"""Laws by their names in a scene: the forms of their smooth parts, each up to a share of the angle and of the lift."""
-PEAKS: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
-    "harmonic": ((0.5,), ()),
-    "cycloidal": ((0.5,), (0.25, 0.75)),
-    "345": ((0.5,), (0.5 - math.sqrt(1 / 12), 0.5 + math.sqrt(1 / 12))),
-    "4567": ((0.5,), (0.5 - math.sqrt(1 / 20), 0.5 + math.sqrt(1 / 20))),
-}
-"""Where inside a form its first derivative, and its second, is extreme: the next derivative is 0 there.  The other laws
-are extreme at their ends."""
-SPELLINGS = (*LAWS, *("-".join(name) for name in LAWS if name.isdigit()))
-"""The names as people write them: "3-4-5" too."""
-
-
-def form_of(by: str | None) -> str:
-    """The name of a law, however people write it: "3-4-5" is "345"; "" of a dwell."""
-    return (by or "").replace("-", "")
-
-
-@dataclass(frozen=True)
-class SmoothPart:
-    """A part of the law with derivatives of every order: the piece itself, or of a parabolic piece each half; ``by`` is
-    the law ("" of a dwell), ``which`` the part of it."""
-
-    start: float
-    end: float
-    low: float
-    high: float
-    by: str
-    which: int = 0
-
-    def at(self, angle: Values, m: ModuleType = math) -> Lift:
-        """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
-        wide, h = self.end - self.start, self.high - self.low
-        if h == 0.0:
-            return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
-        _, form = LAWS[self.by][self.which]
-        f, f1, f2, f3 = form((angle - self.start) / wide, m)
-        return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
-
-    def extremes(self, order: int) -> tuple[tuple[float, float], ...]:
-        """The first or second derivative at both ends and at its peaks inside, each with its angle (rad), in order."""
-        peaks = PEAKS[self.by][order - 1] if self.by in PEAKS else ()
-        inside = (self.start + x * (self.end - self.start) for x in peaks)
-        return tuple((self.at(angle)[order], angle) for angle in (self.start, *inside, self.end))
-
-
-@dataclass(frozen=True)
-class LiftPiece:
-    """A piece of the law between two cam angles (rad), from one lift to another (m or rad); ``by`` is "" of a dwell."""
-
-    start: float
-    end: float
-    low: float
-    high: float
-    by: str
-
-    @property
-    def parts(self) -> tuple[SmoothPart, ...]:
-        shares = [share for share, _ in LAWS[self.by]] if self.by else [1.0]
-        angles = [self.start, *(self.start * (1.0 - share) + self.end * share for share in shares)]
-        lifts = [self.low, *(self.low * (1.0 - share) + self.high * share for share in shares)]
-        return tuple(
-            SmoothPart(angles[k], angles[k + 1], lifts[k], lifts[k + 1], self.by, k) for k in range(len(shares))
-        )
-
-
-@dataclass(frozen=True)
-class FollowerLaw:
-    """The lift over a turn of the cam; a seam belongs to the later piece.
-
-    >>> rise, fall = LiftPiece(0.0, math.pi, 0.0, 2.0, "harmonic"), LiftPiece(math.pi, TURN, 2.0, 0.0, "harmonic")
-    >>> law = FollowerLaw((rise, fall))
-    >>> round(law.at(math.pi / 2).lift, 12), law.at(-math.pi / 2).slope
-    (1.0, -1.0)
-    """
-
-    pieces: tuple[LiftPiece, ...]
-
-    @cached_property
-    def parts(self) -> tuple[SmoothPart, ...]:
-        return tuple(part for piece in self.pieces for part in piece.parts)
-
-    @cached_property
-    def starts(self) -> tuple[float, ...]:
-        return tuple(part.start for part in self.parts)
-
-    @cached_property
-    def least(self) -> float:
-        return min(piece.low for piece in self.pieces)
-
-    @cached_property
-    def greatest(self) -> float:
-        return max(piece.low for piece in self.pieces)
-
-    def reduced(self, angle: float) -> float:
-        """An angle in [0, 2 pi), on a seam where it lies beside one by rounding."""
-        within = angle % TURN
-        for seam in (*self.starts[1:], TURN):
-            if abs(within - seam) < SEAM:
-                return seam if seam < TURN else 0.0
-        return 0.0 if within < SEAM else within
-
-    def part(self, angle: float) -> SmoothPart:
-        """The part in which an angle (rad) lies."""
-        return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
-
-    def piece(self, angle: float) -> LiftPiece:
-        """The piece in which an angle (rad) lies."""
-        within = self.reduced(angle)
-        return next(piece for piece in reversed(self.pieces) if piece.start <= within)
-
-    def at(self, angle: float) -> Lift:
-        """Lift and derivatives at an angle of the cam (rad), of any turn."""
-        return self.part(angle).at(self.reduced(angle))
+# -- cams as they are --------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -352,3 +224,162 @@ class LawCam:
         half = (a + b + c) / 2
         under, over = (half - a) * (half - b), half * (half - c)
         return 2.0 * math.atan2(math.sqrt(under), math.sqrt(over)) if under >= 0.0 < over else None
+
+
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+Line = tuple[str, complex, complex]
+"""A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""
+
+
+def cams_of(
+    tables: Mapping[str, Cam], reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
+    drawn: Mapping[str, complex],
+) -> tuple[LawCam, ...]:  # fmt: skip
+    """The cams of a file; what is wrong with them is noted.
+
+    Parameters
+    ----------
+    lines : of each link that slides on the frame
+    places : points of the frame (m)
+    drawn : roughly where points of moving links lie (m)
+    """
+    moved: dict[str, str] = {}
+    found = []
+    for name, own in tables.items():
+        other = moved.setdefault(own.follower, name)
+        if other != name:
+            said = Phrase("link is moved by cam already", follower=own.follower, other=other)
+            reading.say(f"cams.{name}.follower", said, Phrase("a follower has one cam"))
+        cam = _cam(name, own, reading, lines, places, drawn)
+        if cam is not None:
+            found.append(cam)
+    return tuple(found)
+
+
+def _cam(
+    name: str, own: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
+    drawn: Mapping[str, complex],
+) -> LawCam | None:  # fmt: skip
+    where, before, si = f"cams.{name}", len(reading.problems), in_si(own, reading.units)
+    point = _axis(where, name, reading, places)
+    swings = _swings(where, name, own, reading, lines, places)
+    law = follower_law(f"{where}.law", own.law, math.pi / 180 if swings else reading.metres, reading.problems)
+    roller = si.roller or 0.0
+    base = si.base.r + (roller if own.base.of == "profile" else 0.0)
+    if own.flat and own.roller is not None:
+        reading.say(f"{where}.flat", Phrase("stands beside roller"), Phrase("the face is flat or it has a"))
+    if not own.flat and base <= roller:
+        reading.say(f"{where}.base.r", Phrase("found with a roller of", r=f"{own.base.r:g}", roller=f"{own.roller:g}"),
+                    Phrase("the base circle of the pitch curve is"))
+    for side in ("rise", "fall"):
+        angle = getattr(own.allow, side, None)
+        if angle is not None and not 0.0 < angle < 90.0:
+            reading.say(f"{where}.allow.{side}", Phrase("found value", value=f"{angle:g}"),
+                        Phrase("a pressure angle lies between 0 and 90"))
+    if not point or swings is None or len(reading.problems) > before:
+        return None
+    axis = places[point]
+    motion: SlidingFollower | SwingingFollower | None
+    if swings:
+        motion = _swinging(where, own, reading, axis, places, drawn)
+    else:
+        motion = _sliding(where, si, reading, axis, lines[own.follower])
+    if motion is None or law is None or len(reading.problems) > before:
+        return None
+    allowed = (si.allow.rise, si.allow.fall) if si.allow else (None, None)
+    return LawCam(name, own.follower, point, axis, law, own.sense, base, roller, own.flat, motion, allowed)
+
+
+def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]) -> str:
+    """The point of the frame about which a cam turns; "" where there is none."""
+    if reading.wrong(reading.no_link(where, name, moving=True)):
+        return ""
+    if name == reading.frame.name:
+        reading.say(where, Phrase("link is the frame", name=name), Phrase("a cam turns"))
+        return ""
+    link = reading.links.get(name)
+    if link is None or reading.flaws.under("links", name):
+        return ""
+    if link.points and link.points[0] in places:
+        return link.points[0]
+    if not reading.flaws.under("frame"):
+        no_point = Phrase("link has no point", name=name)
+        said = Phrase("is no point of the frame", points=link.points[0]) if link.points else no_point
+        reading.say(where, said, Phrase("a cam turns about its first point which"))
+    return ""
+
+
+def _swings(
+    cam: str, name: str, own: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex]
+) -> bool | None:
+    """Whether the follower swings; None where it neither swings nor slides on the frame."""
+    where, follower, frame = f"{cam}.follower", own.follower, reading.frame.name
+    if reading.wrong(reading.no_link(where, follower, moving=True)):
+        return None
+    if follower in (name, frame):
+        said = Phrase("the cam itself") if follower == name else Phrase("link is the frame", name=follower)
+        reading.say(where, said, Phrase("name the link that the cam moves"))
+        return None
+    if follower in lines:
+        return False
+    link = reading.links.get(follower)
+    if link is None or reading.flaws.under("links", follower) or reading.flaws.under("frame"):
+        return None
+    pivots = [p for p in link.points if p in places]
+    if len(pivots) != 1 or link.on is not None:
+        reading.say(where, Phrase("link neither slides on a guide of the", follower=follower),
+                    Phrase("write on guide or points with a pivot", frame=frame))
+        return None
+    if len(link.points) != 2:
+        reading.say(where, Phrase("link has no point but its pivot", follower=follower),
+                    Phrase("it is a bar from its pivot to"))
+        return None
+    sliding = {"offset": (own.offset is not None, Phrase("an offset")), "flat": (own.flat, Phrase("a flat face"))}
+    for beside, (there, kind) in sliding.items():
+        if there:
+            reading.say(f"{cam}.{beside}", Phrase("link swings", name=follower),
+                        Phrase("is for a sliding follower", kind=kind))
+    return True
+
+
+def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -> SlidingFollower | None:
+    """A follower on a line; of the cam in SI."""
+    pair, through, along = line
+    offset, metres = cross(along, axis - through), reading.metres
+    if si.offset is not None and abs(si.offset - offset) > AGREES * max(abs(axis - through), si.base.r):
+        found = Phrase("found but the guide makes it", offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
+        reading.say(f"{where}.offset", found, Phrase("one is wrong positive where the axis is"))
+        return None
+    travel = dot(along, axis - through)
+    return SlidingFollower(pair, through + along * travel, along, travel, offset)
+
+
+def _swinging(
+    where: str, own: Cam, reading: Reading, axis: complex, places: Mapping[str, complex], drawn: Mapping[str, complex]
+) -> SwingingFollower | None:
+    """A follower that swings about a point of the frame."""
+    link = reading.links[own.follower]
+    first, second = link.points
+    pivot, tip = (first, second) if first in places else (second, first)
+    centre = places[pivot]
+    if centre == axis:
+        reading.say(f"{where}.follower", Phrase("swings about the cam's own axis", pivot=pivot),
+                    Phrase("its pivot lies elsewhere"))
+        return None
+    if link.length is None:
+        reading.say(f"links.{own.follower}.length", Phrase("is missing"),
+                    Phrase("the length of a swinging follower is written"))
+        return None
+    left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
+    return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)
+
+
+def stated_cam(cam: LawCam, metres: float) -> Cam:
+    """The table of a cam, in SI but for its law, whose lifts are in lengths of so many metres or in degrees."""
+    unit = math.radians(1.0) if isinstance(cam.motion, SwingingFollower) else metres
+    law = [LawPiece(to=tidy(math.degrees(end)), **moved) for end, moved in stated_pieces(cam.law.pieces, unit)]
+    rise, fall = cam.allowed
+    allow = None if rise is None and fall is None else AllowedPressure(rise, fall)
+    return Cam(cam.follower, law, BaseCircle(cam.base, "pitch"), 1 if cam.sense > 0 else -1, None, cam.roller or None,
+               cam.flat, allow)  # fmt: skip

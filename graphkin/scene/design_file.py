@@ -13,14 +13,27 @@ from pathlib import Path
 from graphkin.errors import CallError, Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import degrees, direction
-from graphkin.scene import source as scenes
+from graphkin.scene import files as scenes
+from graphkin.scene.form import Form, plain, shown
+from graphkin.scene.scene import safe_name
+from graphkin.scene.sheet import SheetWishes
 from graphkin.scene.synthesis import KINDS, BarPlace, BarPositionsTask, Design, DesignTask
-from graphkin.scene.written import safe_name
+from graphkin.scene.tables import FileTable, Units, table
 from graphkin.words import Phrase, Wording, from_others
 
 __all__ = ["DesignLike", "design_of", "designs", "is_design"]
 
 LARGEST, SMALLEST = 1e15, 1e-15
+
+@table
+class _Papers(FileTable):
+    """The tables of a design file that those of a scene share."""
+
+    units: Units = Units()
+    sheet: SheetWishes = SheetWishes()
+
+
+PAPERS = Form(_Papers, "graphkin design")
 
 DesignLike = Design | str | os.PathLike[str] | Tables
 
@@ -61,7 +74,6 @@ def design_of(source: DesignLike) -> Design:
     ------
     SceneError : everything that is wrong with the file
     """
-    from graphkin.scene.reading import plain
 
     if isinstance(source, Design):
         return source
@@ -92,7 +104,7 @@ def _read(raw: Tables, name: str) -> Design:
                 hint = Phrase("this is a scene a design file has")
             problems.append(Problem(key[:60], unknown, hint))
         elif key in ("title", "title_zh", "source") and not isinstance(value, str):
-            problems.append(Problem(key, Phrase("found value", value=_shown(value)), Phrase("a text is wanted")))
+            problems.append(Problem(key, Phrase("found value", value=shown(value)), Phrase("a text is wanted")))
         elif key in ("title", "title_zh", "source"):
             given[key] = value
     task = _task(raw.get("design"), problems)
@@ -104,10 +116,7 @@ def _read(raw: Tables, name: str) -> Design:
 
 def _units_and_sheet(raw: Tables, problems: list[Problem]) -> OwnTables:
     """[units] and [sheet], which are those of a scene, read by its reader."""
-    from graphkin.scene.reading import checked
-
-    beside = {key: raw[key] for key in ("units", "sheet") if key in raw}
-    tables, found, _ = checked({**beside, "links": {"1": {"points": ["A"]}}})
+    tables, found, _ = PAPERS.checked({key: raw[key] for key in ("units", "sheet") if key in raw})
     problems += found
     return {"units": tables.units, "sheet": tables.sheet}
 
@@ -117,14 +126,14 @@ def _task(raw: object, problems: list[Problem]) -> DesignTask | None:
         problems.append(Problem("design", Phrase("is missing"), Phrase("a design file has a table design with")))
         return None
     if not isinstance(raw, dict):
-        problems.append(Problem("design", Phrase("found value", value=_shown(raw)), Phrase("a table is wanted")))
+        problems.append(Problem("design", Phrase("found value", value=shown(raw)), Phrase("a table is wanted")))
         return None
     kind = raw.get("kind")
     if kind is None:
         problems.append(Problem("design.kind", Phrase("is missing"), Phrase("one of", names=', '.join(KINDS))))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        problems.append(Problem("design.kind", Phrase("found value", value=_shown(kind)), _kind_meant(str(kind))))
+        problems.append(Problem("design.kind", Phrase("found value", value=shown(kind)), _kind_meant(str(kind))))
         return None
     made = KINDS[kind]
     keys = {f.name: f for f in fields(made) if f.metadata["form"] != "beside"}
@@ -165,7 +174,7 @@ def _value(where: str, form: str, value: object, problems: list[Problem]) -> obj
         found = (
             Phrase("found of them", count=len(value))
             if isinstance(value, list)
-            else Phrase("found value", value=_shown(value))
+            else Phrase("found value", value=shown(value))
         )
         problems.append(Problem(where, found, Phrase("three of are wanted", wanted=wanted)))
         return None
@@ -180,7 +189,7 @@ def _value(where: str, form: str, value: object, problems: list[Problem]) -> obj
 def _bar(where: str, value: object, problems: list[Problem]) -> OwnTables:
     """A place of a bar as it is written: B with C or angle."""
     if not isinstance(value, dict):
-        problems.append(Problem(where, Phrase("found value", value=_shown(value)), Phrase("write b x y c x y")))
+        problems.append(Problem(where, Phrase("found value", value=shown(value)), Phrase("write b x y c x y")))
         return {}
     problems += [
         Problem(f"{where}.{key[:60]}", Phrase("unknown key"), did_you_mean(key, ["B", "C", "angle"]))
@@ -266,12 +275,12 @@ def _positive(where: str, value: object, problems: list[Problem], zero: bool = F
 
 def _finite(where: str, value: object, problems: list[Problem]) -> float | None:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        problems.append(Problem(where, Phrase("found value", value=_shown(value)), Phrase("a number is wanted")))
+        problems.append(Problem(where, Phrase("found value", value=shown(value)), Phrase("a number is wanted")))
     elif not math.isfinite(value) or abs(value) > LARGEST:
         problems.append(
             Problem(
                 where,
-                Phrase("found value", value=_shown(value)),
+                Phrase("found value", value=shown(value)),
                 Phrase("a finite number up to is wanted", largest=f"{LARGEST:g}"),
             )
         )
@@ -282,7 +291,7 @@ def _finite(where: str, value: object, problems: list[Problem]) -> float | None:
 
 def _pair(where: str, value: object, problems: list[Problem], wanted: Wording) -> tuple[float, float]:
     if not isinstance(value, list) or len(value) != 2:
-        problems.append(Problem(where, Phrase("found value", value=_shown(value)), wanted))
+        problems.append(Problem(where, Phrase("found value", value=shown(value)), wanted))
         return 0.0, 0.0
     first, second = (_finite(where, one, problems) for one in value)
     return first or 0.0, second or 0.0
@@ -290,9 +299,3 @@ def _pair(where: str, value: object, problems: list[Problem], wanted: Wording) -
 
 def _place(where: str, value: object, problems: list[Problem]) -> complex:
     return complex(*_pair(where, value, problems, Phrase("a place is x y")))
-
-
-def _shown(value: object) -> Wording:
-    from graphkin.scene.reading import shown
-
-    return shown(value)

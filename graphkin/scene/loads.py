@@ -1,23 +1,140 @@
-"""What a mechanism weighs and carries: masses, loads, springs, gravity, balance and flywheel, resolved, in SI units."""
+"""What a mechanism weighs and carries: masses, loads, springs, gravity, balance and flywheel, as a scene file has them
+and as they act, in SI units.
+
+In a file forces are in its force unit, moments in it times metre, masses in its mass unit, angles in degrees.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
-from graphkin.errors import Problem, did_you_mean
-from graphkin.plane import direction
-from graphkin.scene.load_tables import STANDARD_GRAVITY, Load, LoadPhase, Spring
-from graphkin.scene.names import Names
-from graphkin.scene.tables import SceneTables
-from graphkin.words import Phrase, Wording
+from graphkin.errors import did_you_mean
+from graphkin.plane import degrees, direction
+from graphkin.scene.bodies import Reading
+from graphkin.scene.tables import (
+    FileTable,
+    LinkName,
+    LinkNames,
+    Magnitude,
+    NameOrPlace,
+    NotNegative,
+    Number,
+    NumberOrSquare,
+    Place,
+    PointNames,
+    SlideRef,
+    in_si,
+    key,
+    table,
+    tidy,
+    xy,
+)
+from graphkin.words import Phrase
 
-__all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "PlacedFlywheel", "SpringOn", "loading_of"]
+__all__ = [
+    "Balance", "BalanceAt", "Flywheel", "Gravity", "LinkMass", "Load", "LoadOn", "LoadPhase", "Loading", "Mass",
+    "Phase", "Spring", "SpringOn", "loading_of", "stated_loading",
+]  # fmt: skip
 
-
+STANDARD_GRAVITY = 9.80665
+"""m/s2."""
 TURN = math.tau * (1 + 1e-12)
+
+# -- tables of the file ------------------------------------------------------------------------------------------------
+
+
+@table
+class Gravity(FileTable):
+    """Where weights pull, and how much."""
+
+    g: Magnitude = key("Acceleration of gravity, m/s2.", default=STANDARD_GRAVITY)
+    angle: Number = key("Its direction in degrees in the frame.", default=-90.0)
+
+
+@table
+class Mass(FileTable):
+    """Mass of a moving link."""
+
+    at: NameOrPlace = key("The centre of mass: a point of the link, or [x, y] in its own axes.", unit="length")
+    mass: Magnitude | None = key("Its mass.", unit="mass", default=None)
+    weight: Magnitude | None = key("Instead of mass: its weight, a force.", unit="force", default=None)
+    inertia: NotNegative = key("Moment of inertia about the centre of mass.", unit="inertia", default=0.0)
+
+
+@table
+class LoadPhase(FileTable):
+    """When a load acts: on a part of a stroke, or between two values of the driver."""
+
+    stroke: SlideRef | None = key("The sliding pair on whose stroke it acts.", default=None)
+    sense: Number = key("1: while it slides along the guide's sense; -1: against it.", default=1.0)
+    start: NotNegative = key("Part of that stroke at which it begins.", name="from", default=0.0)
+    end: NotNegative = key("Part of that stroke at which it ends.", name="to", default=1.0)
+    driver: Place | None = key(
+        "Instead of stroke: two values of the first driver, growing between them.", default=None
+    )
+
+
+@table
+class Load(FileTable):
+    """A force or a moment on a moving link."""
+
+    on: LinkName = key("The link.")
+    at: NameOrPlace | None = key(
+        "Where a force acts: a point of the link, or [x, y] in its own axes.", unit="length", default=None
+    )
+    force: Number | None = key("Size of a force.", unit="force", default=None)
+    moment: Number | None = key(
+        "Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None
+    )
+    angle: Number | None = key(
+        "Direction of a force in degrees in the frame, or from the axis of follows.", default=None
+    )
+    follows: LinkName | None = key("The link with whose own axis the force turns.", default=None)
+    against: SlideRef | None = key(
+        "Instead of angle: along this pair's guide, opposite to its sliding velocity.", default=None
+    )
+    when: LoadPhase | None = key("When it acts; always if left out.", default=None)
+
+
+@table
+class Spring(FileTable):
+    """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
+
+    between: PointNames = key("The two points that it joins, of two links.")
+    rate: Magnitude = key("Its rate: force unit per length unit of the scene.", unit="stiffness")
+    free: NotNegative = key("Its free length.", unit="length")
+    preload: Number = key("Its pull at the free length (wound-in tension).", unit="force", default=0.0)
+    links: LinkNames | None = key(
+        "The links of the two points, where several have them; the first that has it.", default=None
+    )
+
+
+@table
+class Balance(FileTable):
+    """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
+
+    on: LinkName = key("The link.")
+    at: NameOrPlace | None = key(
+        "Where a balancing force acts; a moment balances if left out.", unit="length", default=None
+    )
+    angle: NumberOrSquare | None = key(
+        'Its line in degrees in the frame, or "square" to the link\'s own axis.', default=None
+    )
+
+
+@table
+class Flywheel(FileTable):
+    """A flywheel for a wished evenness of the turn."""
+
+    on: LinkName = key("The link that carries it.")
+    delta: Magnitude = key("Coefficient of speed fluctuation.")
+    driving: Literal["constant"] = key("The driving moment over the turn.", default="constant")
+
+
+# -- what acts ---------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -96,14 +213,6 @@ class BalanceAt:
 
 
 @dataclass(frozen=True)
-class PlacedFlywheel:
-    """A flywheel on a link for a coefficient of speed fluctuation ``delta``."""
-
-    link: str
-    delta: float
-
-
-@dataclass(frozen=True)
 class Loading:
     """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2)."""
 
@@ -111,253 +220,256 @@ class Loading:
     masses: tuple[LinkMass, ...] = ()
     loads: tuple[LoadOn, ...] = ()
     balance: BalanceAt | None = None
-    flywheel: PlacedFlywheel | None = None
+    flywheel: Flywheel | None = None
     springs: tuple[SpringOn, ...] = ()
 
     def __bool__(self) -> bool:
         return bool(self.masses or self.loads or self.springs)
 
 
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+
 def loading_of(
-    file: SceneTables, names: Names, places: Mapping[str, Mapping[str, complex]], pairs: tuple[str, ...],
-    problems: list[Problem],
+    reading: Reading, gravity: Gravity | None, masses: Mapping[str, Mass], loads: Mapping[str, Load],
+    springs: Mapping[str, Spring], balance: Balance | None, flywheel: Flywheel | None,
+    places: Mapping[str, Mapping[str, complex]], pairs: Sequence[str], drivers: Sequence[bool],
 ) -> Loading:  # fmt: skip
-    """What the file says of forces; what is wrong is added to ``problems``.
+    """What the tables of a file say of forces; what is wrong is noted.
 
     Parameters
     ----------
     places : points of each link in its own axes (m)
     pairs : keys of the sliding pairs and pins in slots
+    drivers : of each driver whether it slides
     """
-    reading = _LoadReading(file, names, places, pairs, problems)
-    g = file.gravity.g if file.gravity else STANDARD_GRAVITY
-    down = g * direction(file.gravity.angle) if file.gravity else 0j
-    masses = tuple(found for name in file.masses if (found := reading.mass(name, g)) is not None)
-    loads = tuple(one for name, load in file.loads.items() if (one := reading.load(name, load)) is not None)
-    springs = tuple(spring for name, each in file.springs.items() if (spring := reading.spring(name, each)) is not None)
-    balance, flywheel = reading.balance(), None
-    if file.flywheel is not None and not reading.not_moving("flywheel.on", file.flywheel.on):
-        flywheel = PlacedFlywheel(file.flywheel.on, file.flywheel.delta)
-        if file.flywheel.delta >= 2.0:
-            reading.say(
-                "flywheel.delta",
-                Phrase("found value", value=f"{file.flywheel.delta:g}"),
-                Phrase("a part of the mean speed below 2"),
-            )
-    if (balance or flywheel) and not (file.masses or file.loads or file.springs):
-        where = "balance" if balance else "flywheel"
-        wanted = Phrase("give masses.link loads.name or springs.name")
-        problems.append(Problem(where, Phrase("there is nothing to balance"), wanted))
-    return Loading(down, masses, loads, balance, flywheel, springs)
+    acting = _Acting(reading, places, pairs)
+    g = gravity.g if gravity else STANDARD_GRAVITY
+    down = g * direction(gravity.angle) if gravity else 0j
+    weighing = [acting.mass(link, mass, g) for link, mass in masses.items()]
+    carried = [acting.load(name, load, drivers) for name, load in loads.items()]
+    pulling = [acting.spring(name, spring, loads) for name, spring in springs.items()]
+    balancing, evening = acting.balance(balance, len(drivers)), None
+    if flywheel is not None and not acting.not_moving("flywheel.on", flywheel.on):
+        evening = flywheel
+        if flywheel.delta >= 2.0:
+            reading.say("flywheel.delta", Phrase("found value", value=f"{flywheel.delta:g}"),
+                        Phrase("a part of the mean speed below 2"))
+    if (balancing or evening) and not (masses or loads or springs):
+        where = "balance" if balancing else "flywheel"
+        reading.say(where, Phrase("there is nothing to balance"), Phrase("give masses.link loads.name or springs.name"))
+    return Loading(down, tuple(filter(None, weighing)), tuple(filter(None, carried)), balancing, evening,
+                   tuple(filter(None, pulling)))  # fmt: skip
 
 
 @dataclass(frozen=True)
-class _LoadReading:
-    """What the loads of a file are read from, and the problems found on the way."""
+class _Acting:
+    """The reading of what acts on links, with the points of each link (m) and the keys of pairs that slide."""
 
-    file: SceneTables
-    names: Names
+    reading: Reading
     places: Mapping[str, Mapping[str, complex]]
-    pairs: tuple[str, ...]
-    problems: list[Problem]
-
-    def say(self, where: str, found: Wording, wanted: Wording) -> None:
-        self.problems.append(Problem(where, found, wanted))
+    pairs: Sequence[str]
 
     def not_moving(self, where: str, link: str) -> bool:
-        """Whether this is no moving link, which is told."""
-        missing = self.names.no_link(where, link)
-        if missing:
-            self.problems.append(missing)
-        elif link == self.names.frame:
-            self.say(where, Phrase("link is the frame", name=link), Phrase("what acts on the fixed link moves nothing"))
-        elif link in self.file.links and self.file.links[link].redundant:
-            self.say(where, Phrase("link is redundant", what=link), Phrase("its share of the forces is not determined"))
-        else:
-            return False
-        return True
+        """Whether this is no moving link, which is noted."""
+        reading = self.reading
+        if reading.wrong(reading.no_link(where, link)):
+            return True
+        if link == reading.frame.name:
+            reading.say(where, Phrase("link is the frame", name=link),
+                        Phrase("what acts on the fixed link moves nothing"))
+            return True
+        if link in reading.links and reading.links[link].redundant:
+            reading.say(where, Phrase("link is redundant", what=link),
+                        Phrase("its share of the forces is not determined"))
+            return True
+        return False
 
     def place(self, where: str, link: str, at: str | Sequence[float]) -> complex:
-        """A point of a link by name or place, in the link's own axes (m)."""
+        """A point of a link by name, or a place (m), in the link's own axes (m)."""
         if not isinstance(at, str):
-            return complex(*at) * self.file.units.metres
-        missing = self.names.no_point_of(where, link, at)
-        if missing:
-            self.problems.append(missing)
+            return complex(*at)
+        self.reading.wrong(self.reading.no_point_of(where, link, at))
         return self.places.get(link, {}).get(at, 0j)
 
     def pair(self, where: str, ref: str) -> str:
         """The key of a sliding pair, "6" standing for the one pair of link 6."""
-        near = [key for key in self.pairs if ref in (key, key.split("/")[0])]
+        near = [pair for pair in self.pairs if ref in (pair, pair.split("/")[0])]
         if len(near) == 1:
             return near[0]
         found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
-        self.say(where, found, did_you_mean(ref, self.pairs))
+        self.reading.say(where, found, did_you_mean(ref, self.pairs))
         return ""
 
-    def mass(self, link: str, g: float) -> LinkMass | None:
-        table, where, units = self.file.masses[link], f"masses.{link}", self.file.units
+    def mass(self, link: str, table: Mass, g: float) -> LinkMass | None:
+        """The mass of a link, where ``g`` (m/s2) makes its weight."""
+        where = f"masses.{link}"
         if self.not_moving(where, link):
             return None
         if (table.mass is None) == (table.weight is None):
             found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
-            self.say(where, found, Phrase("give one of them"))
+            self.reading.say(where, found, Phrase("give one of them"))
             return None
-        heavy = (table.mass or 0.0) * units.kilograms if table.weight is None else table.weight * units.newtons / g
-        return LinkMass(link, self.place(f"{where}.at", link, table.at), heavy, table.inertia * units.inertias)
+        si = in_si(table, self.reading.units)
+        heavy = si.weight / g if si.weight is not None else si.mass or 0.0
+        return LinkMass(link, self.place(f"{where}.at", link, si.at), heavy, si.inertia)
 
-    def load(self, name: str, load: Load) -> LoadOn | None:
-        where, units = f"loads.{name}", self.file.units
+    def load(self, name: str, load: Load, drivers: Sequence[bool]) -> LoadOn | None:
+        """A load; ``drivers`` as of `loading_of`."""
+        where, say, si = f"loads.{name}", self.reading.say, in_si(load, self.reading.units)
         if self.not_moving(f"{where}.on", load.on):
             return None
         if (load.force is None) == (load.moment is None):
-            found = (
-                Phrase("has neither force nor moment") if load.force is None else Phrase("has both force and moment")
-            )
-            self.say(where, found, Phrase("give one of them"))
+            neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
+            say(where, neither if load.force is None else both, Phrase("give one of them"))
             return None
-        phase = self.phase(f"{where}.when", load.when) if load.when is not None else None
-        if load.moment is not None:
-            for key in ("at", "angle", "follows", "against"):
-                if getattr(load, key) is not None:
-                    self.say(
-                        f"{where}.{key}",
-                        Phrase("stands beside moment"),
-                        Phrase("a moment has neither place nor direction"),
-                    )
-            return LoadOn(name, load.on, load.moment * units.newtons, False, phase=phase)
+        phase = self.phase(f"{where}.when", load.when, drivers) if load.when is not None else None
+        if si.moment is not None:
+            for beside in ("at", "angle", "follows", "against"):
+                if getattr(load, beside) is not None:
+                    say(f"{where}.{beside}", Phrase("stands beside moment"),
+                        Phrase("a moment has neither place nor direction"))
+            return LoadOn(name, load.on, si.moment, False, phase=phase)
         at = 0j
-        if load.at is None:
-            self.say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
+        if si.at is None:
+            say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
         else:
-            at = self.place(f"{where}.at", load.on, load.at)
+            at = self.place(f"{where}.at", load.on, si.at)
         turn = direction(load.angle) if load.angle is not None else 1 + 0j
         follows, against = "", ""
         if load.against is not None:
             against = self.pair(f"{where}.against", load.against)
             if load.angle is not None or load.follows is not None:
-                self.say(
-                    f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction")
-                )
+                say(f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction"))
         elif load.follows is not None:
-            missing = self.names.no_link(f"{where}.follows", load.follows)
-            self.problems.extend([missing] if missing else [])
+            self.reading.wrong(self.reading.no_link(f"{where}.follows", load.follows))
             follows = load.follows
         elif load.angle is None:
-            self.say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
-        return LoadOn(name, load.on, (load.force or 0.0) * units.newtons, True, at, turn, follows, against, phase)
+            say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
+        return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
 
-    def spring(self, name: str, table: Spring) -> SpringOn | None:
-        where, units, known = f"springs.{name}", self.file.units, len(self.problems)
-        if name in self.file.loads:
-            self.say(
-                where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name)
-            )
+    def spring(self, name: str, table: Spring, loads: Mapping[str, Load]) -> SpringOn | None:
+        """A spring, whose name is none of a load."""
+        where, say, known = f"springs.{name}", self.reading.say, len(self.reading.problems)
+        if name in loads:
+            say(where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name))
         if len(table.between) != 2 or table.between[0] == table.between[1]:
-            self.say(
-                f"{where}.between",
-                Phrase("found value", value=", ".join(table.between) or "nothing"),
-                Phrase("two different points"),
-            )
+            given = ", ".join(table.between) or "nothing"
+            say(f"{where}.between", Phrase("found value", value=given), Phrase("two different points"))
         elif table.links is not None and len(table.links) != 2:
-            self.say(
-                f"{where}.links",
-                Phrase("found value", value=", ".join(table.links) or "nothing"),
-                Phrase("two links one for each point"),
-            )
-        if len(self.problems) > known:
+            given = ", ".join(table.links) or "nothing"
+            say(f"{where}.links", Phrase("found value", value=given), Phrase("two links one for each point"))
+        if len(self.reading.problems) > known:
             return None
         ends = [self.end(where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
-        if len(self.problems) > known or "" in ends:
+        if len(self.reading.problems) > known or "" in ends:
             return None
         if ends[0] == ends[1]:
             found = Phrase("both ends are on link", ends=ends[0])
-            self.say(where, found, Phrase("two links where several have a point write"))
+            say(where, found, Phrase("two links where several have a point write"))
             return None
         (a, b), (p, q) = ends, table.between
         at = self.places.get(a, {}).get(p, 0j), self.places.get(b, {}).get(q, 0j)
-        rate, free = table.rate * units.newtons / units.metres, table.free * units.metres
-        return SpringOn(name, (p, q), (a, b), at, rate, free, table.preload * units.newtons)
+        si = in_si(table, self.reading.units)
+        return SpringOn(name, (p, q), (a, b), at, si.rate, si.free, si.preload)
 
     def end(self, where: str, point: str, link: str) -> str:
         """The link that an end of a spring is on: as it is said, or the first that has the point, the frame if it
         does."""
+        reading = self.reading
         if not link:
-            missing = self.names.no_point(f"{where}.between", point)
-            self.problems.extend([missing] if missing else [])
-            order = [self.names.frame, *(n for n in self.file.links if not self.file.links[n].redundant)]
+            missing = reading.wrong(reading.no_point(f"{where}.between", point))
+            order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
             having = [n for n in order if point in self.places.get(n, {})]
             if not having and not missing:
-                self.say(
-                    f"{where}.between",
-                    Phrase("is placed on no link", point=point),
-                    Phrase("a point of a link or the frame"),
-                )
+                reading.say(f"{where}.between", Phrase("is placed on no link", point=point),
+                            Phrase("a point of a link or the frame"))
             return having[0] if having else ""
-        if link != self.names.frame and self.not_moving(f"{where}.links", link):
+        if link != reading.frame.name and self.not_moving(f"{where}.links", link):
             return ""
-        missing = self.names.no_point_of(f"{where}.links", link, point)
-        self.problems.extend([missing] if missing else [])
+        reading.wrong(reading.no_point_of(f"{where}.links", link, point))
         return link
 
-    def phase(self, where: str, when: LoadPhase) -> Phase | None:
+    def phase(self, where: str, when: LoadPhase, drivers: Sequence[bool]) -> Phase | None:
+        """When a load acts; ``drivers`` as of `loading_of`."""
+        say = self.reading.say
         if (when.stroke is None) == (when.driver is None):
-            self.say(
-                where,
-                Phrase("has neither stroke nor driver")
-                if when.stroke is None
-                else Phrase("has both stroke and driver"),
-                Phrase("give one of them"),
-            )
+            neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
+            say(where, neither if when.stroke is None else both, Phrase("give one of them"))
             return None
         if when.stroke is not None:
             if not when.start < when.end <= 1.0:
-                self.say(
-                    where,
-                    Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
-                    Phrase("parts of the stroke grow from 0 to"),
-                )
+                say(where, Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
+                    Phrase("parts of the stroke grow from 0 to"))
             if when.sense not in (1, -1):
-                self.say(
-                    f"{where}.sense",
-                    Phrase("found value", value=f"{when.sense:g}"),
-                    Phrase("1 along the guide's sense 1 against it"),
-                )
+                say(f"{where}.sense", Phrase("found value", value=f"{when.sense:g}"),
+                    Phrase("1 along the guide's sense 1 against it"))
             return Phase(self.pair(f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
         assert when.driver is not None
-        for key, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
+        for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
             if said:
-                self.say(f"{where}.{key}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
-        drivers = self.file.drivers
-        slides = bool(drivers) and hasattr(drivers[0], "slide")
-        scale = self.file.units.metres if slides else math.pi / 180
-        start, end = (value * scale for value in when.driver)
+                say(f"{where}.{beside}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
+        slides = bool(drivers) and drivers[0]
+        start, end = (value * self.reading.units.of("length" if slides else "angle").si for value in when.driver)
+        found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
         if slides and start >= end:
-            found = Phrase("found of bounds and fast", bounds=f'{when.driver[0]:g}', fast=f'{when.driver[1]:g}')
-            self.say(f"{where}.driver", found, Phrase("the travel grows between them"))
+            say(f"{where}.driver", found, Phrase("the travel grows between them"))
         elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
-            found = Phrase("found of bounds and fast", bounds=f'{when.driver[0]:g}', fast=f'{when.driver[1]:g}')
             wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
-            self.say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
+            say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
         return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
 
-    def balance(self) -> BalanceAt | None:
-        table = self.file.balance
+    def balance(self, table: Balance | None, drivers: int) -> BalanceAt | None:
+        """What balances, where there are so many drivers."""
         if table is None or self.not_moving("balance.on", table.on):
             return None
-        if len(self.file.drivers) > 1:
-            self.say(
-                "balance",
-                Phrase("one balance cannot stand for several drivers"),
-                Phrase("leave it out each driver has its own"),
-            )
-        if table.at is None:
+        say, si = self.reading.say, in_si(table, self.reading.units)
+        if drivers > 1:
+            say("balance", Phrase("one balance cannot stand for several drivers"),
+                Phrase("leave it out each driver has its own"))
+        if si.at is None:
             if table.angle is not None:
-                self.say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
+                say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
             return BalanceAt(table.on, "moment")
-        at = self.place("balance.at", table.on, table.at)
+        at = self.place("balance.at", table.on, si.at)
         if table.angle is None:
-            self.say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
+            say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
         square = table.angle == "square"
         turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
         return BalanceAt(table.on, "force", at, turn, square)
+
+
+# -- stating -----------------------------------------------------------------------------------------------------------
+
+
+def stated_loading(loading: Loading, driver_unit: float) -> dict[str, Any]:
+    """The tables of a file that say what acts, in SI but for values of the first driver, of whose unit ``driver_unit``
+    is one in SI."""
+
+    def phase(own: Phase) -> LoadPhase:
+        if own.stroke:
+            return LoadPhase(stroke=own.stroke, sense=own.sense, start=own.start, end=own.end)
+        return LoadPhase(driver=[tidy(own.start / driver_unit), tidy(own.end / driver_unit)])
+
+    def load(own: LoadOn) -> Load:
+        when = None if own.phase is None else phase(own.phase)
+        if not own.is_force:
+            return Load(on=own.link, moment=own.size, when=when)
+        angle = None if own.against else tidy(degrees(own.turn))
+        return Load(on=own.link, at=xy(own.at), force=own.size, angle=angle, follows=own.follows or None,
+                    against=own.against or None, when=when)
+
+    down, balance = loading.gravity, loading.balance
+    made: dict[str, Any] = {
+        "gravity": Gravity(g=tidy(abs(down)), angle=tidy(degrees(down))) if down else None,
+        "masses": {mass.link: Mass(at=xy(mass.at), mass=mass.mass, inertia=mass.inertia) for mass in loading.masses},
+        "loads": {own.name: load(own) for own in loading.loads},
+        "springs": {s.name: Spring(s.points, s.rate, s.free, s.preload, s.links) for s in loading.springs},
+        "flywheel": loading.flywheel,
+    }
+    if balance is not None and balance.kind == "force":
+        angle: float | Literal["square"] = "square" if balance.square else tidy(degrees(balance.turn))
+        made["balance"] = Balance(on=balance.link, at=xy(balance.at), angle=angle)
+    elif balance is not None:
+        made["balance"] = Balance(on=balance.link)
+    return made

@@ -12,16 +12,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Literal
 
-from graphkin.scene.asked_tables import Vary
-from graphkin.scene.background import PlacedBackground, PlacedScan
 from graphkin.scene.cams import LawCam
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
+from graphkin.scene.laws import MotionLaw
 from graphkin.scene.loads import Loading
-from graphkin.scene.motion_law import MotionLaw
 from graphkin.scene.printed import Printed
-from graphkin.scene.sheet_tables import SheetWishes
+from graphkin.scene.sheet import PlacedBackground, PlacedScan, SheetWishes, Vary
 from graphkin.scene.symbol import Symbol
-from graphkin.scene.tables import Measure, SceneTables, Unit, Units
+from graphkin.scene.tables import FileTable, Measure, Unit, Units
 
 __all__ = [
     "CircularSlot",
@@ -327,7 +325,7 @@ class Mechanism:
     background: PlacedBackground | None = None
     scans: tuple[PlacedScan, ...] = ()
     source_zh: str = ""
-    written: SceneTables | None = field(default=None, compare=False, repr=False)
+    written: FileTable | None = field(default=None, compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))

@@ -16,7 +16,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.plane import added_up
-from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Line, Printed, Unreadable, stated
 from graphkin.scene.symbol import KINDS, PointRef, Symbol
 from graphkin.scene.tables import Units
@@ -63,12 +62,6 @@ class Spelling:
     points: Mapping[str, frozenset[str]]
     links: frozenset[str]
     units: Units
-
-    @classmethod
-    def of(cls, scene: Mechanism) -> Spelling:
-        moving = {link.name: tuple(link.points) for link in scene.links}
-        contacts = [contact.name for contact in scene.contacts]
-        return cls.by_link({scene.frame.name: tuple(scene.frame.points), **moving}, scene.units, contacts)
 
     @classmethod
     def by_link(cls, points: Mapping[str, Iterable[str]], units: Units, contacts: Iterable[str] = ()) -> Spelling:

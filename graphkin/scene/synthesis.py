@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from graphkin.files import Json
-from graphkin.scene.sheet_tables import SheetWishes
+from graphkin.scene.sheet import SheetWishes
 from graphkin.scene.tables import Units
 
 __all__ = [

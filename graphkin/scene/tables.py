@@ -1,69 +1,195 @@
-"""The keys of a scene file as typed tables: what a file says, in its own names and units (lengths in the scene's unit,
-angles in degrees).
+"""What the tables of a scene file have in common: units, kinds of values, keys, and places by their path.
 
-Each class is a table of the file, each field a key.  The classes only hold; what may stand in them is asked when a
-scene is made of them (`graphkin.scene.form` has the rules, from which the JSON schema for editors comes too).
+A table of the file is a class, a key a field of it, made by `key`, which tells what stands there and in which unit:
+reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  A table holds
+what a file says in the file's own names; what may stand in it is asked when a scene is made (`graphkin.scene.form`).
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, Field, dataclass, fields, replace
 from functools import cache
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, TypeVar, dataclass_transform
 
-from graphkin.scene.asked_tables import Positions, PrintedTable, Vary
-from graphkin.scene.contact_tables import Cam, Contact, Disc, DriverLaw, Gear
-from graphkin.scene.file_table import FileTable, about, closed
-from graphkin.scene.load_tables import Balance, Flywheel, Gravity, Load, Mass, Spring
-from graphkin.scene.sheet_tables import ReadScan, SheetWishes
+from pydantic import Discriminator, Strict, StringConstraints, Tag
+from pydantic import Field as Rule
 
-SMALLEST = 1e-15
-"""The smallest length, and the smallest rate that is not 0."""
-
-if TYPE_CHECKING:
-    # what a caller may give; what the reader makes of it, and its rules, are the types of these names in scene.form
-    Number = float
-    Magnitude = float
-    Switch = bool
-    Text = str
-    PointName = str
-    LinkName = str
-    SlideRef = str
-    Place = Sequence[float]
-    TwoLengths = Sequence[float]
-    PointNames = Sequence[str]
-    TwoPoints = Sequence[str]
-    Symbols = Sequence[str]
-    NameOrPlace = str | Sequence[float]
-    GuideRefs = str | Sequence[str]
-    Numbers = float | Sequence[float]
-    NumberOrPair = float | Sequence[float]
-    Stated = float | str | Sequence[float]
-    StatedRow = Mapping[str, float | str | Sequence[float]]
-    NotNegative = float
-    ShownName = str | int
-    FramePlace: TypeAlias = "Sequence[float] | Polar | Compass"
-    At: TypeAlias = "Sequence[float] | Polar | Compass | Literal['drawn']"
-    Scans: TypeAlias = "Mapping[str, ReadScan]"
-    Links: TypeAlias = "Mapping[str, Link]"
-    Drivers: TypeAlias = "Driver | DrivenSlide | Sequence[Driver | DrivenSlide]"
+from graphkin.files import OwnTables, Tables
+from graphkin.words import LANGUAGES
 
 __all__ = [
-    "Compass",
-    "DrivenSlide",
-    "Driver",
-    "Frame",
-    "Guide",
-    "Link",
-    "Measure",
-    "Pin",
-    "Polar",
-    "SceneTables",
-    "Unit",
-    "Units",
+    "SMALLEST", "Asked", "Count", "FileTable", "GuideRef", "GuideRefs", "KeyPath", "Language", "Least", "LinkName",
+    "LinkNames", "List", "Magnitude", "Measure", "NameOrPlace", "NotNegative", "Number", "NumberOrSquare", "Numbers",
+    "Part", "Place", "PointName", "PointNames", "PositionName", "Share", "ShownName", "SlideRef", "Stated", "Switch",
+    "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units", "entries", "form_of_driver", "form_of_list",
+    "forms", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "path_of_key", "put_at", "table",
+    "table_by_name", "tidy", "value_at",
+    "xy",
+]  # fmt: skip
+
+AnyTable = TypeVar("AnyTable", bound="FileTable")
+
+SMALLEST, LARGEST = 1e-15, 1e15
+"""The smallest length, and the smallest rate that is not 0; the largest number."""
+LONGEST_TEXT = 300
+
+# -- kinds of values ---------------------------------------------------------------------------------------------------
+
+if TYPE_CHECKING:
+    List = Sequence  # what a caller may give; the reader makes lists of it
+    Language = str
+else:
+    List = list
+    Language = Literal[LANGUAGES]  # as many as there are tables of words
+
+Switch = Annotated[bool, Strict()]
+Number = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
+Magnitude = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
+Tool = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=10)]
+NotNegative = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=LARGEST)]
+Share = Annotated[float, Rule(strict=True, ge=0, le=1)]
+Least = Annotated[Number, Rule(ge=0, le=90)]
+Part = Annotated[Number, Rule(gt=0, le=0.5)]
+Count = Annotated[int, Rule(strict=True, ge=1, le=720)]
+Asked = Annotated[int, Rule(strict=True, ge=1, le=100)]
+Text = Annotated[str, Rule(strict=True, max_length=LONGEST_TEXT)]
+PointName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
+LinkName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+$", max_length=40)]
+GuideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(\.[A-Za-z0-9]+)?$", max_length=81)]
+SlideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(/[A-Za-z0-9]+)?$", max_length=81)]
+PositionName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9'*._-]+$", max_length=20)]
+ShownName = Annotated[str, StringConstraints(strict=True, max_length=20)] | Annotated[int, Rule(strict=True, ge=0)]
+Place = Annotated[List[Number], Rule(min_length=2, max_length=2, description="[x, y]")]
+TwoLengths = Annotated[List[Magnitude], Rule(min_length=2, max_length=2)]
+TwoPoints = Annotated[List[PointName], Rule(min_length=2, max_length=2)]
+PointNames = List[PointName]
+LinkNames = List[LinkName]
+Symbols = List[Annotated[str, Strict()]]
+
+
+def _form(value: object) -> str | None:
+    """Which of the forms of a value that may be written in several ways this is."""
+    if isinstance(value, str):
+        return "<name>"
+    if isinstance(value, list):
+        return "<list>"
+    if isinstance(value, dict):
+        return "<compass>" if isinstance(value.get("from"), list) else "<polar>"
+    return "<number>" if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def forms(wanted: str) -> Discriminator:
+    """What tells the forms of a value apart; ``wanted`` is the key of the phrase that says which there are."""
+    return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
+
+
+def form_of_driver(value: object) -> str:
+    """Whether a table drives a slide or an angle."""
+    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
+
+
+def form_of_list(value: object) -> str:
+    """Whether there is one table or a list of them."""
+    return "<list>" if isinstance(value, list) else "<one>"
+
+
+NameOrPlace = Annotated[
+    Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")], forms("write the name of a point b or")
 ]
+GuideRefs = Annotated[
+    Annotated[GuideRef, Tag("<name>")] | Annotated[List[GuideRef], Rule(min_length=1, max_length=2), Tag("<list>")],
+    forms("write a guide as link or link.guide or"),
+]
+Numbers = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[List[Number], Rule(min_length=1, max_length=2), Tag("<list>")],
+    forms("write a number or a list with one"),
+]
+NumberOrSquare = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
+    forms("write degrees or square for square to the"),
+]
+Stated = Annotated[
+    Annotated[Number, Tag("<number>")]
+    | Annotated[Place, Tag("<list>")]
+    | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
+    forms("write a number 1.0 for its digits as"),
+]
+
+# -- tables and keys ---------------------------------------------------------------------------------------------------
+
+
+class FileTable:
+    """A table of a scene file."""
+
+    __pydantic_config__: ClassVar = {"extra": "forbid", "defer_build": True}
+
+
+def key(
+    description: str, *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "",
+    closed: bool = False,
+) -> Any:  # fmt: skip
+    """A key of a table.
+
+    Parameters
+    ----------
+    default, default_factory : what holds where the key is left out
+    name : the key in the file, where Python has that word for itself
+    unit : the measure of its numbers, in whose unit the file has them; "" of what bears none or is left as written
+    closed : of a table whose keys are names of a pattern: no others may stand in it
+    """
+    about: dict[str, object] = {"description": description, "unit": unit}
+    if name:
+        about["alias"] = name
+    if closed:
+        about["json_schema_extra"] = {"additionalProperties": False}
+    if default_factory is not MISSING:
+        return dataclasses.field(default_factory=default_factory, metadata=about)
+    return dataclasses.field(default=default, metadata=about)
+
+
+@dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
+def table(kind: type[AnyTable]) -> type[AnyTable]:
+    """Make a class of keys a table: an unchangeable dataclass."""
+    return dataclass(frozen=True)(kind)
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
+def table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
+    """The same of a table whose keys are given by name only."""
+    return dataclass(frozen=True, kw_only=True)(kind)
+
+
+def keys_of(own: FileTable | type[FileTable]) -> Iterator[Field[object]]:
+    """The fields of a table that stand in a file."""
+    return (each for each in fields(own) if not each.metadata.get("beside"))  # type: ignore[arg-type]
+
+
+def key_of(each: Field[object]) -> str:
+    """A field's key in the file."""
+    return str(each.metadata.get("alias", each.name))
+
+
+def entries(own: FileTable) -> dict[str, object]:
+    """The keys of a table as they stand in a file, without those that say what holds anyway.
+
+    >>> from graphkin.scene.bodies import Link
+    >>> entries(Link(points=["A", "B"], length=120))
+    {'points': ['A', 'B'], 'length': 120}
+    """
+    found = {}
+    for each in keys_of(own):
+        value = getattr(own, each.name)
+        usual = each.default_factory() if each.default_factory is not MISSING else each.default
+        empty = usual in ({}, ()) and isinstance(value, Mapping | list | tuple) and not value
+        if not empty and not (type(value) is type(usual) and value == usual):
+            found[key_of(each)] = value
+    return found
+
+
+# -- units -------------------------------------------------------------------------------------------------------------
 
 Measure = Literal[
     "velocity", "acceleration", "angular velocity", "angular acceleration", "length", "angle", "number", "force",
@@ -100,50 +226,53 @@ class Unit(NamedTuple):
         return self.beside(f"{self.of(value):.6g}")
 
 
-@dataclass(frozen=True)
+LENGTHS: Mapping[str, float] = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+FORCES: Mapping[str, float] = {"N": 1.0, "kN": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605}
+MASSES: Mapping[str, float] = {"kg": 1.0, "g": 1e-3, "lb": 0.45359237}
+
+
+@table
 class Units(FileTable):
     """Units of the file."""
 
-    length: Literal["mm", "cm", "m", "in", "ft"] = field(
-        default="mm", metadata=about("The unit of every length; speeds are in it per second.")
+    length: Literal["mm", "cm", "m", "in", "ft"] = key(
+        "The unit of every length; speeds are in it per second.", default="mm"
     )
-    speed: Literal["mm/s", "cm/s", "m/s", "in/s", "ft/s"] | None = field(
-        default=None,
-        metadata=about("The unit of velocities, where it is not the length unit per second; accelerations are per s."),
+    speed: Literal["mm/s", "cm/s", "m/s", "in/s", "ft/s"] | None = key(
+        "The unit of velocities, where it is not the length unit per second; accelerations are per s.", default=None
     )
-    force: Literal["N", "kN", "kgf", "lbf"] = field(
-        default="N", metadata=about("The unit of every force; moments are in it times metre.")
+    force: Literal["N", "kN", "kgf", "lbf"] = key(
+        "The unit of every force; moments are in it times metre.", default="N"
     )
-    mass: Literal["kg", "g", "lb"] = field(
-        default="kg", metadata=about("The unit of every mass; inertias are in it times m2 (ft2 with lb).")
+    mass: Literal["kg", "g", "lb"] = key(
+        "The unit of every mass; inertias are in it times m2 (ft2 with lb).", default="kg"
     )
 
     @property
     def metres(self) -> float:
         """One length unit in m."""
-        return {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}[self.length]
+        return LENGTHS[self.length]
 
     @property
     def rates(self) -> Units:
         """The units in which the lengths in velocities and accelerations are counted."""
-        lengths: dict[str, Literal["mm", "cm", "m", "in", "ft"]]
-        lengths = {"mm/s": "mm", "cm/s": "cm", "m/s": "m", "in/s": "in", "ft/s": "ft"}
-        return self if self.speed is None else replace(self, length=lengths[self.speed], speed=None)
+        length: Any = (self.speed or "").removesuffix("/s")
+        return replace(self, length=length, speed=None) if length else self
 
     @property
     def newtons(self) -> float:
         """One force unit in N."""
-        return {"N": 1.0, "kN": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605}[self.force]
+        return FORCES[self.force]
 
     @property
     def kilograms(self) -> float:
         """One mass unit in kg."""
-        return {"kg": 1.0, "g": 1e-3, "lb": 0.45359237}[self.mass]
+        return MASSES[self.mass]
 
     @property
     def inertias(self) -> float:
         """One unit of inertia in kg m2."""
-        return self.kilograms * (0.3048**2 if self.mass == "lb" else 1.0)
+        return self.of("inertia").si
 
     @property
     def per_si(self) -> tuple[float, float, float]:
@@ -156,8 +285,9 @@ class Units(FileTable):
 
 
 @cache
-def _unit(units: Units, measure: Measure, radians: bool) -> Unit:
+def _unit(units: Units, measure: str, radians: bool) -> Unit:
     fast = units.rates
+    pounds = units.mass == "lb"
     return {
         "length": Unit(units.length, units.metres),
         "velocity": Unit(f"{fast.length}/s", fast.metres),
@@ -169,247 +299,100 @@ def _unit(units: Units, measure: Measure, radians: bool) -> Unit:
         "force": Unit(units.force, units.newtons),
         "moment": Unit(f"{units.force} m", units.newtons),
         "work": Unit(f"{units.force} m", units.newtons),
-        "inertia": Unit(f"{units.mass} {'ft2' if units.mass == 'lb' else 'm2'}", units.inertias),
+        "mass": Unit(units.mass, units.kilograms),
+        "inertia": Unit(f"{units.mass} {'ft2' if pounds else 'm2'}", units.kilograms * (0.3048**2 if pounds else 1.0)),
+        "stiffness": Unit(f"{units.force}/{units.length}", units.newtons / units.metres),
     }[measure]
 
 
-@dataclass(frozen=True)
-class Guide(FileTable):
-    """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
-
-    through: NameOrPlace | None = field(
-        default=None, metadata=about("A point of the link by name, or [x, y] in the link's own axes.")
-    )
-    angle: Number | None = field(
-        default=None, metadata=about("Direction in degrees from the link's own x axis.")
-    )
-    toward: PointName | None = field(
-        default=None,
-        metadata=about("Instead of angle: the point that the guide points to (of the link, fixed or drawn)."),
-    )
-    centre: NameOrPlace | None = field(
-        default=None, metadata=about("Of a circular slot: a point of the link, or [x, y] in the link's own axes.")
-    )
-    r: Magnitude | None = field(default=None, metadata=about("Radius of a circular slot."))
-    ends: Place | None = field(
-        default=None,
-        metadata=about("Where a circular slot is drawn: from one to the other, degrees from the link's own x axis."),
-    )
+def in_si(own: AnyTable, units: Units) -> AnyTable:
+    """A table of a file, and those in it, with every number whose key tells its unit in SI."""
+    return _converted(own, lambda number, measure: number * _unit(units, measure, False).si)
 
 
-@dataclass(frozen=True)
-class Frame(FileTable):
-    """The fixed link."""
-
-    name: LinkName = field(default="0", metadata=about('Name of the fixed link, "0" if not given.'))
-    points: dict[PointName, FramePlace] = field(
-        default_factory=dict,
-        metadata=closed("Fixed pivots, [x, y] each, or polar from another, or by the distances from two others."),
-    )
-    guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=closed("Straight guides by name."))
-    discs: dict[LinkName, Disc] = field(default_factory=dict, metadata=closed("Round outlines by name."))
+def in_units(own: AnyTable, units: Units) -> AnyTable:
+    """A table with its numbers in SI as it stands in a file of these units, without the noise of the conversion."""
+    return _converted(own, lambda number, measure: tidy(_unit(units, measure, False).of(number)))
 
 
-@dataclass(frozen=True)
-class Polar(FileTable):
-    """A point at a distance and an angle from another point of the link."""
+def _converted(own: AnyTable, change: Callable[[float, str], float]) -> AnyTable:
+    """A table with its numbers changed by the measures that its keys tell."""
 
-    origin: PointName = field(metadata=about("The point of the link from which r is measured.", alias="from"))
-    r: Magnitude = field(metadata=about("Distance."))
-    angle: Number = field(
-        default=0.0, metadata=about("Degrees from the link's own x axis, or from the direction given by toward.")
-    )
-    toward: PointName | None = field(
-        default=None, metadata=about("The point of the link at which angle is 0.")
-    )
+    def changed(value: Any, measure: str) -> Any:
+        if isinstance(value, FileTable):
+            return _converted(value, change)
+        if isinstance(value, Mapping):
+            return {name: changed(item, measure) for name, item in value.items()}
+        if isinstance(value, list | tuple):
+            return [changed(item, measure) for item in value]
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        return change(value, measure) if measure and number else value
 
-
-@dataclass(frozen=True)
-class Compass(FileTable):
-    """A point by its distances from two others of the link: the corner of a plate by its sides."""
-
-    origins: TwoPoints = field(metadata=about("The two points of the link.", alias="from"))
-    r: TwoLengths = field(metadata=about("The two distances."))
-    side: Literal["left", "right"] = field(
-        metadata=about("Side of the directed line from the first to the second.")
-    )
+    return replace(own, **{each.name: changed(getattr(own, each.name), each.metadata.get("unit", ""))
+                           for each in keys_of(own)})  # type: ignore[type-var]
 
 
-@dataclass(frozen=True)
-class Link(FileTable):
-    """A moving link."""
-
-    points: PointNames = field(
-        default=(), metadata=about("Own points: two for a bar, one for a bar of no fixed length or a block, or none.")
-    )
-    length: Magnitude | None = field(default=None, metadata=about("Distance of the two own points."))
-    on: GuideRefs | None = field(
-        default=None,
-        metadata=about('What the link slides on: "3" (own axis of link 3), "6.h" (a guide), or two of them.'),
-    )
-    angle_on: Numbers | None = field(
-        default=None, metadata=about("Degrees from the guide to the link's own x axis; one number for each guide.")
-    )
-    at: dict[PointName, At] = field(default_factory=dict, metadata=closed("Further points."))
-    guides: dict[LinkName, Guide] = field(default_factory=dict, metadata=closed("Straight guides by name."))
-    discs: dict[LinkName, Disc] = field(default_factory=dict, metadata=closed("Round outlines by name."))
-    start: Number | None = field(
-        default=None,
-        metadata=about("Where rolling leaves it open: degrees of its own axis (of a link with on, its travel) at the "
-                        "scene's own driver value; 0 if left out."),
-    )
-    redundant: Switch = field(default=False, metadata=about("The link only repeats what others already hold."))
+def tidy(value: float) -> float:
+    """A number without the noise of unit conversion."""
+    return float(f"{value:.13g}") + 0.0
 
 
-@dataclass(frozen=True)
-class Pin(FileTable):
-    """A pin that runs in slots."""
-
-    of: LinkName = field(metadata=about("The link that has the pin."))
-    slots: GuideRefs = field(metadata=about('The guide it runs in ("3.s"), or a list of guides.', alias="in"))
+def xy(place: complex) -> list[float]:
+    """A place as a file has it: its two coordinates."""
+    return [place.real, place.imag]
 
 
-@dataclass(frozen=True)
-class Driver(FileTable):
-    """A driven angle."""
+# -- places by their path ----------------------------------------------------------------------------------------------
 
-    link: LinkName = field(metadata=about("The driven link."))
-    angle: Number | None = field(
-        default=None, metadata=about("Degrees, counter-clockwise; may be left out with [drawn].")
-    )
-    omega: Number | None = field(default=None, metadata=about("rad/s, counter-clockwise positive."))
-    rpm: Number | None = field(default=None, metadata=about("Instead of omega: turns per minute."))
-    speed: Number | None = field(
-        default=None,
-        metadata=about("Instead of omega: the speed of the point named by of, with the sign of the driver's turning."),
-    )
-    of: PointName | None = field(default=None, metadata=about("The point whose speed is given."))
-    alpha: Number = field(default=0.0, metadata=about("rad/s2."))
-    sense: Literal["clockwise", "counter-clockwise"] | None = field(
-        default=None,
-        metadata=about("The sense of omega, rpm or speed, which then is a size, and in which alpha counts."),
-    )
-    relative_to: LinkName | None = field(
-        default=None, metadata=about("Angle from this link's own axis, not the frame's.")
-    )
-    origin: Literal["dead point"] | None = field(
-        default=None,
-        metadata=about('"dead point": the angle counts from a dead point of the mechanism.', alias="from"),
-    )
-    near: Number | None = field(
-        default=None, metadata=about("Degrees: which dead point, where there are several.")
-    )
-    position: ShownName | None = field(
-        default=None, metadata=about("Instead of angle: the name of a position of [positions].")
-    )
-    law: DriverLaw | None = field(
-        default=None,
-        metadata=about("Instead of omega and alpha: how the driver moves over the time."),
-    )
-    time: Number | None = field(
-        default=None, metadata=about("Instead of angle: the moment of the law that is asked, in s.")
-    )
+KeyPath = tuple[str | int, ...]
+"""A place in a file: keys, and numbers of items of lists."""
 
 
-@dataclass(frozen=True)
-class DrivenSlide(FileTable):
-    """A driven sliding pair."""
+def item_of(part: str, count: int) -> int | None:
+    """Which item of a list of so many a part of a key names: counted from 1, or ``x`` and ``y`` of a place.
 
-    slide: SlideRef = field(metadata=about('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").'))
-    travel: Number | None = field(
-        default=None,
-        metadata=about("From the guide's origin to the sliding link's own; may be left out with [drawn]."),
-    )
-    velocity: Number | None = field(default=None, metadata=about("Unit of speed, along the guide's sense."))
-    acceleration: Number = field(default=0.0, metadata=about("Unit of speed per s, along the guide's sense."))
-    relative_to: LinkName | None = field(
-        default=None, metadata=about("The guiding link, where there are two.")
-    )
-    origin: Literal["dead point"] | None = field(
-        default=None,
-        metadata=about('"dead point": the travel counts from a dead point of the mechanism.', alias="from"),
-    )
-    near: Number | None = field(
-        default=None, metadata=about("Travel: which dead point, where there are several.")
-    )
-    law: DriverLaw | None = field(
-        default=None,
-        metadata=about("Instead of velocity and acceleration: how the driver moves over the time."),
-    )
-    time: Number | None = field(
-        default=None, metadata=about("Instead of travel: the moment of the law that is asked, in s.")
-    )
+    >>> item_of("2", 3), item_of("y", 2), item_of("0", 2), item_of("z", 3)
+    (1, 1, None, None)
+    """
+    index = {"x": 0, "y": 1}.get(part, int(part) - 1 if part.isdecimal() else -1)
+    return index if 0 <= index < count else None
 
 
-@dataclass(frozen=True, kw_only=True)
-class SceneTables(FileTable):
-    """A mechanism at one position, with what is asked of it: the whole file."""
+def path_of_key(tables: Tables, dotted: str) -> KeyPath | None:
+    """The path of a key with dots; None where there is nothing.
 
-    title: Text = field(default="", metadata=about("Title in English."))
-    title_zh: Text = field(default="", metadata=about("Title in Chinese."))
-    source: Text = field(default="", metadata=about("Where the problem comes from."))
-    source_zh: Text = field(default="", metadata=about("The same in Chinese."))
-    find: Symbols | None = field(
-        default=None,
-        metadata=about(
-            "Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, theta_3, d_B/C, K_5/6, ... All motion if left out."
-        ),
-    )
-    units: Units = Units()
-    frame: Frame = field(default_factory=Frame)
-    links: Links = field(metadata=closed("The moving links by name."))
-    pins: dict[PointName, Pin] = field(default_factory=dict, metadata=closed("Pins in slots, by the point."))
-    contacts: dict[PointName, Contact] = field(
-        default_factory=dict, metadata=closed("Outlines that touch, by the name of the point of contact.")
-    )
-    gears: dict[LinkName, Gear] = field(default_factory=dict, metadata=closed("Wheels with teeth by name."))
-    driver: Drivers = field(default=(), metadata=about("What drives: one table [driver], or several [[driver]]."))
-    sketch: dict[PointName, Place] = field(
-        default_factory=dict, metadata=closed("Roughly where points lie: picks the assembly.")
-    )
-    drawn: dict[PointName, Place] = field(
-        default_factory=dict, metadata=closed("Exact places of points of moving links in this position.")
-    )
-    printed: dict[str, Stated] = field(
-        default_factory=dict,
-        metadata=about(
-            'Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2, as numbers or (with '
-            'their digits, a unit, a sense) texts; by = "drawing" or "computation".'
-        ),
-    )
-    printed_rows: tuple[StatedRow, ...] = field(
-        default=(), metadata=about("The same over a turn: tables with at (driver value or name of a position).")
-    )
-    printed_table: PrintedTable | None = field(default=None, metadata=about("The same from a CSV file."))
-    scans: Scans = field(
-        default_factory=dict,
-        metadata=about("Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration."),
-    )
-    positions: Positions | None = field(default=None, metadata=about("Positions with names, and their figure."))
-    loops: dict[LinkName, PointNames] = field(
-        default_factory=dict, metadata=closed("Vector loops by name, each the points that it goes through.")
-    )
-    cams: dict[LinkName, Cam] = field(
-        default_factory=dict, metadata=closed("Cams by the law of their follower, by the link.")
-    )
-    gravity: Gravity | None = field(default=None, metadata=about("Weights pull where this table stands."))
-    masses: dict[LinkName, Mass] = field(default_factory=dict, metadata=closed("Masses of moving links."))
-    loads: dict[LinkName, Load] = field(default_factory=dict, metadata=closed("Forces and moments by name."))
-    springs: dict[LinkName, Spring] = field(
-        default_factory=dict, metadata=closed("Springs between points of two links, by name.")
-    )
-    balance: Balance | None = field(
-        default=None, metadata=about("What is unknown besides the joint forces; a moment on the driver if left out.")
-    )
-    flywheel: Flywheel | None = field(default=None, metadata=about("A flywheel that evens out the turn."))
-    vary: Vary | None = field(default=None, metadata=about("How a set of problems is drawn from the scene."))
-    grading: dict[str, NotNegative] = field(
-        default_factory=dict,
-        metadata=about("Points of a class: for equations, drawing, values, and for single quantities by symbol."),
-    )
-    sheet: SheetWishes = field(default=SheetWishes())
+    >>> path_of_key({"frame": {"points": {"D": [3, 4]}}}, "frame.points.D.y")
+    ('frame', 'points', 'D', 1)
+    >>> path_of_key({"frame": {"points": {"D": [3, 4]}}}, "frame.points.E.y") is None
+    True
+    """
+    path: list[str | int] = []
+    place: object = tables
+    for part in dotted.split("."):
+        step = item_of(part, len(place)) if isinstance(place, list | tuple) else part
+        place = None if step is None else value_at(place, (step,))
+        if step is None or place is None:
+            return None
+        path.append(step)
+    return tuple(path)
 
-    @property
-    def drivers(self) -> tuple[Driver | DrivenSlide, ...]:
-        """The drivers, whether written as one table or several."""
-        return (self.driver,) if isinstance(self.driver, Driver | DrivenSlide) else tuple(self.driver)
+
+def value_at(place: object, path: KeyPath) -> Any:
+    """What stands at a path of tables, or of a part of them; None where there is nothing.
+
+    >>> value_at({"driver": [{"angle": 40}]}, ("driver", 0, "angle")), value_at({"driver": []}, ("driver", 0, "angle"))
+    (40, None)
+    """
+    for step in path:
+        if isinstance(place, Mapping):
+            place = place.get(step)
+        elif isinstance(place, list | tuple) and isinstance(step, int) and step < len(place):
+            place = place[step]
+        else:
+            return None
+    return place
+
+
+def put_at(tables: OwnTables, path: KeyPath, value: object) -> None:
+    """Put a value at a path whose tables are there.  Raises TypeError where they are not."""
+    value_at(tables, path[:-1])[path[-1]] = value

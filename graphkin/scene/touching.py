@@ -1,54 +1,89 @@
-"""Contacts and gears of a file: names looked up, radii with their signs, the carriers of wheels found."""
+"""What touches in a scene file: outlines in contact, wheels with teeth, as the file has them, read (names looked up,
+radii with their signs, the carriers of wheels found) and stated again."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Annotated, Literal
+
+from pydantic import Field as Rule
+from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.plane import cross, dot
-from graphkin.scene.contact_tables import Contact, Gear
+from graphkin.plane import cross
+from graphkin.scene.bodies import Reading
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.model import PlacedGuide, SlidingPair
-from graphkin.scene.names import Flaws, Names
-from graphkin.scene.placing import Placement
-from graphkin.scene.tables import SceneTables
+from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, Switch, forms, key, table
 from graphkin.words import Phrase
 
-__all__ = ["contacts_of", "discs_of", "drawn_apart", "gears_of", "rack_place", "touching_links", "wrong_distances"]
+__all__ = [
+    "Contact", "Gear", "contacts_of", "discs_of", "gears_of", "rack_place", "stated_contact", "stated_gear",
+    "wrong_distances",
+]  # fmt: skip
 
 AGREE = 1e-6
 
+TwoOutlines = Annotated[List[GuideRef], Rule(min_length=2, max_length=2)]
+TwoTeeth = Annotated[
+    List[
+        Annotated[
+            Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
+            forms("write a number of teeth or rack"),
+        ]
+    ],
+    Rule(min_length=2, max_length=2),
+]
 
-def discs_of(file: SceneTables, names: Names, problems: list[Problem]) -> dict[tuple[str, str], PlacedDisc]:
-    """Every round outline by its link and its name."""
-    metres, found = file.units.metres, dict[tuple[str, str], PlacedDisc]()
-    tables = [(f"links.{n}", n, link.discs) for n, link in file.links.items()]
-    for where, link, discs in (*tables, ("frame", names.frame, file.frame.discs)):
-        for name, table in discs.items():
+
+@table
+class Contact(FileTable):
+    """Two outlines that touch."""
+
+    between: TwoOutlines = key(
+        'Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").'
+    )
+    side: Literal["left", "right", "outside", "inside"] | None = key(
+        "Of a face: the side of the directed guide on which the disc lies, left if left out. "
+        "Of two discs: outside (if left out), or inside, the smaller in the larger.", default=None,
+    )  # fmt: skip
+    rolling: Switch = key("true: rolls without slip; false: slides.", default=False)
+
+
+@table
+class Gear(FileTable):
+    """Two wheels with teeth, or a wheel and a rack."""
+
+    between: TwoOutlines = key('The two wheels ("2", "4"); a rack, second, or a guide of it ("3.r").')
+    teeth: TwoTeeth = key('Numbers of teeth; negative: internal teeth; "rack" for the second.')
+    carrier: LinkName | None = key(
+        "The link that holds both axes (the wheel's axis and the rack's slide); found if left out.", default=None
+    )
+
+
+# -- contacts ----------------------------------------------------------------------------------------------------------
+
+Discs = Mapping[tuple[str, str], PlacedDisc]
+"""Round outlines by link and name."""
+
+
+def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
+    """Every round outline by its link and its name; what is wrong with them is noted."""
+    found: dict[tuple[str, str], PlacedDisc] = {}
+    for where, link, body in reading.bodies:
+        for name, own in body.discs.items():
             here = f"{where}.discs.{name}"
-            if name in names.guides.get(link, ()):
-                problems.append(
-                    Problem(
-                        here,
-                        Phrase("is the name of a guide too", link=link, name=name),
-                        Phrase("give one of them another"),
-                    )
-                )
-            if missing := names.no_point_of(f"{here}.centre", link, table.centre):
-                problems.append(missing)
-            elif table.r == 0:
-                problems.append(Problem(f"{here}.r", Phrase("found 0"), Phrase("write a radius a negative one is a")))
+            if name in reading.guides.get(link, ()):
+                reading.say(here, Phrase("is the name of a guide too", link=link, name=name),
+                            Phrase("give one of them another"))
+            if reading.wrong(reading.no_point_of(f"{here}.centre", link, own.centre)):
+                continue
+            if own.r == 0:
+                reading.say(f"{here}.r", Phrase("found 0"), Phrase("write a radius a negative one is a"))
             else:
-                found[link, name] = PlacedDisc(link, name, table.centre, table.r * metres)
+                found[link, name] = PlacedDisc(link, name, own.centre, own.r * reading.metres)
     return found
-
-
-def touching_links(file: SceneTables) -> Iterator[tuple[str, str]]:
-    """The links that a contact or a gear joins."""
-    for between in (*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())):
-        one, two = (ref.partition(".")[0] for ref in between)
-        yield one, two
 
 
 @dataclass(frozen=True)
@@ -60,284 +95,237 @@ class _Side:
     guide: str
 
 
-def contacts_of(
-    file: SceneTables, names: Names, flaws: Flaws, discs: Mapping[tuple[str, str], PlacedDisc], problems: list[Problem]
-) -> tuple[PlacedContact, ...]:
-    """The contacts of a file; what is wrong with them is added to ``problems``."""
-    lost = {(n, k) for n in names.points for k in flaws.names("links", n, "discs")}
-    lost |= {(names.frame, k) for k in flaws.names("frame", "discs")}
+def contacts_of(tables: Mapping[str, Contact], reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
+    """The contacts of a file; what is wrong with them is noted."""
     found: list[PlacedContact] = []
-    for name, table in file.contacts.items():
-        where = f"contacts.{name}"
-        if any(name in own for own in names.points.values()):
-            wanted = Phrase("give the contact a letter of its own")
-            problems.append(Problem(where, Phrase("is a point of a link already", name=name), wanted))
-        sides = [_side(f"{where}.between", ref, file, names, discs, lost) for ref in table.between]
-        wrong = [s for s in sides if isinstance(s, Problem)]
-        problems += wrong
-        one, two = sides
-        if wrong or not isinstance(one, _Side) or not isinstance(two, _Side):
-            continue
-        reasons = list(_contact_problems(where, table, one, two))
-        problems += reasons
-        if not reasons:
-            found.append(_contact(name, table, one, two, names))
     blocks: set[str] = set()
-    for k, contact in enumerate(found):
-        found[k] = replace(contact, again=contact.flat and contact.block in blocks)
-        blocks.add(contact.block)
+    for name, own in tables.items():
+        where = f"contacts.{name}"
+        if any(name in points for points in reading.points.values()):
+            reading.say(where, Phrase("is a point of a link already", name=name),
+                        Phrase("give the contact a letter of its own"))
+        sides = [_side(f"{where}.between", ref, reading, discs) for ref in own.between]
+        known = [side for side in sides if side is not None]
+        if len(known) < 2:
+            continue
+        one, two = known
+        if not reading.wrong(*_contact_problems(where, own, one, two)):
+            contact = _contact(name, own, one, two, reading)
+            found.append(replace(contact, again=contact.flat and contact.block in blocks))
+            blocks.add(found[-1].block)
     return tuple(found)
 
 
-def _side(
-    where: str, ref: str, file: SceneTables, names: Names, discs: Mapping[tuple[str, str], PlacedDisc],
-    lost: set[tuple[str, str]],
-) -> _Side | Problem | None:
+def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
+    """A side of a contact by its name; None where there is none, which is noted here or was before."""
     link, _, part = ref.partition(".")
-    if missing := names.no_link(where, link):
-        return missing
-    if link not in file.links and link != names.frame:
+    if reading.wrong(reading.no_link(where, link)):
         return None
-    outlines = (file.frame if link == names.frame else file.links[link]).discs
-    if part in outlines or (link, part) in lost:
+    frame = link == reading.frame.name
+    if link not in reading.links and not frame:
+        return None
+    outlines = (reading.frame if frame else reading.links[link]).discs
+    lost = reading.flaws.names("links", link, "discs") | (reading.flaws.names("frame", "discs") if frame else set())
+    if part in outlines or part in lost:
         disc = discs.get((link, part))
         return _Side(link, disc, "") if disc else None  # what is wrong with it is told already
-    if not part or part in names.guides.get(link, ()):
+    if not part or part in reading.guides.get(link, ()):
         return _Side(link, None, part)
-    known = [*outlines, *names.guides.get(link, ())]
-    wanted = (
-        did_you_mean(part, known)
-        if known
-        else Phrase("write it in links. discs or links. guides", link=link, other=link)
-    )
-    return Problem(where, Phrase("link has no disc and no guide", link=link, part=part), wanted)
+    known = [*outlines, *reading.guides.get(link, ())]
+    unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
+    reading.say(where, Phrase("link has no disc and no guide", link=link, part=part),
+                did_you_mean(part, known) if known else unknown)
+    return None
 
 
-def _contact_problems(where: str, table: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
-    refs = " and ".join(table.between)
+def _contact_problems(where: str, own: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
+    """What is wrong with two sides that there are."""
+    refs, between, side = " and ".join(own.between), f"{where}.between", f"{where}.side"
     if one.link == two.link:
-        yield Problem(
-            f"{where}.between",
-            Phrase("are outlines of the same link", refs=refs, link=one.link),
-            Phrase("name two links"),
-        )
+        found = Phrase("are outlines of the same link", refs=refs, link=one.link)
+        yield Problem(between, found, Phrase("name two links"))
         return
-    if one.disc is None and two.disc is None:
-        yield Problem(f"{where}.between", Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
+    discs = [end.disc for end in (one, two) if end.disc is not None]
+    if not discs:
+        yield Problem(between, Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
         return
-    if one.disc is None or two.disc is None:
-        disc = one.disc or two.disc
-        assert disc is not None
-        if table.side in ("outside", "inside"):
-            wanted = Phrase("a face has a left and a right")
-            yield Problem(f"{where}.side", Phrase("found with a flat face", side=table.side), wanted)
-        if disc.radius < 0:
-            wanted = Phrase("no flat face touches a hollow outline")
-            yield Problem(f"{where}.between", Phrase("is hollow", link=disc.link, disc=disc.name), wanted)
+    if len(discs) == 1:
+        if own.side in ("outside", "inside"):
+            found = Phrase("found with a flat face", side=own.side)
+            yield Problem(side, found, Phrase("a face has a left and a right"))
+        if discs[0].radius < 0:
+            found = Phrase("is hollow", link=discs[0].link, disc=discs[0].name)
+            yield Problem(between, found, Phrase("no flat face touches a hollow outline"))
         return
-    if table.side in ("left", "right"):
-        yield Problem(
-            f"{where}.side",
-            Phrase("found with two discs", side=table.side),
-            Phrase("two discs touch outside or inside"),
-        )
-    r1, r2 = one.disc.radius, two.disc.radius
-    hollow = [d for d in (one.disc, two.disc) if d.radius < 0]
+    if own.side in ("left", "right"):
+        yield Problem(side, Phrase("found with two discs", side=own.side), Phrase("two discs touch outside or inside"))
+    r1, r2 = (disc.radius for disc in discs)
+    hollow = [d for d in discs if d.radius < 0]
     if len(hollow) == 2:
-        yield Problem(
-            f"{where}.between", Phrase("are both hollow", refs=refs), Phrase("one of them has a positive radius")
-        )
-    elif table.side == "outside" and hollow:
-        yield Problem(
-            f"{where}.side", Phrase("found outside with a hollow outline"), Phrase("leave side out or write inside")
-        )
+        yield Problem(between, Phrase("are both hollow", refs=refs), Phrase("one of them has a positive radius"))
+    elif own.side == "outside" and hollow:
+        wanted = Phrase("leave side out or write inside")
+        yield Problem(side, Phrase("found outside with a hollow outline"), wanted)
     elif hollow and r1 + r2 >= 0:
         found = Phrase("the hollow outline is no larger than what", link=hollow[0].link, hollow=hollow[0].name)
-        yield Problem(f"{where}.between", found, Phrase("its radius must be the larger one"))
-    elif table.side == "inside" and abs(r1) == abs(r2):
-        yield Problem(
-            f"{where}.side", Phrase("both radii are equal"), Phrase("inside one must be smaller than the other")
-        )
+        yield Problem(between, found, Phrase("its radius must be the larger one"))
+    elif own.side == "inside" and abs(r1) == abs(r2):
+        yield Problem(side, Phrase("both radii are equal"), Phrase("inside one must be smaller than the other"))
 
 
-def _contact(name: str, table: Contact, one: _Side, two: _Side, names: Names) -> PlacedContact:
+def _contact(name: str, own: Contact, one: _Side, two: _Side, reading: Reading) -> PlacedContact:
+    """A contact of two sides, radii with the signs with which they meet."""
     first, second, guide = one.disc, two.disc, one.guide or two.guide
     carrier = ""
     if first and second:
-        if table.side == "inside" and first.radius > 0 and second.radius > 0:
+        if own.side == "inside" and first.radius > 0 and second.radius > 0:
             if first.radius > second.radius:
                 first = replace(first, radius=-first.radius)
             else:
                 second = replace(second, radius=-second.radius)
-        if table.rolling:
+        if own.rolling:
             both = {first.centre, second.centre}
-            others = [n for n, own in names.points.items() if n not in (one.link, two.link) and both <= set(own)]
-            others.sort(key=lambda n: n != names.frame)
+            others = [n for n, points in reading.points.items() if n not in (one.link, two.link) and both <= {*points}]
+            others.sort(key=lambda n: n != reading.frame.name)
             carrier = others[0] if others else ""
-    discs = (first, second)
-    return PlacedContact(name, one.link, two.link, discs, guide, table.side != "right", table.rolling, carrier)
+    return PlacedContact(name, one.link, two.link, (first, second), guide, own.side != "right", own.rolling, carrier)
+
+def stated_contact(contact: PlacedContact) -> Contact:
+    """The table of a contact."""
+    between = [f"{d.link}.{d.name}" if d else _guide_name(contact.face, contact.guide) for d in contact.discs]
+    side: Literal["left", "right", "outside", "inside"]
+    if contact.flat:
+        side = "left" if contact.left else "right"
+    else:
+        side = "inside" if min(d.radius for d in contact.round) < 0 else "outside"
+    return Contact(between, side, contact.rolling)
+
+
+def _guide_name(link: str, guide: str) -> str:
+    return f"{link}.{guide}" if guide else link
+
+
+# -- gears -------------------------------------------------------------------------------------------------------------
 
 
 def gears_of(
-    file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...], problems: list[Problem]
+    tables: Mapping[str, Gear], reading: Reading, slidings: tuple[SlidingPair, ...]
 ) -> tuple[PlacedGear, ...]:
-    """The gears of a file; what is wrong with them is added to ``problems``."""
-    found = []
-    for name, table in file.gears.items():
-        made = _gear(f"gears.{name}", name, table, file, names, slidings)
-        if isinstance(made, PlacedGear):
-            found.append(made)
-        else:
-            problems += made
-    return tuple(found)
+    """The wheels with teeth of a file, with their carriers; what is wrong with them is noted."""
+    found = (_gear(f"gears.{name}", name, own, reading, slidings) for name, own in tables.items())
+    return tuple(gear for gear in found if gear is not None)
 
 
 def _gear(
-    where: str, name: str, table: Gear, file: SceneTables, names: Names, slidings: tuple[SlidingPair, ...]
-) -> PlacedGear | list[Problem]:
-    first, _, part = table.between[0].partition(".")
-    second, _, guide = table.between[1].partition(".")
-    z1, z2 = table.teeth
-    rack = isinstance(z2, str)
-    problems = [p for link in (first, second) if (p := names.no_link(f"{where}.between", link))]
+    where: str, name: str, own: Gear, reading: Reading, slidings: tuple[SlidingPair, ...]
+) -> PlacedGear | None:
+    first, _, part = own.between[0].partition(".")
+    second, _, guide = own.between[1].partition(".")
+    (z1, z2), between, teeth, carrier_key = own.teeth, f"{where}.between", f"{where}.teeth", f"{where}.carrier"
+    rack, before, say = isinstance(z2, str), len(reading.problems), reading.say
+    unknown = reading.wrong(*(reading.no_link(between, link) for link in (first, second)))
     if isinstance(z1, str):
-        problems.append(
-            Problem(f"{where}.teeth", Phrase("the first is rack"), Phrase("the rack is the second one of between"))
-        )
-        return problems
+        say(teeth, Phrase("the first is rack"), Phrase("the rack is the second one of between"))
+        return None
     if part or (guide and not rack):
-        ref = table.between[0] if part else table.between[1]
-        problems.append(
-            Problem(f"{where}.between", Phrase("found of name", name=ref), Phrase("a wheel is named by its link alone"))
-        )
-    elif guide and not problems:
-        problems += [p for p in [names.no_guide(f"{where}.between", table.between[1])] if p]
+        ref = own.between[0] if part else own.between[1]
+        say(between, Phrase("found of name", name=ref), Phrase("a wheel is named by its link alone"))
+    elif guide and not unknown:
+        reading.wrong(reading.no_guide(between, own.between[1]))
     for z in (z1, z2):
         if not isinstance(z, str) and (z == 0 or not float(z).is_integer()):
-            wanted = Phrase("write a number of teeth negative for internal")
-            problems.append(Problem(f"{where}.teeth", Phrase("found value", value=f'{z:g}'), wanted))
+            say(teeth, Phrase("found value", value=f"{z:g}"), Phrase("write a number of teeth negative for internal"))
     if rack and z1 < 0:
-        wanted = Phrase("the wheel of a rack has external teeth")
-        problems.append(Problem(f"{where}.teeth", Phrase("found with a rack", teeth=f'{z1:g}'), wanted))
+        say(teeth, Phrase("found with a rack", teeth=f"{z1:g}"), Phrase("the wheel of a rack has external teeth"))
     if not isinstance(z2, str):
         if z1 < 0 and z2 < 0:
-            problems.append(
-                Problem(f"{where}.teeth", Phrase("both have internal teeth"), Phrase("one of them has external teeth"))
-            )
+            say(teeth, Phrase("both have internal teeth"), Phrase("one of them has external teeth"))
         elif min(z1, z2) < 0 <= z1 + z2:
-            wanted = Phrase("a ring has more teeth than what runs")
-            problems.append(Problem(f"{where}.teeth", Phrase("found and", teeth=f'{z1:g}', other=f'{z2:g}'), wanted))
+            found = Phrase("found and", teeth=f"{z1:g}", other=f"{z2:g}")
+            say(teeth, found, Phrase("a ring has more teeth than what runs"))
     if first == second:
-        problems.append(
-            Problem(f"{where}.between", Phrase("link meshes with itself", first=first), Phrase("name two links"))
-        )
-    if table.carrier is not None and (missing := names.no_link(f"{where}.carrier", table.carrier)):
-        problems.append(missing)
-    elif table.carrier in (first, second):
-        wanted = Phrase("name the link that holds both axes")
-        problems.append(Problem(f"{where}.carrier", Phrase("link is one of the wheels", carrier=table.carrier), wanted))
-    if problems:
-        return problems
-    if "" in names.unsure or any(n not in names.points for n in (first, second)):
-        return []
-    moving = [n for n in file.links if n not in (first, second)]
-    candidates = [table.carrier] if table.carrier else [n for n in (names.frame, *moving) if n not in (first, second)]
-    for carrier in candidates:
-        one = _axis(names, first, carrier)
+        say(between, Phrase("link meshes with itself", first=first), Phrase("name two links"))
+    missing = own.carrier is not None and reading.wrong(reading.no_link(carrier_key, own.carrier))
+    if own.carrier in (first, second) and not missing:
+        say(carrier_key, Phrase("link is one of the wheels", carrier=own.carrier),
+            Phrase("name the link that holds both axes"))
+    if len(reading.problems) > before:
+        return None
+    if "" in reading.unsure or any(n not in reading.points for n in (first, second)):
+        return None
+    others = [n for n in (reading.frame.name, *reading.links) if n not in (first, second)]
+    for carrier in [own.carrier] if own.carrier else others:
+        axis = _axis(reading, first, carrier)
         if rack:
             pair = next((s for s in slidings if {s.link, s.on} == {second, carrier}), None)
-            if one and pair:
-                return PlacedGear(name, (first, second), (z1, None), carrier, (one, ""), guide, pair.key)
+            if axis and pair:
+                return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key)
             continue
-        two = _axis(names, second, carrier)
-        if one and two and one != two:
-            return PlacedGear(name, (first, second), (z1, float(z2)), carrier, (one, two))
+        other = _axis(reading, second, carrier)
+        if axis and other and axis != other:
+            return PlacedGear(name, (first, second), (z1, float(z2)), carrier, (axis, other))
     held = Phrase("the wheel's axis and the rack's slide") if rack else Phrase("both axes")
-    if table.carrier:
-        key = "it shares a point with a link and slides" if rack else "it shares a point with each of two links"
-        return [Problem(f"{where}.carrier", Phrase("link does not hold", carrier=table.carrier, held=held),
-                        Phrase(key, first=first, second=second))]
-    return [Problem(where, Phrase("no link holds of wheels and", held=held, first=first, second=second),
-                    Phrase("pin both wheels to one carrier and name"))]
+    if own.carrier:
+        sharing = "it shares a point with a link and slides" if rack else "it shares a point with each of two links"
+        say(carrier_key, Phrase("link does not hold", carrier=own.carrier, held=held),
+            Phrase(sharing, first=first, second=second))
+    else:
+        say(where, Phrase("no link holds of wheels and", held=held, first=first, second=second),
+            Phrase("pin both wheels to one carrier and name"))
+    return None
 
 
-def _axis(names: Names, wheel: str, carrier: str) -> str:
+def _axis(reading: Reading, wheel: str, carrier: str) -> str:
     """The point that a wheel and its carrier share."""
-    own = names.points.get(carrier, ())
-    return next((p for p in names.points.get(wheel, ()) if p in own), "")
+    own = reading.points.get(carrier, ())
+    return next((p for p in reading.points.get(wheel, ()) if p in own), "")
+
+
+def stated_gear(gear: PlacedGear) -> Gear:
+    """The table of wheels with teeth."""
+    between = [gear.wheels[0], _guide_name(gear.wheels[1], gear.guide)]
+    return Gear(between, ["rack" if z is None else z for z in gear.teeth], gear.carrier)
+
+
+# -- distances ---------------------------------------------------------------------------------------------------------
 
 
 def wrong_distances(
     contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], slidings: tuple[SlidingPair, ...],
-    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]], metres: float,
-) -> Iterator[Problem]:
-    """Wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that are
-    not parallel to their slide; centres on the other body."""
+    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]], reading: Reading,
+) -> None:  # fmt: skip
+    """Note wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that
+    are not parallel to their slide; centres on the other body.
+
+    Parameters
+    ----------
+    points, guides : of each link, in its own axes (m)
+    """
     for c in contacts:
+        where = f"contacts.{c.name}"
         if not c.flat and c.carrier:
             one, two = c.round
             held = abs(points[c.carrier][two.centre] - points[c.carrier][one.centre])
             wanted = abs(one.radius + two.radius)
             if abs(held - wanted) > AGREE * max(abs(one.radius), abs(two.radius)):
-                yield Problem(
-                    f"contacts.{c.name}",
-                    Phrase(
-                        "link holds the centres apart the radii make",
-                        carrier=c.carrier,
-                        held=f"{held / metres:.10g}",
-                        wanted=f"{wanted / metres:.10g}",
-                    ),
-                    Phrase("correct a radius or the distance"),
-                )
+                apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
+                reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
+                            Phrase("correct a radius or the distance"))
         if not c.flat and c.round[0].centre == c.round[1].centre:
-            yield Problem(
-                f"contacts.{c.name}", Phrase("both outlines have the same centre"), Phrase("two centres lie apart")
-            )
+            reading.say(where, Phrase("both outlines have the same centre"), Phrase("two centres lie apart"))
     for g in gears:
-        own = points[g.carrier]
+        where, own = f"gears.{g.name}", points[g.carrier]
         if not g.is_rack:
             if abs(own[g.axes[1]] - own[g.axes[0]]) == 0:
-                yield Problem(
-                    f"gears.{g.name}", Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart")
-                )
+                reading.say(where, Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart"))
             continue
         height, tilt, far = rack_place(g, slidings, points, guides)
         if abs(tilt) > AGREE:
-            yield Problem(f"gears.{g.name}", Phrase("the pitch line is not parallel to the", slide=g.slide),
-                          Phrase("name a guide of link along which it", wheels=g.wheels[1]))
+            reading.say(where, Phrase("the pitch line is not parallel to the", slide=g.slide),
+                        Phrase("name a guide of link along which it", wheels=g.wheels[1]))
         elif abs(height) <= AGREE * max(far, 1e-300):
-            yield Problem(f"gears.{g.name}", Phrase("the wheel's axis lies on the pitch line"),
-                          Phrase("the distance of the two is the radius"))
-
-
-def drawn_apart(
-    contacts: tuple[PlacedContact, ...], bodies: Mapping[str, Placement], places: Mapping[str, complex],
-    tolerance: float, metres: float,
-) -> Iterator[Problem]:
-    """Outlines that do not touch where given places put them: centres too far apart, or not a radius off the face, on
-    its side; ``places`` are those in the world (m)."""
-    for c in contacts:
-        spots = [places.get(d.centre) for d in c.round]
-        known = [z for z in spots if z is not None]
-        if len(known) < len(spots):
-            continue
-        if not c.flat:
-            found, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
-            key = "puts the centres apart"
-        else:
-            body, guide = bodies[c.face], bodies[c.face].guides.get(c.guide)
-            local = body.in_own_axes(known[0])
-            if guide is None or local is None:
-                continue
-            found, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
-            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
-        if abs(found - wanted) > tolerance:
-            drawn = Phrase(key, distance=f"{found / metres:.10g}", given=f"{wanted / metres:.10g}")
-            yield Problem(
-                f"contacts.{c.name}",
-                Phrase("what is drawn", value=drawn),
-                Phrase("correct a place a radius or the side"),
-            )
+            reading.say(where, Phrase("the wheel's axis lies on the pitch line"),
+                        Phrase("the distance of the two is the radius"))
 
 
 def rack_place(

@@ -21,7 +21,8 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.cams import SEAM, TURN, FollowerLaw, LawCam, Lift, SlidingFollower, SmoothPart
+from graphkin.scene.cams import LawCam, SlidingFollower
+from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, SmoothPart
 from graphkin.scene.tables import Units
 from graphkin.search import intervals, last_true
 from graphkin.solver.pose import Array, turned

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import at_time
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
 from graphkin.solver.drivers import Drive, goal_values, own_values

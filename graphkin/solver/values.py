@@ -305,10 +305,10 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     assert wanted is not None
     if not reach.driver.turns or not reach.full or len(reach.scene.drivers) > 1:
         raise _without(Phrase("the mechanism runs through no cycle one driver"), "leave [flywheel] out")
-    speed = _mean_speed(reach, wanted.link)
+    speed = _mean_speed(reach, wanted.on)
     if not speed:
         rests = not reach.driver.rate
-        found = Phrase("the driver rests") if rests else Phrase("link does not turn on and on", link=wanted.link)
+        found = Phrase("the driver rests") if rests else Phrase("link does not turn on and on", link=wanted.on)
         raise _without(found, Phrase("give it a speed") if rests else Phrase("put the flywheel on one that does"))
     edges = _panels(reach)
     work = _work(reach, edges[:-1], edges[1:])
@@ -326,7 +326,7 @@ def _found(reach: DriverRange) -> FlywheelStudy:
     excess = float(energy[high] - energy[low])
     inertia = excess / (wanted.delta * speed**2)
     return FlywheelStudy(
-        wanted.link, wanted.delta, driving, driving * cycle, areas, excess, float(places[low]), float(places[high]),
+        wanted.on, wanted.delta, driving, driving * cycle, areas, excess, float(places[low]), float(places[high]),
         speed, inertia,
     )  # fmt: skip
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import moves_by_law
 from graphkin.solver import Motion, driver_range, structure_of
 from graphkin.solver.motion import instant_centre
 

@@ -15,7 +15,7 @@ from numbers import Real
 
 from graphkin.errors import CallError, Problem, as_text
 from graphkin.files import OwnTables, Tables, opened, path_of
-from graphkin.scene.written import put
+from graphkin.scene.scene import put
 from graphkin.words import Phrase, from_others
 
 __all__ = ["Designs", "Value", "applied", "designs_of", "read_designs"]

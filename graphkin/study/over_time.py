@@ -14,8 +14,8 @@ from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box
 from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words
 from graphkin.files import Json
+from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
-from graphkin.scene.over_time import time_span
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
 from graphkin.study.diagram_panels import MARGIN, DiagramPanel, draw_panel, quantity_title, signs_of

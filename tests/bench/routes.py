@@ -17,7 +17,8 @@ import numpy as np
 import graphkin
 from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 from graphkin.scene import mechanism_of
-from graphkin.scene.source import library, written
+from graphkin.scene.files import library
+from graphkin.scene.scene import written
 from graphkin.study.designs import applied
 
 POSITIONS = 3

@@ -12,7 +12,8 @@ from graphkin.board.pictures import FigureOptions, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
-from graphkin.scene.source import library_text, mechanism_of
+from graphkin.scene.files import library_text
+from graphkin.scene.scene import mechanism_of
 
 pytestmark = pytest.mark.quick
 

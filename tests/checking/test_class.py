@@ -11,8 +11,9 @@ import graphkin
 from graphkin.errors import CallError
 from graphkin.papers.answer_key import answers_template
 from graphkin.scene import mechanism_of
-from graphkin.scene.source import written
-from graphkin.scene.spelling import Spelling, read_cell
+from graphkin.scene.asked import spelling_of
+from graphkin.scene.scene import written
+from graphkin.scene.spelling import read_cell
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Units
 from tests.command import run
@@ -41,12 +42,12 @@ def table(folder, text, **more):
     ],
 )  # fmt: skip
 def test_a_symbol_is_read_as_people_spell_it(text, symbol):
-    assert symbol == str(Spelling.of(mechanism_of(SIXBAR)).symbol(text))
+    assert symbol == str(spelling_of(mechanism_of(SIXBAR)).symbol(text))
 
 
 @pytest.mark.parametrize("text", ["name", "note", "student", "score", "v_Q", "id", "at"])
 def test_a_word_that_names_nothing_of_the_scene_is_no_symbol(text):
-    assert Spelling.of(mechanism_of(SIXBAR)).symbol(text) is None
+    assert spelling_of(mechanism_of(SIXBAR)).symbol(text) is None
 
 
 @pytest.mark.parametrize(

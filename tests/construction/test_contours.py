@@ -26,7 +26,7 @@ from graphkin.construction.polygon_acts import (
 )
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.scene import mechanism_of
-from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.sheet import Tools
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
 from tests.construction.test_groups import everything

@@ -21,7 +21,7 @@ from graphkin.construction.strokes import Aid, TrialCurve
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
-from graphkin.scene.sheet_tables import Tools
+from graphkin.scene.sheet import Tools
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING
 from tests.bench.digits import random_driven, worst

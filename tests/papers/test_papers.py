@@ -20,7 +20,7 @@ from graphkin.papers.pdf import can_typeset
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import solution
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.source import written
+from graphkin.scene.scene import written
 from tests import EVERYTHING
 
 

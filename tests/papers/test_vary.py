@@ -12,7 +12,7 @@ from graphkin.papers.fresh_numbers import Spread, candidate
 from graphkin.papers.problem import problem
 from graphkin.papers.variants import Unfit, examined
 from graphkin.papers.vary_rules import LEVELS, level_of
-from graphkin.scene.source import written
+from graphkin.scene.scene import written
 
 RULES = {
     "ranges": {"links.1.length": [38, 44], "driver.angle": [40, 80]},

@@ -12,7 +12,7 @@ from PIL import Image
 
 import graphkin
 from graphkin.errors import SceneError
-from graphkin.scene.source import mechanism_of
+from graphkin.scene.scene import mechanism_of
 
 pytestmark = pytest.mark.quick
 A, D = (30, 200), (180, 150)

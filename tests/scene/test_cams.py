@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import library_text, mechanism_of
-from graphkin.scene.cams import LAWS, FollowerLaw, LiftPiece
+from graphkin.scene.laws import LAWS, FollowerLaw, LiftPiece
 
 pytestmark = pytest.mark.quick
 

@@ -7,7 +7,7 @@ import tomllib
 import pytest
 
 from graphkin.scene import library, library_text, schema
-from graphkin.scene.form import table_at
+from graphkin.scene.scene_tables import SCENE
 
 from .scenes import FOUR_BAR, SIX_BAR, changed
 
@@ -95,4 +95,4 @@ def test_no_key_may_be_null() -> None:
     ("NoneType", ("links", "2", "points")),
 ])  # fmt: skip
 def test_the_table_at_a_place_follows_from_the_types_of_the_file(table, loc):
-    assert table == getattr(table_at(loc), "__name__", type(None).__name__)
+    assert table == getattr(SCENE.table_at(loc), "__name__", type(None).__name__)

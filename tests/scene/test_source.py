@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text, source
+from graphkin.scene import files as texts
+from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from tests.command import run
 
 from .scenes import FOUR_BAR
@@ -26,7 +27,7 @@ def sentence(source: object) -> str:
 
 def sentence_of_text(text: str) -> str:
     with pytest.raises(SceneError) as error:
-        source.parsed(text)
+        texts.parsed(text)
     return str(error.value)
 
 
@@ -185,7 +186,7 @@ def test_a_pipe_instead_of_a_file_is_told_and_not_waited_for(table: str, tmp_pat
     ],
 )  # fmt: skip
 def test_what_is_nested_deeply_is_not_parsed(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(source.tomllib, "loads", None)
+    monkeypatch.setattr(texts.tomllib, "loads", None)
     assert "the file: is nested too deeply" in sentence_of_text(text)
 
 
@@ -200,7 +201,7 @@ def test_what_is_nested_deeply_is_not_parsed(text: str, monkeypatch: pytest.Monk
     ],
 )  # fmt: skip
 def test_dots_and_brackets_in_texts_and_remarks_are_no_depth(text: str) -> None:
-    assert tomllib.loads(text) == source.parsed(text)
+    assert tomllib.loads(text) == texts.parsed(text)
 
 
 def test_a_mapping_that_holds_itself_is_one_sentence() -> None:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
-from graphkin.scene.mapping import as_mapping, toml_text
+from graphkin.scene.files import toml_text
+from graphkin.scene.scene_tables import as_mapping
 from graphkin.solver import solve
 
 

@@ -29,7 +29,7 @@ from graphkin import (
     Units,
 )
 from graphkin.scene import library
-from graphkin.scene.file_table import keys_of
+from graphkin.scene.tables import keys_of
 
 
 def crank(**other: object) -> Scene:

@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of
-from graphkin.scene.cams import Lift
+from graphkin.scene.laws import Lift
 from graphkin.solver.cams import cam_at, cam_with
 
 LAWS = ("parabolic", "harmonic", "cycloidal", "345", "4567")

@@ -32,7 +32,8 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, moved_piece
 from graphkin.drawing.text import plain, rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.cams import TURN, LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.cams import LawCam, SlidingFollower, SwingingFollower
+from graphkin.scene.laws import TURN
 from graphkin.scene.model import Mechanism
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word

@@ -35,7 +35,8 @@ from graphkin.drawing.ink.primitives import (
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError, Problem
 from graphkin.plane import added_up, cross, dot
-from graphkin.scene.cams import LawCam, SmoothPart
+from graphkin.scene.cams import LawCam
+from graphkin.scene.laws import SmoothPart
 from graphkin.solver.cams import cam_with
 from graphkin.words import Phrase
 

@@ -1,4 +1,4 @@
-"""Finding a scene: a file, the name of a scene that comes along, a text, or a mapping."""
+"""Scene files as texts: those that come along and those of a user, found and read; TOML as tables, tables as TOML."""
 
 from __future__ import annotations
 
@@ -8,30 +8,12 @@ import tomllib
 from collections.abc import Mapping
 from importlib.resources import files
 from importlib.resources.abc import Traversable
-from pathlib import Path
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables, opened
-from graphkin.scene.mapping import as_mapping
-from graphkin.scene.model import Mechanism
-from graphkin.scene.written import Scene, resolved
 from graphkin.words import Phrase, Wording, from_others
 
-__all__ = [
-    "SceneLike",
-    "file_text",
-    "files_named",
-    "library",
-    "library_text",
-    "mechanism_of",
-    "mechanism_of_text",
-    "parsed",
-    "read",
-    "written",
-]
-
-SceneLike = Scene | Mechanism | str | os.PathLike[str] | Tables
-"""A scene in any of its forms: built, read, a file, the name of one that comes along, or a mapping."""
+__all__ = ["LARGEST_FILE", "file_text", "files_named", "library", "library_text", "parsed", "toml_text"]
 
 LARGEST_FILE = 1_000_000
 DEEPEST = 16
@@ -65,78 +47,6 @@ def library_text(name: str) -> str:
     return (_shelf() / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def read(source: str | os.PathLike[str] | Tables) -> Scene:
-    """Read a scene.
-
-    Parameters
-    ----------
-    source : a path, the name of a scene that comes along, or what a TOML parser makes of a scene file
-
-    Raises
-    ------
-    SceneError : naming everything that is wrong with the scene, or that there is none
-
-    Examples
-    --------
-    >>> scene = read("slotter-75-150")
-    >>> faster = scene.replace("driver.rpm", 90)
-    >>> scene.driver.rpm, faster.driver.rpm
-    (60.0, 90.0)
-    """
-    return Scene.of(*written(source))
-
-
-def mechanism_of(source: SceneLike) -> Mechanism:
-    """What a scene says, in any of its forms: everything placed, in SI units.  Raises SceneError."""
-    if isinstance(source, Mechanism):
-        return source
-    return source.mechanism if isinstance(source, Scene) else resolved(*written(source))[1]
-
-
-def mechanism_of_text(text: str, name: str) -> Mechanism:
-    """What the text of a scene file says; ``name`` is the scene's name.  Raises SceneError."""
-    return resolved(parsed(text), name)[1]
-
-
-def written(source: SceneLike) -> tuple[OwnTables, str]:
-    """The mapping of a scene's file, as it was written where that is known, and the scene's name.
-
-    Raises
-    ------
-    SceneError : there is no such scene, or it is no TOML; what stands in it is not looked at
-    """
-    if isinstance(source, Mechanism):
-        return as_mapping(source), source.name
-    if isinstance(source, Scene):
-        return source.to_dict(), source.name
-    if isinstance(source, Mapping):
-        from graphkin.scene.reading import plain
-
-        return plain(source), "scene"
-    if isinstance(source, str | os.PathLike):
-        text = os.fspath(source)
-        if isinstance(text, str):
-            if "\n" in text and "=" in text:
-                raise SceneError(Problem(Phrase("the scene"), Phrase("found the text of a scene file instead"),
-                                         Phrase("save it as a file or give tomllib.loads")))
-            if isinstance(source, str) and text in library() and not _is_file(text):
-                return parsed(library_text(text)), text
-            return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
-    raise SceneError(Problem(Phrase("the scene"), Phrase("found a", name=type(source).__name__),
-                             Phrase("give a file the name of a scene")))
-
-
-def _beside(made: OwnTables, path: Path) -> OwnTables:
-    """The mapping of a file, with the places of the table and the picture that stand beside it."""
-    sheet = made.get("sheet")
-    scans = made.get("scans")
-    tables = [made.get("printed_table"), sheet.get("background") if isinstance(sheet, dict) else None]
-    for table in (*tables, *(scans.values() if isinstance(scans, dict) else ())):
-        if isinstance(table, dict) and isinstance(table.get("file"), str):
-            table["file"] = str(path.parent / table["file"])
-    return made
-
-
 def parsed(text: str) -> OwnTables:
     """The mapping of a TOML text.  Raises SceneError with the line that is wrong."""
     if len(text) > LARGEST_FILE:
@@ -152,11 +62,11 @@ def parsed(text: str) -> OwnTables:
         raise SceneError(deep) from None
     except ValueError as error:
         if "int_max_str_digits" in str(error):
-            raise SceneError(Problem(Phrase("the file"), Phrase("is not toml a number of thousands of"),
-                                     Phrase("no number of a scene may exceed 1e"))) from None
-        raise SceneError(
-            Problem(Phrase("the file"), Phrase("is not toml of message", message=error), Phrase("see https toml.io"))
-        ) from None
+            found = Phrase("is not toml a number of thousands of")
+            wanted = Phrase("no number of a scene may exceed 1e")
+            raise SceneError(Problem(Phrase("the file"), found, wanted)) from None
+        found = Phrase("is not toml of message", message=error)
+        raise SceneError(Problem(Phrase("the file"), found, Phrase("see https toml.io"))) from None
 
 
 def _depth(text: str) -> int:
@@ -176,13 +86,6 @@ def _depth(text: str) -> int:
     return most
 
 
-def _is_file(path: str) -> bool:
-    try:
-        return os.path.isfile(path)
-    except ValueError:
-        return False
-
-
 def file_text(path: str) -> str:
     """The text of a file.  Raises SceneError where there is no such text."""
     shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
@@ -195,28 +98,21 @@ def file_text(path: str) -> str:
         raise SceneError(_no_scene(path, shown)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise SceneError(
-            Problem(shown or Phrase("the scene"), Phrase("cannot be read", reason=from_others(reason)))
-        ) from None
+        found = Phrase("cannot be read", reason=from_others(reason))
+        raise SceneError(Problem(shown or Phrase("the scene"), found)) from None
     if len(data) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        raise SceneError(
-            Problem(
-                Phrase("line", line=line), Phrase("is not utf-8 text"), Phrase("a scene file is toml saved as utf-8")
-            )
-        ) from None
+        wanted = Phrase("a scene file is toml saved as utf-8")
+        raise SceneError(Problem(Phrase("line", line=line), Phrase("is not utf-8 text"), wanted)) from None
 
 
 def _too_large() -> Problem:
-    return Problem(
-        Phrase("the file"),
-        Phrase("is larger than kb", largest=LARGEST_FILE // 1000),
-        Phrase("a scene file is one mechanism as toml"),
-    )
+    found = Phrase("is larger than kb", largest=LARGEST_FILE // 1000)
+    return Problem(Phrase("the file"), found, Phrase("a scene file is one mechanism as toml"))
 
 
 def _no_scene(name: str, shown: str = "") -> Problem:
@@ -253,3 +149,58 @@ def _toml_hint(message: str, line: str) -> Wording:
     if "Invalid value" in message:
         return Phrase("texts and names stand in quotation marks numbers")
     return Phrase("write key value numbers with a point texts")
+
+
+def toml_text(mapping: Tables) -> str:
+    """The text of a scene file from its mapping; reading it gives the mapping again.
+
+    >>> print(toml_text({"title": "A", "links": {"1": {"points": ["A", "B"], "length": 2.0}}}), end="")
+    title = "A"
+    <BLANKLINE>
+    [links.1]
+    points = ["A", "B"]
+    length = 2
+    """
+    import tomlkit
+    from tomlkit.items import Table
+
+    def value(given: object) -> object:
+        if isinstance(given, Mapping):
+            inline = tomlkit.inline_table()
+            for key, item in given.items():
+                inline.append(key, value(item))
+            return inline
+        if isinstance(given, list | tuple):
+            return [value(item) for item in given]
+        return int(given) if isinstance(given, float) and given.is_integer() and abs(given) < 1e15 else given
+
+    def table(given: Tables) -> Table:
+        made = tomlkit.table()
+        for key, item in given.items():
+            made.append(key, value(item))
+        return made
+
+    text = tomlkit.document()
+    for key in sorted(mapping, key=lambda key: _is_table(mapping[key])):  # tables come after what stands alone
+        given = mapping[key]
+        if key in ("links", "pins", "contacts", "gears", "cams") and _is_table(given):
+            made = tomlkit.table(is_super_table=True)
+            for name, item in given.items():
+                made.append(name, table(item))
+            text.append(key, made)
+        elif isinstance(given, Mapping):
+            text.append(key, table(given))
+        elif _is_table(given):
+            several = tomlkit.aot()
+            for item in given:
+                several.append(table(item))
+            text.append(key, several)
+        else:
+            text.append(key, value(given))
+    return text.as_string()
+
+
+def _is_table(value: object) -> bool:
+    return isinstance(value, Mapping) or (
+        isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
+    )

@@ -1,0 +1,283 @@
+"""What a scene file asks for, what was published about it, and the positions and loops that it names."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from decimal import Decimal
+from typing import Annotated, Literal
+
+from pydantic import Tag
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.scene.bodies import Reading
+from graphkin.scene.form import path_name
+from graphkin.scene.model import Mechanism, NamedPositions, OnStroke, StatedValues
+from graphkin.scene.printed import Printed, stated
+from graphkin.scene.spelling import Spelling, read_cell, unit_factor
+from graphkin.scene.symbol import Symbol, missing_names
+from graphkin.scene.tables import (
+    Count,
+    FileTable,
+    Number,
+    PositionName,
+    Share,
+    ShownName,
+    SlideRef,
+    Text,
+    Units,
+    forms,
+    key,
+    table,
+)
+from graphkin.words import Phrase
+
+__all__ = [
+    "Positions", "PrintedTable", "StrokeStart", "asked", "loops_named", "names_of_positions", "positions_named",
+    "spelling_of", "stated_values",
+]  # fmt: skip
+
+BY = ("drawing", "computation")
+Stated = float | str | Sequence[float]
+
+
+@table
+class StrokeStart(FileTable):
+    """A place on the stroke of a slide."""
+
+    stroke: SlideRef = key('The sliding pair: "5/6".')
+    at: Share = key("Part of the stroke that is done, 0 to 1.", default=0.0)
+    sense: Literal[1, -1] = key("1: of the stroke that goes along the guide's sense, -1: against it.", default=1)
+
+
+Start = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
+    forms("write a driver value or stroke 5 6"),
+]
+
+
+@table
+class Positions(FileTable):
+    """Positions with names."""
+
+    count: Count | None = key(
+        "So many positions over a turn, numbered from 1 in the sense of the driver.", default=None
+    )
+    first: Start | None = key(
+        "Position 1: a driver value, or the start of a stroke; the driver's own value.", default=None
+    )
+    also: dict[PositionName, Start] = key(
+        "Further positions by name, each a driver value or a place of a stroke.", closed=True, default_factory=dict
+    )
+    show: tuple[ShownName, ...] = key(
+        'On the figure: "limits", "all", or names of positions.', default=("limits", "all")
+    )
+    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = key(
+        "What is drawn and dimensioned there.", default=("theta", "stroke", "K", "gamma")
+    )
+
+
+@table
+class PrintedTable(FileTable):
+    """A table of published values in a file beside the scene."""
+
+    file: Text = key("A CSV file: heads are symbols, one column is called at.")
+    by: Literal["drawing", "computation"] = key(
+        "How the values were found; computed ones are judged by their digits.", default="drawing"
+    )
+
+
+# -- quantities --------------------------------------------------------------------------------------------------------
+
+
+def _symbol(where: str, text: str, reading: Reading, positions: Sequence[str]) -> Symbol | Problem:
+    """A symbol whose points, links and position exist, or what is wrong with it."""
+    try:
+        symbol = Symbol.parse(text[:120])
+    except ValueError as error:
+        return Problem(where, error.args[0])
+    missing = missing_names(symbol, lambda link: reading.no_link(where, link),
+                            lambda point: reading.no_point(where, point), reading.points)  # fmt: skip
+    if missing:
+        return missing[0]
+    if symbol.at and symbol.at not in positions:
+        wanted = did_you_mean(symbol.at, positions) if positions else Phrase("name positions in positions")
+        return Problem(where, Phrase("there is no position", at=symbol.at), wanted)
+    if symbol.of is None:
+        return symbol
+    if symbol.to == symbol.of:
+        return Problem(where, Phrase("is relative to itself", text=text), Phrase("name two different points"))
+    if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
+        wanted = Phrase("it is between coincident points of two links", kind=symbol.kind)
+        return Problem(where, Phrase("names two different points", text=text), wanted)
+    return symbol
+
+
+def spelling_of(scene: Mechanism) -> Spelling:
+    """What reads the names of a scene's quantities as people write them."""
+    points = {link.name: tuple(link.points) for link in (scene.frame, *scene.links)}
+    return Spelling.by_link(points, scene.units, [contact.name for contact in scene.contacts])
+
+
+def asked(find: Sequence[str], reading: Reading, positions: Sequence[str]) -> tuple[Symbol, ...]:
+    """The symbols of ``find``, each once, in its order; what is wrong with them is noted.
+
+    ``positions`` are the names of the file's positions.
+    """
+    found = [_symbol(path_name(("find", text)), text, reading, positions) for text in find]
+    reading.wrong(*(s for s in found if isinstance(s, Problem)))
+    return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
+
+
+def stated_values(
+    printed: Mapping[str, Stated], rows: Sequence[Mapping[str, Stated]], csv: PrintedTable | None, reading: Reading,
+    positions: Sequence[str],
+) -> tuple[StatedValues, ...]:  # fmt: skip
+    """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; what
+    is wrong with them is noted."""
+    spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
+    found = []
+
+    def how(table: str, by: object) -> Literal["drawing", "computation"] | None:
+        if by not in BY:
+            reading.say(f"{table}.by", Phrase("found value", value=f"{by!r:.40}"),
+                        Phrase("one of drawing computation is possible"))
+            return None
+        return "computation" if by == "computation" else "drawing"
+
+    usual = how("printed", printed.get("by", "drawing")) or "drawing"
+    own = _values("printed", printed, reading, positions, spelling)
+    if own:
+        found.append(StatedValues(None, own, usual))
+    for number, row in enumerate(rows, 1):
+        where, at = f"printed_rows.{number}", row.get("at")
+        if not isinstance(at, int | float | str):
+            said = Phrase("is missing") if at is None else Phrase("is two numbers")
+            reading.say(f"{where}.at", said, Phrase("write the driver's value or the name of"))
+        elif isinstance(at, str) and at not in positions:
+            unnamed = Phrase("name positions in positions or write a driver")
+            wanted = did_you_mean(at, positions) if positions else unnamed
+            reading.say(f"{where}.at", Phrase("there is no position", at=at), wanted)
+        elif by := how(where, row.get("by", usual)):
+            found.append(StatedValues(at, _values(where, row, reading, positions, spelling), by))
+    if csv is not None:
+        found.append(StatedValues(None, {}, csv.by, csv.file))
+    return tuple(found)
+
+
+def _values(
+    table: str, values: Mapping[str, Stated], reading: Reading, positions: Sequence[str], spelling: Spelling
+) -> dict[Symbol, Printed]:
+    """Stated values by symbol, each as a number or as people write it in a cell (``"0.483 m/s"``, ``"2.82 cw"``).
+
+    A name that is no symbol may be one as people spell it, with a unit (``ω₃``, ``"v_B (m/s)"``).
+    """
+    found: dict[Symbol, Printed] = {}
+    for text, value in values.items():
+        if text in ("by", "at"):
+            continue
+        where = path_name((*table.split("."), text))
+        symbol, unit = _symbol(where, text, reading, positions), ""
+        if isinstance(symbol, Problem):
+            name, unit = spelling.head(text)
+            meant = spelling.symbol(name)
+            symbol = symbol if meant is None else _symbol(where, str(meant), reading, positions)
+        if isinstance(symbol, Problem):
+            reading.wrong(symbol)
+        elif symbol in found:
+            reading.say(where, Phrase("is given twice", symbol=symbol), Phrase("give it once"))
+        elif not isinstance(value, int | float | str) and not symbol.is_vector:
+            reading.say(where, Phrase("found two numbers"), Phrase("it is one number no vector"))
+        else:
+            try:
+                found[symbol] = _printed(symbol, value, unit, reading.units)
+            except ValueError as error:
+                like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
+                reading.say(where, error.args[0], Phrase("write a number its digits as printed 1.0", example=like))
+    return found
+
+
+def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
+    """One stated value.  Raises ValueError for a text that is none."""
+    if isinstance(value, str):
+        plain = value.strip()
+        read = read_cell(plain, symbol, units, unit)
+        bare = plain.replace("\u2212", "-") in read.texts and not unit  # nothing but digits, in scene units
+        return replace(read, shown="") if bare else read
+    texts = [_digits_of(value)] if isinstance(value, int | float) else [_digits_of(part) for part in value]
+    return stated(symbol, texts, units, unit_factor(unit, symbol, units) if unit else None)
+
+
+def _digits_of(number: float) -> str:
+    """The text of a number that lost its last zeros in a file or a computation; nobody prints more than 12 digits."""
+    text = f"{number:.12g}"
+    tiny = abs(number) < 1e-12  # written out it would be longer than a number may be
+    return text if "e" not in text or tiny or not math.isfinite(number) else format(Decimal(text), "f")
+
+
+# -- positions and loops -----------------------------------------------------------------------------------------------
+
+
+def names_of_positions(table: Positions | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The names of the numbered positions and of the others."""
+    if table is None:
+        return (), ()
+    return tuple(str(k) for k in range(1, (table.count or 0) + 1)), tuple(table.also)
+
+
+def positions_named(
+    table: Positions | None, reading: Reading, pairs: Sequence[str], slides: bool, by_law: bool
+) -> NamedPositions | None:
+    """The positions that a scene names; what is wrong with them is noted.
+
+    Parameters
+    ----------
+    pairs : keys of the sliding pairs and pins in slots
+    slides : whether the first driver slides
+    by_law : whether a driver moves by a law
+    """
+    if table is None:
+        return None
+    if by_law:
+        reading.say("positions", Phrase("stand beside a driver with a law"), Phrase("name a moment at time 0.25"))
+    if slides and (table.count or table.first is not None):
+        reading.say(f"positions.{'count' if table.count else 'first'}", Phrase("the driver slides it makes no turn"),
+                    Phrase("name its positions in positions.also by travel"))
+
+    def place(where: str, value: float | StrokeStart) -> float | OnStroke:
+        if not isinstance(value, StrokeStart):
+            return value * reading.metres if slides else math.radians(value)
+        if value.stroke not in pairs:
+            reading.say(f"{where}.stroke", Phrase("there is no sliding pair of stroke", stroke=value.stroke),
+                        did_you_mean(value.stroke, pairs))
+        if slides:
+            reading.say(where, Phrase("the driver slides there is no stroke of"), Phrase("give a travel"))
+        return OnStroke(value.stroke, value.at, value.sense)
+
+    first = None if table.first is None else place("positions.first", table.first)
+    also = {name: place(f"positions.also.{name}", value) for name, value in table.also.items()}
+    numbered, others = names_of_positions(table)
+    for name in others:
+        if name in numbered:
+            reading.say(f"positions.also.{name}", Phrase("is one of the numbered ones", count=len(numbered)),
+                        Phrase("give it another name"))
+    show = tuple(map(str, table.show))
+    known = ("limits", "all", *numbered, *others)
+    for name in show:
+        if name not in known:
+            reading.say("positions.show", Phrase("there is no position", at=name), did_you_mean(name, known))
+    return NamedPositions(len(numbered), first, also, show, tuple(table.marks))
+
+
+def loops_named(loops: Mapping[str, Sequence[str]], reading: Reading) -> dict[str, tuple[str, ...]]:
+    """The vector loops that a scene names; what is wrong with their points is noted."""
+    for name, points in loops.items():
+        where = f"loops.{name}"
+        reading.wrong(*(reading.no_point(where, point) for point in points))
+        if len(points) < 3:
+            wanted = Phrase("a loop goes through three points or more")
+            reading.say(where, Phrase("has points", count=len(points)), wanted)
+        elif len(set(points)) < len(points):
+            reading.say(where, Phrase("comes twice to one point"), Phrase("name each point once it closes by itself"))
+    return {name: tuple(points) for name, points in loops.items()}

@@ -1,0 +1,439 @@
+"""What drives a mechanism, as a scene file has it: an angle or a travel, its rates, or the law by which it moves over
+the time; and how a mechanism stands at a moment of such laws.
+
+With ``from = "dead point"`` a driver's angle or travel is the distance from a dead point of the mechanism, given
+without loss however small it is: positive beyond a dead point at which the motion begins (as the driver's value grows),
+negative before one where it ends; at a change point, through which the motion goes on, either.  ``near`` (degrees, or
+travel) tells which one is meant where there are several.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Annotated, Literal
+
+from pydantic import Discriminator, Tag
+
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.scene import model
+from graphkin.scene.bodies import Reading
+from graphkin.scene.laws import DriverLaw, MotionLaw, motion_law, stated_motion
+from graphkin.scene.model import FromDeadPoint, Mechanism, PinInSlot, SlidingPair
+from graphkin.scene.tables import (
+    SMALLEST,
+    FileTable,
+    LinkName,
+    List,
+    Number,
+    PointName,
+    ShownName,
+    SlideRef,
+    Units,
+    form_of_driver,
+    form_of_list,
+    in_si,
+    key,
+    table,
+)
+from graphkin.words import Phrase, alternatives
+
+__all__ = [
+    "DrivenSlide", "Driver", "Drivers", "asked_time", "at_time", "drives", "moments", "moves_by_law", "placed_driver",
+    "stated_driver", "time_span",
+]  # fmt: skip
+
+
+@table
+class Driver(FileTable):
+    """A driven angle."""
+
+    link: LinkName = key("The driven link.")
+    angle: Number | None = key(
+        "Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None
+    )
+    omega: Number | None = key("rad/s, counter-clockwise positive.", unit="angular velocity", default=None)
+    rpm: Number | None = key("Instead of omega: turns per minute.", default=None)
+    speed: Number | None = key(
+        "Instead of omega: the speed of the point named by of, with the sign of the driver's turning.",
+        unit="velocity", default=None,
+    )  # fmt: skip
+    of: PointName | None = key("The point whose speed is given.", default=None)
+    alpha: Number = key("rad/s2.", unit="angular acceleration", default=0.0)
+    sense: Literal["clockwise", "counter-clockwise"] | None = key(
+        "The sense of omega, rpm or speed, which then is a size, and in which alpha counts.", default=None
+    )
+    relative_to: LinkName | None = key("Angle from this link's own axis, not the frame's.", default=None)
+    origin: Literal["dead point"] | None = key(
+        '"dead point": the angle counts from a dead point of the mechanism.', name="from", default=None
+    )
+    near: Number | None = key("Degrees: which dead point, where there are several.", unit="angle", default=None)
+    position: ShownName | None = key("Instead of angle: the name of a position of [positions].", default=None)
+    law: DriverLaw | None = key("Instead of omega and alpha: how the driver moves over the time.", default=None)
+    time: Number | None = key("Instead of angle: the moment of the law that is asked, in s.", default=None)
+
+
+@table
+class DrivenSlide(FileTable):
+    """A driven sliding pair."""
+
+    slide: SlideRef = key('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").')
+    travel: Number | None = key(
+        "From the guide's origin to the sliding link's own; may be left out with [drawn].", unit="length", default=None
+    )
+    velocity: Number | None = key("Unit of speed, along the guide's sense.", unit="velocity", default=None)
+    acceleration: Number = key(
+        "Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0
+    )
+    relative_to: LinkName | None = key("The guiding link, where there are two.", default=None)
+    origin: Literal["dead point"] | None = key(
+        '"dead point": the travel counts from a dead point of the mechanism.', name="from", default=None
+    )
+    near: Number | None = key("Travel: which dead point, where there are several.", unit="length", default=None)
+    law: DriverLaw | None = key(
+        "Instead of velocity and acceleration: how the driver moves over the time.", default=None
+    )
+    time: Number | None = key("Instead of travel: the moment of the law that is asked, in s.", default=None)
+
+
+OneDriver = Annotated[
+    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(form_of_driver)
+]
+Drivers = Annotated[
+    Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")], Discriminator(form_of_list)
+]
+
+# -- reading -----------------------------------------------------------------------------------------------------------
+
+
+def drives(
+    tables: Mapping[str, Driver | DrivenSlide], reading: Reading, slidings: tuple[SlidingPair, ...],
+    pins: tuple[PinInSlot, ...], drawn: bool, numbered: Sequence[str], also: Sequence[str], first: bool,
+) -> dict[str, model.Driver]:  # fmt: skip
+    """The drivers of the file by their places in it; what is wrong with them is noted.
+
+    The value of one that is to be taken from the drawn points, or from a named position, is not a number.
+
+    Parameters
+    ----------
+    drawn : whether the file draws points
+    numbered, also : names of the file's positions
+    first : whether the file says where the first of the numbered ones lies
+    """
+    found: dict[str, model.Driver] = {}
+    several = "driver" not in tables
+    for i, (where, own) in enumerate(tables.items()):
+        before = len(reading.problems)
+        there = (p for p in reading.flaws.paths if p[0] == "driver" and (not several or p[1:2] == (i,)))
+        lost = {str(p[-1]) for p in there}
+        if isinstance(own, Driver):
+            name, base = own.link, own.relative_to or reading.frame.name
+            reading.wrong(*_angle_problems(where, own, reading, lost, len(tables) > 1))
+            if own.position is not None:
+                reading.wrong(*_position_problems(where, i, own, numbered, also, first, drawn))
+        else:
+            name, base = _pair_of(where, own, reading, slidings, pins, lost), ""
+        law = _law(where, own, reading)
+        reading.wrong(*_origin_problems(where, own, len(tables) > 1, drawn),
+                      *_driven_twice(where, name, base, found), *_too_slow(where, own))
+        if len(reading.problems) > before or lost & {"angle", "travel", "law", "time"}:
+            continue
+        si = in_si(own, reading.units)
+        value = si.angle if isinstance(si, Driver) else si.travel
+        dead = None if own.origin is None or value is None else FromDeadPoint(value, si.near)
+        if law is not None and own.time is not None:
+            value = law.at(law.time).lift
+        value = math.nan if value is None else value
+        if isinstance(si, Driver):
+            sign = -1.0 if si.sense == "clockwise" else 1.0
+            omega = sign * (si.omega if si.omega is not None else (si.rpm or 0.0) * math.pi / 30)
+            rpm = None if si.rpm is None else sign * si.rpm
+            speed = (si.of, sign * si.speed) if si.speed is not None and si.of is not None else None
+            position = "" if si.position is None else str(si.position)
+            found[where] = model.Driver(
+                name, base, value, omega + 0.0, sign * si.alpha + 0.0, "", dead, position, rpm, speed, law
+            )
+        else:
+            ends = {**{p.key: (p.key, p.on) for p in pins}, **{s.key: (s.link, s.on) for s in slidings}}
+            sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
+            found[where] = model.Driver(
+                sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law
+            )
+    return found
+
+
+def _law(where: str, own: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
+    """How a driver moves over the time, at the moment that the file asks."""
+    if own.law is None:
+        if own.time is not None:
+            reading.say(f"{where}.time", Phrase("tells the moment of a law"), Phrase("write law with it"))
+        return None
+    value, given = ("angle", own.angle) if isinstance(own, Driver) else ("travel", own.travel)
+    for name in ("omega", "rpm", "speed", "velocity", "alpha", "acceleration", "sense", "position", "origin"):
+        there = getattr(own, name, None)
+        if there is not None and not (name in ("alpha", "acceleration") and not there):
+            reading.say(f"{where}.{'from' if name == 'origin' else name}", Phrase("stands beside law"),
+                        Phrase("the law gives it leave one of them"))
+    if own.time is not None and given is not None:
+        reading.say(f"{where}.time", Phrase("stands beside", value=value), Phrase("write one of the two"))
+    unit = math.pi / 180 if value == "angle" else reading.metres
+    law = motion_law(f"{where}.law", own.law, unit, reading.problems)
+    if law is None or own.time is None:
+        return law
+    if not law.pieces[0].start <= own.time <= law.duration:
+        reading.say(f"{where}.time", Phrase("found value", value=f"{own.time:g}"),
+                    Phrase("the law goes from to s", start=f"{law.pieces[0].start:g}", duration=f"{law.duration:g}"))
+    return replace(law, time=own.time)
+
+
+def _too_slow(where: str, own: Driver | DrivenSlide) -> Iterator[Problem]:
+    for name in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
+        rate = getattr(own, name, None)
+        if rate and abs(rate) < SMALLEST:
+            yield Problem(f"{where}.{name}", Phrase("found value", value=f"{rate:g}"),
+                          Phrase("write 0 or at least", smallest=f"{SMALLEST:g}"))
+
+
+def _origin_problems(where: str, own: Driver | DrivenSlide, several: bool, drawn: bool) -> Iterator[Problem]:
+    what, value = ("angle", own.angle) if isinstance(own, Driver) else ("travel", own.travel)
+    if own.origin is None:
+        if own.near is not None:
+            yield Problem(f"{where}.near", Phrase("tells which dead point"), Phrase("write from dead point with it"))
+        return
+    if value is None or value == 0.0:
+        found = Phrase("is missing") if value is None else Phrase("0 is the dead point itself")
+        yield Problem(f"{where}.{what}", found, Phrase("write the distance from the dead point"))
+    if several:
+        yield Problem(f"{where}.from", Phrase("a dead point is found for a single"), Phrase("give the value itself"))
+    if drawn:
+        yield Problem(f"{where}.from", Phrase("with drawn the value of the driver follows"),
+                      Phrase("leave one of the two out"))
+
+
+def _angle_problems(
+    where: str, own: Driver, reading: Reading, lost: set[str], several: bool
+) -> Iterator[Problem]:
+    """What is wrong with a driven angle of which the keys ``lost`` were taken out."""
+    links, frame = reading.links, reading.frame.name
+    for name, link in (("link", own.link), ("relative_to", own.relative_to)):
+        if link is None:
+            continue
+        missing = reading.no_link(f"{where}.{name}", link, moving=name == "link")
+        if missing:
+            yield missing
+        elif link in links and links[link].redundant:
+            yield Problem(
+                f"{where}.{name}", Phrase("link is redundant", what=link), Phrase("drive by a link that counts")
+            )
+    if own.link == frame and own.link not in links:
+        yield Problem(f"{where}.link", Phrase("link is the frame", name=own.link),
+                      Phrase("drive a moving link", moving=", ".join(list(links)[:12])))
+    if own.relative_to == own.link:
+        yield Problem(f"{where}.relative_to", Phrase("link is driven relative to itself", link=own.link),
+                      Phrase("name another link or leave it out for"))
+    rates = {name: rate for name in ("omega", "rpm", "speed") if (rate := getattr(own, name)) is not None}
+    if "omega" in rates and "rpm" in rates:
+        yield Problem(f"{where}.omega", Phrase("found omega and rpm", omega=f"{own.omega:g}", rpm=f"{own.rpm:g}"),
+                      Phrase("write one of the two"))
+    for other, rate in rates.items():
+        if "speed" in rates and other != "speed":
+            found = Phrase("found speed and", speed=f"{own.speed:g}", other=other, rate=f"{rate:g}")
+            yield Problem(f"{where}.speed", found, Phrase("write one of the two"))
+    if "speed" in rates and own.of is None and "of" not in lost:
+        yield Problem(f"{where}.of", Phrase("is missing"), Phrase("write of b the point whose speed it"))
+    if own.of is not None:
+        if "speed" not in rates and "speed" not in lost:
+            said = Phrase("names a point whose speed is not given")
+            yield Problem(f"{where}.of", said, Phrase("write speed or leave it out"))
+        moving_points = [p for n, points in reading.points.items() if n != frame for p in points]
+        if own.of not in moving_points and not reading.unsure:
+            wanted = did_you_mean(own.of, moving_points)
+            yield Problem(f"{where}.of", Phrase("no moving link has a point", name=own.of), wanted)
+        if several:
+            yield Problem(f"{where}.speed", Phrase("the speed of a point tells the rate"), Phrase("give omega"))
+    for name, rate in rates.items():
+        if own.sense is not None and rate < 0:
+            yield Problem(f"{where}.{name}", Phrase("found beside the sense", rate=f"{rate:g}", sense=own.sense),
+                          Phrase("with sense write the size or leave sense"))
+    if not rates and own.law is None and not lost & {"omega", "rpm", "speed", "law"}:
+        yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
+
+
+def _position_problems(
+    where: str, i: int, own: Driver, numbered: Sequence[str], also: Sequence[str], first: bool, drawn: bool
+) -> Iterator[Problem]:
+    """What is wrong with a driver that names its position; the parameters are those of `drives`."""
+    named, here = str(own.position), f"{where}.position"
+    known = [*numbered, *also]
+    if i > 0:
+        yield Problem(here, Phrase("positions are those of the first driver"), Phrase("give the angle"))
+    elif named not in known:
+        wanted = did_you_mean(named, known) if known else Phrase("name it in positions")
+        yield Problem(here, Phrase("there is no position", at=own.position), wanted)
+    elif not first and named not in also:
+        said = Phrase("the numbered positions count from the driver's own")
+        yield Problem(here, said, Phrase("write positions.first or the angle"))
+    if own.angle is not None:
+        yield Problem(here, Phrase("found angle too", angle=f"{own.angle:g}"), Phrase("write one of the two"))
+    if own.origin is not None or drawn:
+        said = Phrase("what gives the driver's value stands here twice")
+        yield Problem(here, said, Phrase("leave one of them out"))
+
+
+def _pair_of(
+    where: str, own: DrivenSlide, reading: Reading, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
+    lost: set[str],
+) -> str:  # fmt: skip
+    """The key of the pair that a table drives, as far as it is known; what is wrong with it is noted."""
+    if own.velocity is None and own.law is None and not lost & {"velocity", "law"}:
+        reading.say(f"{where}.velocity", Phrase("is missing"), Phrase("write velocity per second it may be 0"))
+    what, _, on = own.slide.partition("/")
+    pairs = {p.key: p.on for p in slidings if p.link == what} or {p.key: p.on for p in pins if p.point == what}
+    keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (own.relative_to or rail)]
+    known = [p.key for p in slidings] + [p.key for p in pins]
+    meant, link, here = keys[0] if len(keys) == 1 else own.slide, reading.links.get(what), f"{where}.slide"
+    if "" in reading.unsure or (link is not None and link.on is not None and not pairs):
+        return meant  # its pair has a problem of its own
+    if not pairs and what not in reading.points:
+        reading.say(here, Phrase("there is no sliding link", what=what), did_you_mean(what, known))
+    elif not pairs:
+        drive = Phrase("drive a sliding pair", pairs=", ".join(known)) if known else Phrase("there is no sliding pair")
+        reading.say(here, Phrase("link slides on nothing", what=what), drive)
+    elif not keys:
+        name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", own.relative_to)
+        reading.say(f"{where}.{name}", Phrase("does not slide on link", what=what, name=rail),
+                    Phrase("it may be", names=alternatives(pairs)))
+    elif len(keys) > 1:
+        reading.say(here, Phrase("slides on links", what=what, count=len(keys)),
+                    Phrase("write a key", names=alternatives([f'"{pair}"' for pair in keys])))
+    if link is not None and link.redundant:
+        reading.say(here, Phrase("link is redundant", what=what), Phrase("drive by a link that counts"))
+    return meant
+
+
+def _driven_twice(where: str, name: str, base: str, found: Mapping[str, model.Driver]) -> list[Problem]:
+    """What a driver does that another does already; ``base`` is "" of a travel."""
+    for place, other in found.items():
+        if other.key == name:
+            what = Phrase("link of name", name=name) if base else name
+            again = base and not (other.turns and other.relative_to == base)
+            hint = Phrase("write the second as link relative_to", base=base, key=name) if again else ""
+            said = Phrase("is driven by already", what=what, where=place)
+            return [Problem(where, said, hint or Phrase("leave one of them out"))]
+        if base and other.turns and {name, base} == {*other.links}:
+            said = Phrase("the angle between links and is driven by", key=name, base=base, where=place)
+            return [Problem(where, said, Phrase("leave one of them out"))]
+    return []
+
+
+def placed_driver(
+    where: str, driver: model.Driver, value: float, metres: float, problems: list[Problem]
+) -> model.Driver:
+    """The driver with its value, and the rates that its law gives it there; what is wrong is added to ``problems``.
+
+    Parameters
+    ----------
+    value : what the file or its drawn points give (rad, m); not a number where they give none
+    metres : one length unit of the file
+    """
+    if driver.position:  # its value is found where the positions are known
+        return replace(driver, value=0.0)
+    name, law = "angle" if driver.turns else "travel", driver.law
+    if math.isnan(value):
+        if law is not None:
+            wanted = Phrase("write time in s or the angle" if driver.turns else "write time in s or the travel")
+        elif driver.turns:
+            wanted = Phrase("write angle in degrees or draw two points", key=driver.key)
+        else:
+            wanted = Phrase("write travel or draw the points that give")
+        problems.append(Problem(f"{where}.{name}", Phrase("is missing"), wanted))
+        return driver
+    driver = replace(driver, value=value)
+    if law is None:
+        return driver
+    if abs(law.at(law.time).lift - value) > 1e-12 * max(map(abs, law.span)):
+        time = law.reached(value)  # where no moment is asked, the first at which it comes there
+        if time is None:
+            unit = math.pi / 180 if driver.turns else metres
+            low, high = (f"{end / unit:.6g}" for end in law.span)
+            wanted = Phrase("the law goes from to", least=low, greatest=high, turns=" deg" * driver.turns)
+            problems.append(Problem(f"{where}.{name}", Phrase("found value", value=f"{value / unit:.6g}"), wanted))
+            return driver
+        law = replace(law, time=time)
+    return driver.moving(law)
+
+
+def stated_driver(driver: model.Driver, frame: str, units: Units) -> Driver | DrivenSlide:
+    """The table of a driver, in SI but for its law."""
+    law, time = None, None
+    if driver.law is not None:
+        law, time = stated_motion(driver.law, units.of(driver.measure).si), driver.law.time
+    if driver.turns:
+        base = None if driver.relative_to == frame else driver.relative_to
+        if law is not None:
+            return Driver(driver.link, relative_to=base, law=law, time=time)
+        of, speed = driver.given_speed or (None, None)
+        omega = driver.rate if driver.given_speed is None else None
+        return Driver(driver.link, driver.value, omega, speed=speed, of=of, alpha=driver.second, relative_to=base)
+    if law is not None:
+        return DrivenSlide(driver.key, law=law, time=time)
+    return DrivenSlide(driver.key, driver.value, driver.rate, driver.second)
+
+
+# -- over the time -----------------------------------------------------------------------------------------------------
+
+
+def moves_by_law(scene: Mechanism) -> bool:
+    """Whether a driver moves by a law over the time."""
+    return any(d.law is not None for d in scene.drivers)
+
+
+def asked_time(scene: Mechanism) -> float:
+    """The moment (s) at which the scene stands as it is: that of its first law."""
+    return next((d.law.time for d in scene.drivers if d.law is not None), 0.0)
+
+
+def time_span(scene: Mechanism) -> tuple[float, float]:
+    """The moments (s) from which and to which laws say how drivers move."""
+    laws = [d.law for d in scene.drivers if d.law is not None]
+    return min(law.pieces[0].start for law in laws), max(law.duration for law in laws)
+
+
+def moments(scene: Mechanism, count: int) -> tuple[float, ...]:
+    """So many moments (s), evenly from the beginning of the laws to their end."""
+    low, high = time_span(scene)
+    return (*(low + (high - low) * k / max(count - 1, 1) for k in range(count - 1)), high)
+
+
+def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]:
+    """The scene with the rates of its drivers at a moment (s), and their values (rad, m) by their keys.
+
+    A driver without a law goes on from its own value, at the moment that the scene asks, with its omega and alpha.
+
+    Raises
+    ------
+    CallError : a moment before or after all laws
+    """
+    low, high = time_span(scene)
+    if not low <= time <= high:
+        raise CallError(
+            Problem(
+                "at time",
+                Phrase("found s", time=f"{time:g}"),
+                Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}"),
+            )
+        )
+    drivers: list[model.Driver] = []
+    values: dict[str, float] = {}
+    since = time - asked_time(scene)
+    for driver in scene.drivers:
+        if driver.law is not None:
+            values[driver.key] = driver.law.at(time).lift
+            drivers.append(driver.moving(replace(driver.law, time=time)))
+            continue
+        value, rate, second = driver.values
+        values[driver.key] = value + since * (rate + since * second / 2)
+        now = rate + since * second
+        drivers.append(driver if now == rate else replace(driver, rate=now))
+    return replace(scene, drivers=tuple(drivers)), values

@@ -1,0 +1,533 @@
+"""Laws of motion, piece by piece, with their derivatives: the lift of a cam's follower over the angle of the cam, and
+the value of a driver over the time; as a scene file has them, and as functions, in SI units.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from types import ModuleType
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+
+from pydantic import Field as Rule
+
+from graphkin.errors import Problem
+from graphkin.plane import Values
+from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, key, table, tidy
+from graphkin.words import Phrase, Wording
+
+__all__ = [
+    "LAWS", "SEAM", "TURN", "CubicPart", "DriverLaw", "FollowerLaw", "LawPiece", "Lift", "LiftPiece", "MotionLaw",
+    "SmoothPart", "TimePiece", "follower_law", "form_of", "motion_law", "stated_motion", "stated_pieces",
+]  # fmt: skip
+
+ROUNDING = 1e-12
+"""Of the way: so much nearer a value is reached."""
+HALVINGS = 200
+NOTHING = 1e-14
+"""Of the way by the time, and by its square: a smaller rate is nothing but rounding."""
+
+
+TURN = 2 * math.pi
+SEAM = 1e-12
+"""An angle (rad) nearer than this before a seam belongs to the piece after it."""
+
+
+class Lift(NamedTuple):
+    """Lift and its first three derivatives by the angle of the cam (m or rad, per rad)."""
+
+    lift: Values
+    slope: Values
+    bend: Values
+    jerk: Values
+
+
+Form = Callable[[Values, ModuleType], tuple[Values, Values, Values, Values]]
+"""From 0 to 1 over 0 to 1, with three derivatives; of floats with the functions of math, of arrays with NumPy's."""
+
+
+def _uniform(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
+    return x, 1.0 + 0 * x, 0.0 * x, 0.0 * x
+
+
+def _accelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
+    return x * x, 2 * x, 2.0 + 0 * x, 0.0 * x
+
+
+def _decelerated(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
+    return x * (2 - x), 2 * (1 - x), -2.0 + 0 * x, 0.0 * x
+
+
+def _harmonic(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
+    c, s, w = m.cos(math.pi * x), m.sin(math.pi * x), math.pi
+    return (1 - c) / 2, w * s / 2, w**2 * c / 2, -(w**3) * s / 2
+
+
+def _cycloidal(x: Values, m: ModuleType) -> tuple[Values, Values, Values, Values]:
+    c, s, w = m.cos(TURN * x), m.sin(TURN * x), TURN
+    return x - s / w, 1 - c, w * s, w**2 * c
+
+
+def _345(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
+    y = 1 - x
+    return x**3 * (10 + x * (6 * x - 15)), 30 * (x * y) ** 2, 60 * x * y * (1 - 2 * x), 60 - 360 * x * y
+
+
+def _4567(x: Values, _: ModuleType) -> tuple[Values, Values, Values, Values]:
+    xy = x * (1 - x)
+    lift = x**4 * (35 + x * (x * (70 - 20 * x) - 84))
+    return lift, 140 * xy**3, 420 * xy**2 * (1 - 2 * x), 840 * xy * (1 - 5 * xy)
+
+
+LAWS: Mapping[str, tuple[tuple[float, Form], ...]] = {
+    "uniform": ((1.0, _uniform),),
+    "parabolic": ((0.5, _accelerated), (1.0, _decelerated)),
+    "harmonic": ((1.0, _harmonic),),
+    "cycloidal": ((1.0, _cycloidal),),
+    "345": ((1.0, _345),),
+    "4567": ((1.0, _4567),),
+}
+"""Laws by their names in a scene: the forms of their smooth parts, each up to a share of the angle and of the lift."""
+PEAKS: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]] = {
+    "harmonic": ((0.5,), ()),
+    "cycloidal": ((0.5,), (0.25, 0.75)),
+    "345": ((0.5,), (0.5 - math.sqrt(1 / 12), 0.5 + math.sqrt(1 / 12))),
+    "4567": ((0.5,), (0.5 - math.sqrt(1 / 20), 0.5 + math.sqrt(1 / 20))),
+}
+"""Where inside a form its first derivative, and its second, is extreme: the next derivative is 0 there.  The other laws
+are extreme at their ends."""
+SPELLINGS = (*LAWS, *("-".join(name) for name in LAWS if name.isdigit()))
+"""The names as people write them: "3-4-5" too."""
+
+
+def form_of(by: str | None) -> str:
+    """The name of a law, however people write it: "3-4-5" is "345"; "" of a dwell."""
+    return (by or "").replace("-", "")
+
+
+@dataclass(frozen=True)
+class SmoothPart:
+    """A part of the law with derivatives of every order: the piece itself, or of a parabolic piece each half; ``by`` is
+    the law ("" of a dwell), ``which`` the part of it."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+    by: str
+    which: int = 0
+
+    def at(self, angle: Values, m: ModuleType = math) -> Lift:
+        """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
+        wide, h = self.end - self.start, self.high - self.low
+        if h == 0.0:
+            return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
+        _, form = LAWS[self.by][self.which]
+        f, f1, f2, f3 = form((angle - self.start) / wide, m)
+        return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
+
+    def extremes(self, order: int) -> tuple[tuple[float, float], ...]:
+        """The first or second derivative at both ends and at its peaks inside, each with its angle (rad), in order."""
+        peaks = PEAKS[self.by][order - 1] if self.by in PEAKS else ()
+        inside = (self.start + x * (self.end - self.start) for x in peaks)
+        return tuple((self.at(angle)[order], angle) for angle in (self.start, *inside, self.end))
+
+
+@dataclass(frozen=True)
+class LiftPiece:
+    """A piece of the law between two cam angles (rad), from one lift to another (m or rad); ``by`` is "" of a dwell."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+    by: str
+
+    @property
+    def parts(self) -> tuple[SmoothPart, ...]:
+        shares = [share for share, _ in LAWS[self.by]] if self.by else [1.0]
+        angles = [self.start, *(self.start * (1.0 - share) + self.end * share for share in shares)]
+        lifts = [self.low, *(self.low * (1.0 - share) + self.high * share for share in shares)]
+        return tuple(
+            SmoothPart(angles[k], angles[k + 1], lifts[k], lifts[k + 1], self.by, k) for k in range(len(shares))
+        )
+
+
+@dataclass(frozen=True)
+class FollowerLaw:
+    """The lift over a turn of the cam; a seam belongs to the later piece.
+
+    >>> rise, fall = LiftPiece(0.0, math.pi, 0.0, 2.0, "harmonic"), LiftPiece(math.pi, TURN, 2.0, 0.0, "harmonic")
+    >>> law = FollowerLaw((rise, fall))
+    >>> round(law.at(math.pi / 2).lift, 12), law.at(-math.pi / 2).slope
+    (1.0, -1.0)
+    """
+
+    pieces: tuple[LiftPiece, ...]
+
+    @cached_property
+    def parts(self) -> tuple[SmoothPart, ...]:
+        return tuple(part for piece in self.pieces for part in piece.parts)
+
+    @cached_property
+    def starts(self) -> tuple[float, ...]:
+        return tuple(part.start for part in self.parts)
+
+    @cached_property
+    def least(self) -> float:
+        return min(piece.low for piece in self.pieces)
+
+    @cached_property
+    def greatest(self) -> float:
+        return max(piece.low for piece in self.pieces)
+
+    def reduced(self, angle: float) -> float:
+        """An angle in [0, 2 pi), on a seam where it lies beside one by rounding."""
+        within = angle % TURN
+        for seam in (*self.starts[1:], TURN):
+            if abs(within - seam) < SEAM:
+                return seam if seam < TURN else 0.0
+        return 0.0 if within < SEAM else within
+
+    def part(self, angle: float) -> SmoothPart:
+        """The part in which an angle (rad) lies."""
+        return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
+
+    def piece(self, angle: float) -> LiftPiece:
+        """The piece in which an angle (rad) lies."""
+        within = self.reduced(angle)
+        return next(piece for piece in reversed(self.pieces) if piece.start <= within)
+
+    def at(self, angle: float) -> Lift:
+        """Lift and derivatives at an angle of the cam (rad), of any turn."""
+        return self.part(angle).at(self.reduced(angle))
+
+
+@dataclass(frozen=True)
+class CubicPart:
+    """A cubic between two moments (s), by its values (rad, m) and rates at both."""
+
+    start: float
+    end: float
+    low: float
+    high: float
+    rate: float
+    last_rate: float
+
+    @property
+    def parts(self) -> tuple[CubicPart, ...]:
+        return (self,)
+
+    @property
+    def _bends(self) -> tuple[float, float]:
+        """The factors of the square and of the cube of the time since its start."""
+        wide = self.end - self.start
+        mean = (self.high - self.low) / wide
+        return (3 * mean - 2 * self.rate - self.last_rate) / wide, (self.rate + self.last_rate - 2 * mean) / wide**2
+
+    def at(self, time: float) -> Lift:
+        """Value and its derivatives at a moment inside (s)."""
+        (b, c), x = self._bends, time - self.start
+        return Lift(
+            self.low + x * (self.rate + x * (b + x * c)), self.rate + x * (2 * b + x * 3 * c), 2 * b + 6 * c * x, 6 * c
+        )
+
+    @property
+    def turns(self) -> tuple[float, ...]:
+        """Moments inside at which it turns back."""
+        b, c = self._bends
+        square = b * b - 3 * c * self.rate
+        if square <= 0.0:
+            return ()
+        half = -(b + math.copysign(math.sqrt(square), b))
+        roots = [self.rate / half if half else 0.0, half / (3 * c) if c else 0.0]
+        return tuple(sorted(self.start + x for x in roots if 0.0 < x < self.end - self.start))
+
+
+@dataclass(frozen=True)
+class MotionLaw:
+    """A driver's value (rad, m) over the time (s), which begins at 0; a seam belongs to the later piece.
+
+    ``time`` is the moment that is asked.
+
+    >>> law = MotionLaw((LiftPiece(0.0, 2.0, 1.0, 4.0, "harmonic"),))
+    >>> law.at(1.0).lift, round(law.at(1.0).slope, 6), law.reached(2.5)
+    (2.5, 2.356194, 1.0)
+    """
+
+    pieces: tuple[LiftPiece | CubicPart, ...]
+    time: float = 0.0
+
+    @cached_property
+    def parts(self) -> tuple[SmoothPart | CubicPart, ...]:
+        return tuple(part for piece in self.pieces for part in piece.parts)
+
+    @property
+    def duration(self) -> float:
+        return self.pieces[-1].end
+
+    def at(self, time: float) -> Lift:
+        """Value, rate, second and third rate at a moment (s); before and after it stands still."""
+        part = next((part for part in reversed(self.parts) if part.start <= time), self.parts[0])
+        if self.pieces[0].start <= time <= self.duration:
+            found = part.at(time)
+            wide, way = part.end - part.start, max(abs(part.high - part.low), abs(part.low), abs(part.high))
+            rates = (x if abs(x) > NOTHING * way / wide**k else 0.0 for k, x in enumerate(found[1:], 1))
+            return Lift(found.lift, *rates)
+        return Lift(part.low if time < part.start else part.high, 0.0, 0.0, 0.0)
+
+    @cached_property
+    def _runs(self) -> tuple[tuple[SmoothPart | CubicPart, float, float], ...]:
+        """Stretches of the time in which the value grows, falls, or stands."""
+        found = []
+        for part in self.parts:
+            ends = (part.start, *(part.turns if isinstance(part, CubicPart) else ()), part.end)
+            found += [(part, a, b) for a, b in pairwise(ends)]
+        return tuple(found)
+
+    @cached_property
+    def span(self) -> tuple[float, float]:
+        """The least and the greatest value."""
+        values = [part.at(t).lift for part, a, b in self._runs for t in (a, b)]
+        return min(values), max(values)
+
+    def reached(self, value: float) -> float | None:
+        """The first moment at which it comes to a value, None if it never does."""
+        near = ROUNDING * max(abs(end) for end in (*self.span, self.span[1] - self.span[0]))
+        for part, low, high in self._runs:
+            first, last = part.at(low).lift - value, part.at(high).lift - value
+            if abs(first) <= near:
+                return low
+            if first * last < 0.0 and abs(last) > near:
+                for _ in range(HALVINGS):
+                    middle = (low + high) / 2
+                    if (part.at(middle).lift - value) * first > 0.0:
+                        low = middle
+                    else:
+                        high = middle
+                return (low + high) / 2
+            if abs(last) <= near:
+                return high
+        return None
+
+
+# -- tables of the file ------------------------------------------------------------------------------------------------
+
+if TYPE_CHECKING:
+    LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"] | str
+else:
+    LawName = Literal[SPELLINGS]  # as many as there are laws
+
+
+@table
+class LawPiece(FileTable):
+    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = key("Degrees of the cam at which it ends; the last piece ends at 360.")
+    rise: Number | None = key("By how much the follower rises: length, or degrees of one that swings.", default=None)
+    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
+    by: LawName | None = key("The law of a rise or fall.", default=None)
+
+
+@table
+class TimePiece(FileTable):
+    """A piece of the law of a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = key("Seconds at which it ends.")
+    rise: Number | None = key("By how much the driver's value grows: degrees, travel.", default=None)
+    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
+    by: LawName | None = key("The law of a rise or fall.", default=None)
+
+
+@table
+class DriverLaw(FileTable):
+    """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
+
+    origin: Number | None = key("The driver's value at 0 s: degrees, or travel.", name="from", default=None)
+    to: Number | None = key("The driver's value at the end.", default=None)
+    rise: Number | None = key(
+        "Instead of to: by how much the value grows; negative where it falls.", default=None
+    )
+    duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
+    by: LawName | None = key("The law by which it goes from one to the other.", default=None)
+    pieces: Annotated[List[TimePiece], Rule(max_length=1000)] = key(
+        'Several, with dwells: [{ to = 0.5, rise = 90, by = "cycloidal" }, { to = 0.8 }].', default=()
+    )
+    table: Annotated[List[Place], Rule(max_length=5000)] = key(
+        "Instead of laws: [[time, value], ...], joined by a cubic without acceleration at its ends.", default=()
+    )
+
+
+# -- reading and stating -----------------------------------------------------------------------------------------------
+
+
+def _say(problems: list[Problem], where: str, found: Wording, wanted: Wording) -> None:
+    problems.append(Problem(where, found, wanted))
+
+
+def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, problems: list[Problem]) -> FollowerLaw | None:
+    """The law of a cam's follower, over rad, in SI; what is wrong with it is added to ``problems``.
+
+    Parameters
+    ----------
+    where : its place in the file
+    unit : one unit of the lifts in the file in SI (m, or rad of a follower that swings)
+    """
+    found: list[LiftPiece] = []
+    start = low = most = 0.0
+    before = len(problems)
+
+    def wrong(i: int, said: Wording, wanted: Wording) -> None:
+        problems.append(Problem(f"{where}.{i}", said, wanted))
+
+    names = [f'"{name}"' for name in LAWS]
+    for i, piece in enumerate(pieces, 1):
+        rise = (piece.rise or 0.0) - (piece.fall or 0.0)
+        if piece.rise is not None and piece.fall is not None:
+            wrong(i, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
+        elif piece.rise is not None or piece.fall is not None:
+            sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall or 0.0)
+            if not size > 0.0:
+                wrong(i, f"{sense} = {size:g}", Phrase("it must be positive a dwell has neither"))
+            if piece.by is None:
+                wrong(i, Phrase("does not say its law"), f"by = {', '.join(names[:-1])} or {names[-1]}")
+        elif piece.by is not None:
+            wrong(i, Phrase("has by without rise or fall", by=piece.by), Phrase("a dwell has no law"))
+        if not piece.to > start:
+            wrong(i, Phrase("ends at deg where it begins at", to=f"{piece.to:g}", start=f"{start:g}"),
+                  Phrase("degrees grow from 0 to 360"))
+        elif piece.to > 360.0:
+            wrong(i, Phrase("ends at deg", start=f"{piece.to:g}"), Phrase("the law ends at 360"))
+        high = low + rise
+        most = max(most, abs(high), abs(low))
+        if abs(high) < 1e-9 * most:
+            high = 0.0
+        found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
+        start, low = piece.to, high
+    if not pieces:
+        _say(problems, where, Phrase("is empty"), Phrase("write to 60 rise 28 by harmonic"))
+        return None
+    if len(problems) == before and start != 360.0:
+        wrong(len(pieces), Phrase("ends at deg", start=f"{start:g}"), Phrase("the last piece ends at 360"))
+    if len(problems) == before and low != 0.0:
+        way = "up" if low > 0 else "down"
+        said = Phrase("does not come back a turn leaves the", least=f"{abs(low):.9g}", way=way)
+        _say(problems, where, said, Phrase("all that rises falls again"))
+    return FollowerLaw(tuple(found)) if len(problems) == before else None
+
+
+def motion_law(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
+    """The law that a driver's table says, in rad or m and s; what is wrong with it is added to ``problems``."""
+    ways = {
+        "table": bool(own.table),
+        "pieces": bool(own.pieces),
+        "by": any(x is not None for x in (own.to, own.rise, own.duration, own.by)),
+    }
+    given = [name for name, there in ways.items() if there]
+    if len(given) != 1:
+        found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
+        _say(problems, where, found, Phrase("write from and to or pieces or a table"))
+        return None
+    if given == ["table"]:
+        return _by_table(where, own, unit, problems)
+    before = len(problems)
+    start = (own.origin or 0.0) * unit
+    if own.origin is None:
+        _say(problems, f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s"))
+    pieces = _one(where, own, unit, problems) if given == ["by"] else _several(where, own, unit, start, problems)
+    return None if len(problems) > before else MotionLaw(tuple(pieces))
+
+
+def _one(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> list[LiftPiece]:
+    """The piece of a law that goes from one value to another."""
+    if (own.to is None) == (own.rise is None):
+        both = Phrase("stands beside rise") if own.to is not None else Phrase("is missing")
+        _say(problems, f"{where}.to", both, Phrase("write to the value at the end or"))
+    if own.duration is None:
+        _say(problems, f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes"))
+    if own.by is None:
+        _say(problems, f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
+    start = own.origin or 0.0
+    end = own.to if own.to is not None else start + (own.rise or 0.0)
+    return [LiftPiece(0.0, own.duration or 1.0, start * unit, end * unit, form_of(own.by))]
+
+
+def _several(where: str, own: DriverLaw, unit: float, start: float, problems: list[Problem]) -> list[LiftPiece]:
+    """The pieces of a law, one after the other, from a value on (SI)."""
+    pieces: list[LiftPiece] = []
+    time, low = 0.0, start
+    for i, piece in enumerate(own.pieces, 1):
+        here = f"{where}.pieces.{i}"
+        moves = piece.rise is not None or piece.fall is not None
+        if piece.rise is not None and piece.fall is not None:
+            _say(problems, here, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
+        if moves != (piece.by is not None):
+            said = Phrase("does not say its law") if moves else Phrase("has by without rise or fall", by=piece.by)
+            _say(problems, here, said, Phrase("a rise or fall has by a dwell"))
+        if not piece.to > time:
+            found = Phrase("ends at s where it begins at", to=f"{piece.to:g}", time=f"{time:g}")
+            _say(problems, here, found, Phrase("seconds grow"))
+        high = low + ((piece.rise or 0.0) - (piece.fall or 0.0)) * unit
+        pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
+        time, low = piece.to, high
+    return pieces
+
+
+def _by_table(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
+    """A law through the values of a table."""
+    here = f"{where}.table"
+    if own.origin is not None:
+        _say(problems, f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
+        return None
+    times, values = [t for t, _ in own.table], [v * unit for _, v in own.table]
+    if len(times) < 2:
+        _say(problems, here, Phrase("has one row"), Phrase("write time value two rows or more"))
+        return None
+    for i, (a, b) in enumerate(pairwise(times), 2):
+        if not b > a:
+            found = Phrase("is at s after one at s", other=f"{b:g}", name=f"{a:g}")
+            _say(problems, f"{here}.{i}", found, Phrase("seconds grow"))
+            return None
+    rates = _spline(times, values)
+    rows = zip(times, times[1:], values, values[1:], rates, rates[1:], strict=False)
+    return MotionLaw(tuple(CubicPart(*row) for row in rows), times[0])
+
+def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
+    """The rates at its knots of the cubic spline without acceleration at both ends (de Boor, A Practical Guide to
+    Splines, ch. 4), by elimination."""
+    n = len(times)
+    wide = [b - a for a, b in pairwise(times)]
+    mean = [(b - a) / w for a, b, w in zip(values, values[1:], wide, strict=False)]
+    before, right = [0.5], [1.5 * mean[0]]
+    for k in range(1, n - 1):
+        # wide[k] s[k-1] + 2 (wide[k-1] + wide[k]) s[k] + wide[k-1] s[k+1] = 3 (wide[k] mean[k-1] + wide[k-1] mean[k])
+        main = 2 * (wide[k - 1] + wide[k]) - wide[k] * before[-1]
+        right.append((3 * (wide[k] * mean[k - 1] + wide[k - 1] * mean[k]) - wide[k] * right[-1]) / main)
+        before.append(wide[k - 1] / main)
+    rates = [(3 * mean[-1] - right[-1]) / (2 - before[-1])]
+    for k in range(n - 2, -1, -1):
+        rates.insert(0, right[k] - before[k] * rates[0])
+    return rates
+
+
+def stated_pieces(pieces: Sequence[LiftPiece], unit: float) -> list[tuple[float, dict[str, Any]]]:
+    """Where each piece of a law ends (rad, s), and its rise or fall in a unit of a file, with its law."""
+    stated = []
+    for piece in pieces:
+        way = tidy((piece.high - piece.low) / unit)
+        stated.append((piece.end, {"rise" if way > 0 else "fall": abs(way), "by": piece.by} if piece.by else {}))
+    return stated
+
+
+def stated_motion(law: MotionLaw, unit: float) -> DriverLaw:
+    """How a driver moves over the time, as a file says it whose unit of the driver's value is so large in SI."""
+    smooth = [piece for piece in law.pieces if isinstance(piece, LiftPiece)]
+    if len(smooth) < len(law.pieces):
+        rows = [[piece.start, tidy(piece.low / unit)] for piece in law.pieces]
+        return DriverLaw(table=[*rows, [law.duration, tidy(law.pieces[-1].high / unit)]])
+    pieces = [TimePiece(to=end, **moved) for end, moved in stated_pieces(smooth, unit)]
+    return DriverLaw(origin=tidy(law.pieces[0].low / unit), pieces=pieces)

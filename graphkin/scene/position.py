@@ -1,0 +1,678 @@
+"""Where the points and guides of a file lie: in their link's own axes, from the ways in which a file may give them, and
+at the scene's own position, as far as the file says it outright; and whether what it gives twice agrees.
+
+The functions that place one thing answer with a plane vector (m), None while something that it refers to is not known
+yet, or a ``Problem`` where what is known does not fit.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from graphkin.errors import Problem, did_you_mean
+from graphkin.plane import cross, cross_arcs, degrees, direction, dot
+from graphkin.scene.bodies import Compass, Guide, Link, Polar, Reading, references
+from graphkin.scene.contacts import PlacedContact
+from graphkin.scene.model import Driver, PinInSlot, PlacedGuide, SlidingPair
+from graphkin.scene.tables import in_si
+from graphkin.words import Phrase, Wording
+
+__all__ = [
+    "DrawnPosition", "Placement", "check_agreement", "check_all_found", "check_contacts", "check_distances",
+    "check_placed_twice", "check_starts", "drawn_position", "starts_of",
+]  # fmt: skip
+
+GIVEN_TWICE = 1e-6
+"""Of the size: so far two statements of one place may lie apart."""
+FARTHEST = 4e10
+"""So many times the shortest bar places may lie away: beyond, sixteen digits leave less than five of the bar."""
+Places = Mapping[str, complex]
+
+@dataclass
+class Placement:
+    """A link while it is being placed.
+
+    ``where`` is its name in the file ("links.3", "frame"); ``own`` its one or two own points, ``at`` and ``rails``
+    the further points and guides as the file gives them, in SI.  ``local`` and ``guides`` are in its own axes (m);
+    ``turn`` (unit complex, direction of the own x axis) and ``origin`` (m) are its pose in the world at the scene's
+    position, None while unknown.  ``arm`` is the distance (m) of the places that gave ``turn``: how well it is known.
+    """
+
+    name: str
+    where: str
+    own: tuple[str, ...]
+    at: Mapping[str, object]
+    rails: Mapping[str, Guide]
+    length: float | None = None
+    local: dict[str, complex] = field(default_factory=dict)
+    guides: dict[str, PlacedGuide] = field(default_factory=lambda: {"": PlacedGuide("", 0j, 1 + 0j)})
+    turn: complex | None = None
+    origin: complex | None = None
+    arm: float = math.inf
+    failed: set[str] = field(default_factory=set)
+
+    def world(self, local: complex) -> complex | None:
+        """A place of the link in world axes, None while its pose is unknown."""
+        return None if self.turn is None or self.origin is None else self.origin + self.turn * local
+
+    def in_own_axes(self, world: complex) -> complex | None:
+        """A place in world axes in the link's own, None while its pose is unknown."""
+        return None if self.turn is None or self.origin is None else (world - self.origin) / self.turn
+
+
+def _polar(where: str, entry: Polar, local: Places) -> complex | Problem | None:
+    """A point at r and angle from a point of the link, the angle from the x axis or toward another point."""
+    if entry.origin not in local:
+        return None
+    start, sense = local[entry.origin], 1 + 0j
+    if entry.toward is not None:
+        if entry.toward not in local:
+            return None
+        way = local[entry.toward] - start
+        if way == 0:
+            found = Phrase("lies at itself", toward=entry.toward, origin=entry.origin)
+            return Problem(f"{where}.toward", found, Phrase("name a point that lies elsewhere"))
+        sense = way / abs(way)
+    return start + entry.r * sense * direction(entry.angle)
+
+
+def _compass(where: str, entry: Compass, metres: float, local: Places) -> complex | Problem | None:
+    """A point at two distances from two points of the link, on the given side of the line between them."""
+    first, second = entry.origins
+    if first not in local or second not in local:
+        return None
+    p, q = local[first], local[second]
+    r, s = entry.r
+    c = abs(q - p)
+    if c == 0:
+        found = Phrase("and lie at the same place", point=first, other=second)
+        return Problem(f"{where}.from", found, Phrase("name two points apart"))
+    both = cross_arcs(p, r, q, s)
+    if both is None and min(abs(r + s - c), abs(abs(r - s) - c)) <= 1e-12 * max(r, s, c):
+        both = (p + (q - p) / c * math.copysign(r, c * c + r * r - s * s),) * 2  # the arcs touch
+    if both is None:
+        least, most = abs(c - r) / metres, (c + r) / metres
+        found = Phrase("arcs of about and about do not meet", r=f"{r / metres:g}", first=first,
+                       other=f"{s / metres:g}", second=second)
+        wanted = Phrase("with the second may be from to", first=first, second=second, name=f"{c / metres:.6g}",
+                        least=f"{least:.6g}", most=f"{most:.6g}")
+        return Problem(where, found, wanted)
+    return both[0 if entry.side == "left" else 1]
+
+
+def _place_of(where: str, entry: object, metres: float, local: Places) -> complex | Problem | None:
+    """A further point of a link; "drawn" answers None, it needs the pose."""
+    if isinstance(entry, list):
+        return complex(*entry)
+    if isinstance(entry, Polar):
+        return _polar(where, entry, local)
+    return _compass(where, entry, metres, local) if isinstance(entry, Compass) else None
+
+
+def _guide_of(
+    where: str, name: str, entry: Guide, body: Placement, places: Places, tolerance: float
+) -> PlacedGuide | Problem | None:
+    """A guide of a link, its direction by angle or toward a point of the link, a fixed one or a drawn one."""
+    if entry.through is None:
+        return None
+    through = body.local.get(entry.through) if isinstance(entry.through, str) else complex(*entry.through)
+    if through is None:
+        return None
+    if entry.toward is None:
+        return None if entry.angle is None else PlacedGuide(name, through, direction(entry.angle))
+    aim = body.local.get(entry.toward)
+    if aim is None and entry.toward in places:
+        aim = body.in_own_axes(places[entry.toward])
+    if aim is None:
+        return None
+    way = aim - through
+    if abs(way) <= tolerance:
+        found = Phrase("lies where the guide goes through", toward=entry.toward)
+        return Problem(f"{where}.toward", found, Phrase("name a point that lies elsewhere"))
+    sense = way / abs(way)
+    if entry.angle is None:
+        return PlacedGuide(name, through, sense)
+    given = direction(entry.angle)
+    if abs(given - sense) * abs(way) > tolerance:
+        found = Phrase("found deg but toward it is deg", angle=f"{entry.angle:g}", toward=entry.toward,
+                       degrees=f"{degrees(sense):.8g}")
+        return Problem(f"{where}.angle", found, Phrase("leave one of the two out or correct"))
+    return PlacedGuide(name, through, given)
+
+
+def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
+    """Every link with its own points placed, where its length is known; what is wrong with them is noted.
+
+    ``drawn`` are the drawn points (m).
+    """
+    fixed = _fixed(reading)
+    given = {**drawn, **fixed}
+    bodies: dict[str, Placement] = {}
+    for name, table in reading.links.items():
+        si = in_si(table, reading.units)
+        own = tuple(si.points) if len(set(si.points)) == len(si.points) <= 2 else tuple(si.points[:1])
+        body = Placement(name, f"links.{name}", own, si.at, si.guides)
+        body.local |= dict.fromkeys(own[:1], 0j)
+        if len(own) == 2:
+            body.length = si.length
+            if body.length is None and own[0] in given and own[1] in given:
+                body.length = abs(given[own[1]] - given[own[0]])
+                if body.length == 0.0:
+                    reading.say(body.where, Phrase("and are given at the same place", name=own[0], other=own[1]),
+                                Phrase("a bar has two points apart"))
+            if body.length is not None:
+                body.local[own[1]] = complex(body.length)
+            elif not reading.flaws.under("links", name, "length") and not reading.flaws.under("drawn"):
+                undrawn = " and ".join(p for p in own if p not in given)
+                reading.say(f"{body.where}.length", Phrase("is missing"),
+                            Phrase("write length or give in drawn", undrawn=undrawn))
+        bodies[name] = body
+    frame = Placement(reading.frame.name, "frame", (), {}, in_si(reading.frame, reading.units).guides)
+    frame.local, frame.turn, frame.origin = dict(fixed), 1 + 0j, 0j
+    return {**bodies, frame.name: frame}
+
+
+def _fixed(reading: Reading) -> dict[str, complex]:
+    """The places of the frame's points (m), those given from others too."""
+    given = in_si(reading.frame, reading.units).points
+    found: dict[str, complex] = {}
+    left = dict(given)
+    while left:
+        where = {p: _place_of(f"frame.points.{p}", entry, reading.metres, found) for p, entry in left.items()}
+        placed = {p: z for p, z in where.items() if z is not None}
+        reading.wrong(*(z for z in placed.values() if isinstance(z, Problem)))
+        if not placed:
+            for point, entry in left.items():
+                missing = next(p for p in references(entry) if p not in found)
+                said, wanted = Phrase("the frame has no point", missing=missing), did_you_mean(missing, given)
+                if missing in given:
+                    said = Phrase("has no place yet", missing=missing)
+                    wanted = Phrase("the points are placed from one another")
+                reading.say(f"frame.points.{point}", said, wanted)
+            placed = dict.fromkeys(left, 0j)
+        found |= {p: 0j if isinstance(z, Problem) else z for p, z in placed.items()}
+        left = {p: entry for p, entry in left.items() if p not in placed}
+    return {p: found[p] for p in given}
+
+
+# -- the position as far as the file says it ---------------------------------------------------------------------------
+
+
+@dataclass
+class DrawnPosition:
+    """What is known of the scene's own position while it is being collected.
+
+    ``drawn`` are the places of points that the file draws in the world, ``given`` these and the fixed ones, ``places``
+    also those found from them (m).
+    ``angles`` are driven links with the link they are measured from and the direction, ``travels`` driven
+    pairs by key with the travel (m).
+    """
+
+    bodies: Mapping[str, Placement]
+    frame: str
+    drawn: Mapping[str, complex]
+    slidings: tuple[SlidingPair, ...]
+    pins: tuple[PinInSlot, ...]
+    angles: tuple[tuple[str, str, complex], ...]
+    travels: Mapping[str, float]
+    metres: float
+    problems: list[Problem]
+
+    def __post_init__(self) -> None:
+        fixed = self.bodies[self.frame].local
+        self.given = {**self.drawn, **fixed}
+        self.places = dict(self.given)
+        self.news = False
+        bodies = self.bodies.values()
+        spans = [b.length for b in bodies if b.length]
+        spans += [abs(complex(*e)) for b in bodies for e in b.at.values() if isinstance(e, list)]
+        spans += [abs(a - b) for a in (*fixed.values(), *self.drawn.values()) for b in fixed.values()]
+        self.size = max(spans, default=0.0) or self.metres
+        """The largest distance that the file gives (m)."""
+
+    @property
+    def tolerance(self) -> float:
+        """How far apart two statements of one place may be (m)."""
+        return GIVEN_TWICE * self.size
+
+    def say(self, where: Wording, found: Wording, wanted: Wording) -> None:
+        """Note a problem."""
+        self.problems.append(Problem(where, found, wanted))
+
+    def number(self, length: float) -> str:
+        """A length (m) in the file's unit, to ten digits."""
+        return f"{length / self.metres:.10g}"
+
+    def pair(self, z: complex) -> str:
+        """A place (m) as the file has it."""
+        return f"[{z.real / self.metres:.8g}, {z.imag / self.metres:.8g}]"
+
+    def set_turn(self, body: Placement, turn: complex, arm: float) -> None:
+        """Note the direction of a link, if it is news."""
+        if body.turn is None:
+            body.turn, body.arm, self.news = turn, arm, True
+
+    def set_origin(self, body: Placement, origin: complex) -> None:
+        """Note the place of a link's origin, if it is news."""
+        if body.origin is None:
+            body.origin, self.news = origin, True
+
+    def travel_of(self, key: str) -> float | None:
+        """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
+        for pair in self.slidings:
+            if pair.key == key:
+                return _along(self.bodies[pair.on], pair.guide, self.bodies[pair.link].origin)
+        for pin in self.pins:
+            if pin.key == key:
+                return _along(self.bodies[pin.on], pin.guide, self.places.get(pin.point))
+        return None
+
+    def value_of(self, driver: Driver) -> float:
+        """The value of a driver (rad, m): its own, or what the known position gives; not a number if that is not
+        known."""
+        if not math.isnan(driver.value):
+            return driver.value
+        if not driver.turns:
+            travel = self.travel_of(driver.key)
+            return math.nan if travel is None else travel
+        driven, base = (self.bodies.get(name) for name in driver.links)
+        if driven and base and driven.turn is not None and base.turn is not None:
+            return cmath.phase(driven.turn / base.turn)
+        return math.nan
+
+
+def drawn_position(
+    reading: Reading, drawn: Places, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
+    drivers: Iterable[Driver],
+) -> DrawnPosition:  # fmt: skip
+    """Everything placed that can be placed, in the links' own axes and in the world; what is wrong is noted.
+
+    Parameters
+    ----------
+    drawn : the drawn points (m)
+    drivers : those whose value is not known yet have none
+    """
+    told = [d for d in drivers if not math.isnan(d.value)]
+    bodies = bodies_of(reading, drawn)
+    referred = {p.on for p in slidings} | {p.on for p in pins} | {name for d in drivers if d.turns for name in d.links}
+    for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
+        bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
+    position = DrawnPosition(
+        bodies, reading.frame.name, drawn, slidings, pins,
+        tuple((*d.links, cmath.rect(1.0, d.value)) for d in told if d.turns),
+        {d.key: d.value for d in told if not d.turns}, reading.metres, reading.problems,
+    )  # fmt: skip
+    _find(position)
+    return position
+
+
+def _find(position: DrawnPosition) -> None:
+    """Place everything that can be placed."""
+    while True:
+        position.news = False
+        for body in position.bodies.values():
+            _place_points(position, body)
+            _place_guides(position, body)
+            _turn_by_points(position, body)
+            _move_by_points(position, body)
+        _turn_by_slidings(position)
+        _turn_by_drivers(position)
+        _move_by_travels(position)
+        if not (position.news or _turn_to_positive_side(position) or _turn_to_drawn_point(position)):
+            return
+
+
+def _place_points(position: DrawnPosition, body: Placement) -> None:
+    for point, entry in body.at.items():
+        if point in body.local or point in body.failed:
+            continue
+        found = _place_of(f"{body.where}.at.{point}", entry, position.metres, body.local)
+        if entry == "drawn" and point in position.given:
+            found = body.in_own_axes(position.given[point])
+        if isinstance(found, Problem):
+            position.problems.append(found)
+            body.failed.add(point)
+        elif found is not None:
+            body.local[point] = found
+            position.news = True
+
+
+def _place_guides(position: DrawnPosition, body: Placement) -> None:
+    for name, entry in body.rails.items():
+        if name in body.guides or f".{name}" in body.failed:
+            continue
+        where = f"{body.where}.guides.{name}"
+        found = _guide_of(where, name, entry, body, position.places, position.tolerance)
+        if isinstance(found, Problem):
+            position.problems.append(found)
+            body.failed.add(f".{name}")
+        elif found is not None:
+            body.guides[name] = found
+            position.news = True
+
+
+def _turn_by_points(position: DrawnPosition, body: Placement) -> None:
+    if body.turn is not None:
+        return
+    own = body.own
+    if len(own) == 2 and all(p in position.places for p in own):
+        way = position.places[own[1]] - position.places[own[0]]
+        if abs(way) > position.tolerance:
+            position.set_turn(body, way / abs(way), abs(way))
+        return
+    placed = [p for p in body.local if p in position.places]
+    pairs = ((p, q) for i, q in enumerate(placed) for p in placed[:i])
+    far = max(pairs, key=lambda pq: abs(body.local[pq[1]] - body.local[pq[0]]), default=None)
+    if far:
+        local = body.local[far[1]] - body.local[far[0]]
+        way = position.places[far[1]] - position.places[far[0]]
+        if min(abs(local), abs(way)) > position.tolerance:
+            turn = way / local
+            position.set_turn(body, turn / abs(turn), abs(way))
+
+
+def _move_by_points(position: DrawnPosition, body: Placement) -> None:
+    if body.turn is None:
+        return
+    for point, local in body.local.items():
+        if body.origin is None and point in position.places:
+            position.set_origin(body, position.places[point] - body.turn * local)
+    if body.origin is None:
+        return
+    for point, local in body.local.items():
+        if point not in position.places:
+            position.places[point] = body.origin + body.turn * local
+            position.news = True
+
+
+def _turn_by_slidings(position: DrawnPosition) -> None:
+    for pair in position.slidings:
+        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+        guide = rail.guides.get(pair.guide)
+        if guide is None:
+            continue
+        if rail.turn is not None:
+            position.set_turn(slider, rail.turn * guide.direction * pair.turn, rail.arm)
+        elif slider.turn is not None:
+            position.set_turn(rail, slider.turn / (guide.direction * pair.turn), slider.arm)
+
+
+def _turn_by_drivers(position: DrawnPosition) -> None:
+    for link, base, turn in position.angles:
+        driven, from_body = position.bodies[link], position.bodies[base]
+        if from_body.turn is not None:
+            position.set_turn(driven, from_body.turn * turn, from_body.arm)
+        elif driven.turn is not None:
+            position.set_turn(from_body, driven.turn / turn, driven.arm)
+
+
+def _move_by_travels(position: DrawnPosition) -> None:
+    for pair in position.slidings:
+        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+        guide = rail.guides.get(pair.guide)
+        if pair.key not in position.travels or guide is None:
+            continue
+        along = guide.through + guide.direction * position.travels[pair.key]
+        if (place := rail.world(along)) is not None and not slider.local.keys() & position.places.keys():
+            position.set_origin(slider, place)
+        elif rail.turn is not None and slider.origin is not None and not rail.local.keys() & position.places.keys():
+            position.set_origin(rail, slider.origin - rail.turn * along)
+
+
+def _running_points(position: DrawnPosition) -> Iterable[tuple[str, str, str, complex | None]]:
+    """Each guiding link and guide with the point that runs in it: (link, guide, what runs, its place or None)."""
+    for pair in position.slidings:
+        place = position.places.get(pair.pin) if pair.pin else position.bodies[pair.link].origin
+        yield pair.on, pair.guide, pair.link, place
+    for pin in position.pins:
+        yield pin.on, pin.guide, pin.point, position.places.get(pin.point)
+
+
+def _turn_to_positive_side(position: DrawnPosition) -> bool:
+    """Turn one guide about its link's origin until it passes through what runs in it; True if there was one.
+
+    With k the guide's place seen along its own direction, the running point lies at (k + s) w from the origin,
+    w the guide's direction in the world and s its travel, here the larger root of |k + s| = distance.
+    """
+    for name, guide_name, _, place in _running_points(position):
+        rail = position.bodies[name]
+        guide = rail.guides.get(guide_name)
+        if rail.turn is not None or guide is None or place is None:
+            continue
+        centre = position.places.get(rail.own[0]) if rail.own else None
+        if centre is None:
+            continue
+        k, way = guide.through / guide.direction, place - centre
+        if abs(way) <= max(abs(k.imag), position.tolerance):
+            continue
+        s = math.sqrt((abs(way) - k.imag) * (abs(way) + k.imag)) - k.real
+        sense = way / (k + s)
+        position.set_turn(rail, sense / abs(sense) / guide.direction, abs(way))
+        return True
+    return False
+
+
+def _turn_to_drawn_point(position: DrawnPosition) -> bool:
+    """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
+    used = {p.on for p in position.slidings if not p.guide} | {p.on for p in position.pins if not p.guide}
+    used |= {p.link for p in position.slidings} | {name for link, base, _ in position.angles for name in (link, base)}
+    for name, body in position.bodies.items():
+        measured = any(isinstance(e, list) or (isinstance(e, Polar) and not e.toward) for e in body.at.values())
+        aimed = all(g.toward and isinstance(g.through, str) for g in body.rails.values())
+        if body.turn is not None or len(body.own) != 1 or name in used or measured or not aimed:
+            continue
+        aims = [p for p, e in body.at.items() if e == "drawn"] + [g.toward for g in body.rails.values() if g.toward]
+        ways = [position.places[p] - position.places[body.own[0]] for p in aims
+                if p in position.places and body.own[0] in position.places]
+        way = next((w for w in ways if abs(w) > position.tolerance), None)
+        if way is not None:
+            position.set_turn(body, way / abs(way), abs(way))
+            return True
+    return False
+
+
+def _along(rail: Placement, guide_name: str, place: complex | None) -> float | None:
+    local = None if place is None else rail.in_own_axes(place)
+    guide = rail.guides.get(guide_name)
+    return None if local is None or guide is None else dot(guide.direction, local - guide.through)
+
+
+
+# -- where rolling starts ----------------------------------------------------------------------------------------------
+
+
+def check_starts(links: Mapping[str, Link], position: DrawnPosition) -> None:
+    """Note where rolling is said to start of links that stand elsewhere by given places.  Of a driven link it starts
+    where the driver stands."""
+    driven = {link for link, _, _ in position.angles}
+    for name, link in links.items():
+        if link.start is None or name in driven:
+            continue
+        keys = [s.key for s in position.slidings if s.link == name]
+        turn, travel = position.bodies[name].turn, None
+        if keys and keys[0] not in position.travels:
+            travel = position.travel_of(keys[0])
+        if travel is not None and abs(link.start * position.metres - travel) > position.tolerance:
+            told = position.number(travel)
+        elif not keys and turn is not None and abs(cmath.phase(turn / direction(link.start))) > GIVEN_TWICE:
+            told = f"{degrees(turn):.10g} deg"
+        else:
+            continue
+        said = Phrase("found but the given places make it", start=f"{link.start:.10g}", value=told)
+        position.say(f"links.{name}.start", said, Phrase("one of the two is wrong leave start"))
+
+
+def starts_of(
+    links: Mapping[str, Link], position: DrawnPosition, contacts: Sequence[PlacedContact]
+) -> dict[str, float]:
+    """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
+    as the file or its drawn points tell."""
+    found: dict[str, float] = {}
+    for name, link in links.items():
+        turn = position.bodies[name].turn
+        own = [s.key for s in position.slidings if s.link == name]
+        if link.start is not None and own:
+            found[own[0]] = link.start * position.metres
+        elif link.start is not None:
+            found[name] = math.radians(link.start)
+        elif turn is not None:
+            found[name] = cmath.phase(turn)
+    for pair in position.slidings:
+        travel = position.travel_of(pair.key)
+        if travel is not None:
+            found.setdefault(pair.key, travel)
+    for contact in contacts:
+        if contact.flat:
+            place = position.places.get(contact.round[0].centre)
+            travel = _along(position.bodies[contact.face], contact.guide, place)
+            if travel is not None:
+                found[contact.block] = travel
+    return found
+
+
+# -- whether what is given agrees --------------------------------------------------------------------------------------
+
+
+def check_placed_twice(position: DrawnPosition) -> None:
+    """Note points that the file places twice in one link, or fixes and draws, at different places."""
+    for body in position.bodies.values():
+        for point in body.own:
+            local = _place_of(body.where, body.at.get(point), position.metres, body.local)
+            if isinstance(local, complex) and point in body.local:
+                own = body.local[point]
+                if abs(local - own) > position.tolerance:
+                    places = {"pair": position.pair(local), "other": position.pair(own)}
+                    found = Phrase("puts it at but as an own point", **places)
+                    position.say(f"{body.where}.at.{point}", found, Phrase("leave one of the two out or correct"))
+        for point, place in body.local.items() if body.where == "frame" else ():
+            drawn = position.drawn.get(point, place)
+            if abs(drawn - place) > position.tolerance:
+                places = {"pair": position.pair(drawn), "other": position.pair(place)}
+                found = Phrase("found but it is a fixed point at", **places)
+                position.say(f"drawn.{point}", found, Phrase("leave it out or correct it"))
+
+
+def check_all_found(position: DrawnPosition) -> None:
+    """Note points and guides that need the position of their link, where it does not follow from what is drawn."""
+    for body in position.bodies.values():
+        missing = [f"at.{point}" for point in body.at if point not in body.local]
+        missing += [f"guides.{guide}" for guide in body.rails if guide not in body.guides]
+        for key in missing:
+            position.say(f"{body.where}.{key}", Phrase("where link lies does not follow from what", body=body.name),
+                         Phrase("draw two points of link or give it", body=body.name))
+
+
+def check_distances(position: DrawnPosition) -> None:
+    """Note places so far away that the digits of a number do not hold a bar of the mechanism beside them."""
+    bars = [(b.length, b) for b in position.bodies.values() if b.length]
+    if not bars:
+        return
+    short, body = min(bars, key=lambda bar: bar[0])
+    places = [(length, f"links.{b.name}.length") for length, b in bars]
+    for b in position.bodies.values():
+        points = f"{b.where}.at" if b.where != "frame" else "frame.points"
+        places += [(abs(z), f"{points}.{p}") for p, z in b.local.items() if p not in b.own]
+        places += [(abs(g.through), f"{b.where}.guides.{n}") for n, g in b.guides.items() if n]
+    far, where = max(places, key=lambda place: place[0])
+    if far > FARTHEST * short:
+        metres = position.metres
+        said = Phrase("lies away beside a bar of link", distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}",
+                      body=body.name)
+        position.say(where, said, Phrase("too far apart sixteen digits hold at most", farthest=f"{FARTHEST:.0e}"))
+
+
+def check_agreement(position: DrawnPosition) -> None:
+    """Note what is given twice and differs by more than 1e-6 of the size, both values named."""
+    for body in position.bodies.values():
+        _check_points(position, body)
+    for pair in position.slidings:
+        slider, rail = position.bodies[pair.link], position.bodies[pair.on]
+        guide = rail.guides.get(pair.guide)
+        if guide and slider.turn is not None and rail.turn is not None:
+            seen = slider.turn / (rail.turn * guide.direction)
+            _check_angle(position, f"links.{pair.link}.angle_on", pair.turn, seen, slider, rail)
+    for name, guide_name, what, place in _running_points(position):
+        rail = position.bodies[name]
+        guide = rail.guides.get(guide_name)
+        local = None if place is None else rail.in_own_axes(place)
+        if guide and local is not None:
+            beside = abs(cross(guide.direction, local - guide.through))
+            if beside > position.tolerance * _reach(rail, local):
+                ref = f"{name}.{guide_name}" if guide_name else name
+                off = f"{beside / position.metres:.6g}"
+                said = Phrase("the given places put it beside the guide", beside=off, ref=ref)
+                where = f"links.{what}.on" if what in position.bodies else f"pins.{what}.in"
+                position.say(where, said, Phrase("correct a coordinate or the guide"))
+    for link, base, turn in position.angles:
+        driven, from_body = position.bodies[link], position.bodies[base]
+        if driven.turn is not None and from_body.turn is not None:
+            where_driven = Phrase("driver.angle of link", link=link)
+            _check_angle(position, where_driven, turn, driven.turn / from_body.turn, driven, from_body)
+    for key, travel in position.travels.items():
+        seen_travel = position.travel_of(key)
+        if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
+            said = Phrase("found but the given places make it", start=position.number(travel),
+                          value=position.number(seen_travel))
+            position.say(Phrase("driver.travel of", key=key), said, Phrase("one of the two is wrong"))
+
+
+def _reach(body: Placement, local: complex) -> float:
+    """How much an error of the places that gave a link's direction grows out at ``local``."""
+    return max(1.0, abs(local) / body.arm)
+
+
+def _check_angle(
+    position: DrawnPosition, where: Wording, given: complex, seen: complex, one: Placement, other: Placement
+) -> None:
+    """Hold a given angle of two links against that of the known position, by how far it moves the points that gave
+    it."""
+    if abs(seen - given) * min(one.arm, other.arm, position.size) > position.tolerance:
+        said = Phrase("found deg but the given places make it", degrees=f"{degrees(given):.10g}",
+                      other=f"{degrees(seen):.10g}")
+        position.say(where, said, Phrase("one of the two is wrong"))
+
+
+def _check_points(position: DrawnPosition, body: Placement) -> None:
+    """Note points of one link whose places in the link and in the world differ."""
+    own, given = body.own, position.given
+    if len(own) == 2 and body.length is not None and all(p in given for p in own):
+        drawn = abs(given[own[1]] - given[own[0]])
+        if abs(drawn - body.length) > position.tolerance:
+            said = Phrase("found but and are given apart", length=position.number(body.length), name=own[0],
+                          other=own[1], value=position.number(drawn))
+            position.say(f"links.{body.name}.length", said, Phrase("one of the two is wrong"))
+            return
+    for point, local in body.local.items():
+        place = body.world(local)
+        if place is None or point not in given:
+            continue
+        if abs(given[point] - place) > position.tolerance * _reach(body, local):
+            said = Phrase("link puts it at but it is given", body=body.name, pair=position.pair(place),
+                          other=position.pair(given[point]))
+            position.say(Phrase("point", point=point), said, Phrase("one of the two is wrong"))
+
+
+def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -> None:
+    """Note outlines that do not touch where given places put them: centres too far apart, or not a radius off the face,
+    on its side."""
+    for c in contacts:
+        known = [z for d in c.round if (z := position.places.get(d.centre)) is not None]
+        if len(known) < len(c.round):
+            continue
+        if not c.flat:
+            found, wanted = abs(known[1] - known[0]), abs(c.round[0].radius + c.round[1].radius)
+            key = "puts the centres apart"
+        else:
+            body, guide = position.bodies[c.face], position.bodies[c.face].guides.get(c.guide)
+            local = body.in_own_axes(known[0])
+            if guide is None or local is None:
+                continue
+            found, wanted = dot(local - guide.through, guide.direction * c.normal_to_face), c.round[0].radius
+            key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
+        if abs(found - wanted) > position.tolerance:
+            drawn = Phrase(key, distance=position.number(found), given=position.number(wanted))
+            position.say(f"contacts.{c.name}", Phrase("what is drawn", value=drawn),
+                         Phrase("correct a place a radius or the side"))

@@ -1,0 +1,383 @@
+"""The whole scene file: its tables, the mechanism that they say or all that is wrong, and the tables that say a
+mechanism.
+
+Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import unicodedata
+from collections.abc import Mapping
+from typing import Annotated
+
+from pydantic import Field as Rule
+
+from graphkin.errors import Problem, SceneError
+from graphkin.files import OwnTables
+from graphkin.plane import degrees
+from graphkin.scene import position as places
+from graphkin.scene.asked import (
+    Positions,
+    PrintedTable,
+    asked,
+    loops_named,
+    names_of_positions,
+    positions_named,
+    stated_values,
+)
+from graphkin.scene.bodies import Disc, Flaws, Frame, Guide, Link, Pin, Reading
+from graphkin.scene.cams import Cam, LawCam, cams_of, stated_cam
+from graphkin.scene.contacts import PlacedDisc
+from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_driver, stated_driver
+from graphkin.scene.force_names import no_force
+from graphkin.scene.form import Form, path_name, plain
+from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of, stated_loading
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.pairs import (
+    check_own_points,
+    check_references,
+    islands,
+    not_held,
+    pins_in_slots,
+    sliding_pairs,
+    with_bars,
+    with_carriages,
+)
+from graphkin.scene.sheet import Drawing, ReadScan, SheetWishes, Vary, background_of, scans_of
+from graphkin.scene.tables import (
+    FileTable,
+    KeyPath,
+    LinkName,
+    NotNegative,
+    Place,
+    PointName,
+    PointNames,
+    Stated,
+    Symbols,
+    Text,
+    Units,
+    in_units,
+    key,
+    table_by_name,
+    tidy,
+    xy,
+)
+from graphkin.scene.touching import (
+    Contact,
+    Gear,
+    contacts_of,
+    discs_of,
+    gears_of,
+    stated_contact,
+    stated_gear,
+    wrong_distances,
+)
+from graphkin.words import Phrase
+
+__all__ = ["SCENE", "SceneTables", "as_mapping", "mechanism_said"]
+
+MOST_LINKS = 200
+MOST_POINTS = 100
+
+
+@table_by_name
+class SceneTables(FileTable):
+    """A mechanism at one position, with what is asked of it: the whole file."""
+
+    title: Text = key("Title in English.", default="")
+    title_zh: Text = key("Title in Chinese.", default="")
+    source: Text = key("Where the problem comes from.", default="")
+    source_zh: Text = key("The same in Chinese.", default="")
+    find: Symbols | None = key(
+        "Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, theta_3, d_B/C, K_5/6, ... All motion if left out.",
+        default=None,
+    )
+    units: Units = Units()
+    frame: Frame = dataclasses.field(default_factory=Frame)
+    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = key("The moving links by name.", closed=True)
+    pins: dict[PointName, Pin] = key("Pins in slots, by the point.", closed=True, default_factory=dict)
+    contacts: dict[PointName, Contact] = key(
+        "Outlines that touch, by the name of the point of contact.", closed=True, default_factory=dict
+    )
+    gears: dict[LinkName, Gear] = key("Wheels with teeth by name.", closed=True, default_factory=dict)
+    driver: Drivers = key("What drives: one table [driver], or several [[driver]].", default=())
+    sketch: dict[PointName, Place] = key(
+        "Roughly where points lie: picks the assembly.", unit="length", closed=True, default_factory=dict
+    )
+    drawn: dict[PointName, Place] = key(
+        "Exact places of points of moving links in this position.", unit="length", closed=True, default_factory=dict
+    )
+    printed: dict[str, Stated] = key(
+        "Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2, as numbers or (with "
+        'their digits, a unit, a sense) texts; by = "drawing" or "computation".', default_factory=dict,
+    )  # fmt: skip
+    printed_rows: tuple[dict[str, Stated], ...] = key(
+        "The same over a turn: tables with at (driver value or name of a position).", default=()
+    )
+    printed_table: PrintedTable | None = key("The same from a CSV file.", default=None)
+    scans: dict[Drawing, ReadScan] = key(
+        "Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration.",
+        default_factory=dict,
+    )
+    positions: Positions | None = key("Positions with names, and their figure.", default=None)
+    loops: dict[LinkName, PointNames] = key(
+        "Vector loops by name, each the points that it goes through.", closed=True, default_factory=dict
+    )
+    cams: dict[LinkName, Cam] = key(
+        "Cams by the law of their follower, by the link.", closed=True, default_factory=dict
+    )
+    gravity: Gravity | None = key("Weights pull where this table stands.", default=None)
+    masses: dict[LinkName, Mass] = key("Masses of moving links.", closed=True, default_factory=dict)
+    loads: dict[LinkName, Load] = key("Forces and moments by name.", closed=True, default_factory=dict)
+    springs: dict[LinkName, Spring] = key(
+        "Springs between points of two links, by name.", closed=True, default_factory=dict
+    )
+    balance: Balance | None = key(
+        "What is unknown besides the joint forces; a moment on the driver if left out.", default=None
+    )
+    flywheel: Flywheel | None = key("A flywheel that evens out the turn.", default=None)
+    vary: Vary | None = key("How a set of problems is drawn from the scene.", default=None)
+    grading: dict[str, NotNegative] = key(
+        "Points of a class: for equations, drawing, values, and for single quantities by symbol.", default_factory=dict
+    )
+    sheet: SheetWishes = SheetWishes()
+
+    @property
+    def drivers(self) -> dict[str, Driver | DrivenSlide]:
+        """The drivers by their places in the file, whether written as one table or several."""
+        if isinstance(self.driver, Driver | DrivenSlide):
+            return {"driver": self.driver}
+        return {f"driver.{i}": own for i, own in enumerate(self.driver, 1)}
+
+
+SCENE = Form(SceneTables, "graphkin scene", needed="links")
+"""What may stand in a scene file."""
+
+# -- what a file says --------------------------------------------------------------------------------------------------
+
+
+def mechanism_said(
+    file: SceneTables, name: str, problems: list[Problem], lost: frozenset[KeyPath]
+) -> Mechanism:
+    """The mechanism that a file describes.
+
+    Parameters
+    ----------
+    file : what is valid in the file
+    name : the scene's name
+    problems : what was found wrong with the file's form so far
+    lost : the paths of what was taken out for it
+
+    Raises
+    ------
+    SceneError : with everything that is wrong, the form first
+    """
+    problems, flaws, metres = list(problems), Flaws(lost), file.units.metres
+    _refuse_too_much(file, problems)
+    links = with_carriages(file.frame, file.links, file.drawn)
+    frame, links, pin_tables, slots = with_bars(file.frame, links, file.pins, metres, flaws, problems)
+    reading = Reading.of(frame, links, file.contacts, file.units, flaws, problems)
+    _check_texts(file, reading)
+    check_own_points(reading)
+    slidings = sliding_pairs(reading)
+    pins = pins_in_slots(pin_tables, reading, slidings)
+    pairs = [*(s.key for s in slidings), *(p.key for p in pins)]
+    discs = discs_of(reading)
+    contacts = contacts_of(file.contacts, reading, discs)
+    gears = gears_of(file.gears, reading, slidings)
+    sliding = [isinstance(own, DrivenSlide) for own in file.drivers.values()]
+    numbered, also = names_of_positions(file.positions)
+    first = file.positions is not None and file.positions.first is not None
+    driven = drives(file.drivers, reading, slidings, pins, bool(file.drawn), numbered, also, first)
+    for table in ("sketch", "drawn"):
+        reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
+    find = asked(file.find or (), reading, (*numbered, *also))
+    stated = stated_values(file.printed, file.printed_rows, file.printed_table, reading, (*numbered, *also))
+    by_law = any(own.law is not None for own in file.drivers.values())
+    positions = positions_named(file.positions, reading, pairs, sliding[:1] == [True], by_law)
+    loops = loops_named(file.loops, reading)
+    check_references(reading, file.drawn)
+    if not reading.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
+        bare = {p.where for p in problems}
+        touching = [*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())]
+        apart = (group for group in islands(reading, pin_tables, touching) if f"links.{group[0]}" not in bare)
+        reading.wrong(*(not_held(group, frame.name) for group in apart))
+
+    drawn = {p: complex(*place) * metres for p, place in file.drawn.items()}
+    position = places.drawn_position(reading, drawn, slidings, pins, driven.values())
+    places.check_placed_twice(position)
+    if not problems:
+        places.check_starts(links, position)
+    if not problems and drawn:
+        places.check_agreement(position)
+        places.check_contacts(contacts, position)
+    if not problems:
+        places.check_all_found(position)
+        places.check_distances(position)
+    local, fixed = {n: b.local for n, b in position.bodies.items()}, position.bodies[frame.name].local
+    cams = _cams(file, reading, position) if file.cams else ()
+    if not problems:
+        guides = {n: b.guides for n, b in position.bodies.items()}
+        wrong_distances(contacts, gears, slidings, local, guides, reading)
+    loading = Loading()
+    if file.masses or file.loads or file.springs or file.balance or file.flywheel:
+        loading = loading_of(reading, file.gravity, file.masses, file.loads, file.springs, file.balance, file.flywheel,
+                             local, pairs, sliding)  # fmt: skip
+    wish = file.sheet.background
+    under = background_of(wish, {**drawn, **fixed}, reading) if wish else None
+    scans = scans_of(file.scans, reading)
+    hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
+    drivers = [placed_driver(where, d, position.value_of(d), metres, [] if hopeless else problems)
+               for where, d in driven.items()]
+    if positions is not None and drivers and drivers[0].turns and drivers[0].position:
+        drivers[0] = positions.placed(drivers[0])
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
+    made = Mechanism(
+        name=name, title=file.title or name, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh,
+        frame=_placed(frame.name, position, discs),
+        links=tuple(_placed(n, position, discs, link) for n, link in links.items()),
+        slidings=slidings, pins=pins, drivers=tuple(drivers), units=file.units,
+        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, find=find,
+        sheet=file.sheet, loading=loading, stated=stated, positions=positions, loops=loops, vary=file.vary,
+        grading=dict(file.grading), cams=cams, contacts=contacts, gears=gears,
+        starts=places.starts_of(links, position, contacts) if contacts or gears else {}, slots=slots,
+        background=under, scans=scans, written=file,
+    )  # fmt: skip
+    _check_forces(made)
+    return made
+
+
+def _refuse_too_much(file: SceneTables, problems: list[Problem]) -> None:
+    """Raises SceneError for a file with too many links, or too many points of a link."""
+    before = len(problems)
+    if len(file.links) > MOST_LINKS:
+        found = Phrase("found moving links", count=len(file.links))
+        problems.append(Problem("links", found, Phrase("at most are possible", limit=MOST_LINKS)))
+    for name, link in file.links.items():
+        if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
+            found = Phrase("has too many points and guides")
+            problems.append(Problem(f"links.{name}", found, Phrase("at most", most=MOST_POINTS)))
+    if len(problems) > before:
+        raise SceneError(*problems)
+
+
+def _check_texts(file: SceneTables, reading: Reading) -> None:
+    """Note texts that cannot be written on one line of a sheet."""
+    for where in ("title", "title_zh", "source", "source_zh"):
+        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(file, where)):
+            found = Phrase("holds a control character or a line break")
+            reading.say(where, found, Phrase("write one line of plain text"))
+
+
+def _check_forces(made: Mechanism) -> None:
+    """Raises SceneError for symbols of forces that the mechanism does not have."""
+    wanted = [("find", made.find), *(("printed", tuple(own.values)) for own in made.stated)]
+    wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in wanted for symbol in symbols)
+    problems = [problem for problem in wrong if problem is not None]
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
+
+
+def _cams(file: SceneTables, reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
+    """The cams, with the lines of the frame on which followers slide."""
+    frame = position.bodies[reading.frame.name]
+    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in position.slidings if s.on == frame.name}
+    lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
+    seen = {p: complex(*place) * position.metres for p, place in file.sketch.items()} | dict(position.drawn)
+    return cams_of(file.cams, reading, lines, frame.local, seen)
+
+
+def _placed(
+    name: str, position: places.DrawnPosition, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None = None
+) -> PlacedLink:
+    """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
+    body = position.bodies[name]
+    points = dict.fromkeys((*body.own, *link.at)) if link else body.local
+    guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
+    outlines = tuple(disc for disc in discs.values() if disc.link == name)
+    redundant = link is not None and link.redundant
+    return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
+
+
+# -- what says a mechanism ---------------------------------------------------------------------------------------------
+
+
+def as_mapping(scene: Mechanism) -> OwnTables:
+    """The mapping of a scene file that reads as this scene, everything placed in the links' own axes.
+
+    What was given by drawn points, arcs or polar entries stands there as lengths and places.
+    """
+    bars = {slot.bar for slot in scene.slots if not slot.block}
+    rolling = bool(scene.gears) or any(c.rolling for c in scene.contacts)
+    held = {c.round[0].centre for c in scene.contacts if c.rolling and c.flat}
+    pins: dict[str, tuple[str, list[str]]] = {}
+    for pin in scene.pins:
+        pins.setdefault(pin.point, (pin.of, []))[1].append(_guide_name(pin.on, pin.guide))
+    for slot in (s for s in scene.slots if not s.block):
+        of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
+        pins.setdefault(slot.point, (of, []))[1].append(f"{slot.on}.{slot.name}")
+    driver_unit = scene.units.of(scene.drivers[0].measure).si if scene.drivers else 1.0
+    units = scene.units
+    if not scene.loading:
+        units = Units(length=units.length, speed=units.speed)
+    said = SceneTables(
+        title=scene.title, title_zh=scene.title_zh, source=scene.source, source_zh=scene.source_zh, units=units,
+        frame=Frame(scene.frame.name, {**_points(scene.frame)}, _guides(scene, scene.frame), _discs(scene.frame)),
+        links={link.name: _link(scene, link, rolling) for link in scene.links if link.name not in bars},
+        pins={point: Pin(of, slots) for point, (of, slots) in pins.items()},
+        cams={cam.link: stated_cam(cam, scene.units.metres) for cam in scene.cams},
+        contacts={c.name: stated_contact(c) for c in scene.contacts},
+        gears={g.name: stated_gear(g) for g in scene.gears},
+        driver=[stated_driver(d, scene.frame.name, scene.units) for d in scene.drivers],
+        sketch={p: xy(z) for p, z in {**scene.drawn, **scene.sketch}.items() if p not in scene.frame.points},
+        drawn={p: xy(z) for p, z in scene.drawn.items() if p in held},
+        find=[str(symbol) for symbol in scene.find] or None,
+        **stated_loading(scene.loading, driver_unit),
+    )  # fmt: skip
+    made = plain(in_units(said, scene.units))
+    own_units = {"length": scene.units.length, **made.pop("units", {})}
+    head: OwnTables = {text: made.pop(text) for text in ("title", "title_zh", "source", "source_zh", "find")
+                       if text in made}  # fmt: skip
+    return head | {"units": own_units} | made
+
+
+def _link(scene: Mechanism, link: PlacedLink, rolling: bool) -> Link:
+    """The table of a link, in SI but for angles; ``rolling`` where it is said where what rolls stands."""
+    blocks = [slot for slot in scene.slots if slot.bar == link.name]
+    pairs = [s for s in scene.slidings if s.link == link.name]
+    on = [*(_guide_name(s.on, s.guide) for s in pairs), *(f"{s.on}.{s.name}" for s in blocks)]
+    sides = [1j / link.points[s.centre] * abs(link.points[s.centre]) for s in blocks]
+    turned = [tidy(degrees(turn)) for turn in (*(s.turn for s in pairs), *sides)]
+    start = None
+    if rolling:
+        slide = pairs[0].key if pairs else link.name
+        unit = scene.units.of("length" if pairs else "angle")
+        start = tidy(unit.of(scene.starts[slide])) if slide in scene.starts else None
+    elsewhere = {*link.bar, *(slot.centre for slot in blocks)}
+    return Link(
+        points=list(link.bar), length=link.length, on=on or None, angle_on=turned or None,
+        at={p: place for p, place in _points(link).items() if p not in elsewhere}, guides=_guides(scene, link),
+        discs=_discs(link), start=start, redundant=link.redundant,
+    )  # fmt: skip
+
+
+def _points(link: PlacedLink) -> dict[str, list[float]]:
+    return {p: xy(z) for p, z in link.points.items()}
+
+
+def _guides(scene: Mechanism, link: PlacedLink) -> dict[str, Guide]:
+    """The guides of a link, circular slots too."""
+    straight: dict[str, PlacedGuide] = {name: guide for name, guide in link.guides.items() if name}
+    made = {n: Guide(through=xy(g.through), angle=tidy(degrees(g.direction))) for n, g in straight.items()}
+    circular = (slot for slot in scene.slots if slot.on == link.name)
+    return made | {slot.name: Guide(centre=slot.centre, r=slot.radius, ends=slot.ends) for slot in circular}
+
+
+def _discs(link: PlacedLink) -> dict[str, Disc]:
+    return {disc.name: Disc(disc.centre, disc.radius) for disc in link.discs}
+
+
+def _guide_name(link: str, guide: str) -> str:
+    return f"{link}.{guide}" if guide else link
