@@ -18,7 +18,6 @@ from graphkin.construction.sizes import Direction, plain_in
 from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, listed, say, word
 from graphkin.words.rich_text import as_plain, rich_text
@@ -158,7 +157,7 @@ def rolling_starts(sheet: Sheet) -> list[str]:
     scene, parts = sheet.scene, []
     own = [_stands(sheet, driver, driver.values[0]) for driver in scene.drivers]
     for group in sheet.structure.elements:
-        for driver in group.starts if isinstance(group, Cluster) else ():
+        for driver in group.starts:
             value = driver.values[0]
             if driver.turns:  # from what never turns
                 value = cmath.phase(sheet.poses[driver.relative_to].axis * cmath.rect(1.0, value))

@@ -9,7 +9,7 @@ from graphkin.construction.polygon_acts import SeenFrom, TrialDrawn
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Pair
+from graphkin.structure import Pair
 from graphkin.words import Phrase
 from graphkin.words.written import pointing
 
@@ -58,7 +58,7 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
 def _rolling_at(sheet: Sheet) -> Mapping[str, tuple[str, str]]:
     """The points at which links of a group roll on each other, with the links."""
     scene = sheet.scene
-    coupled = {r.name for e in sheet.structure.elements if isinstance(e, Cluster) for r in e.rolling}
+    coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
     found = {c.name: c.links for c in scene.contacts if c.name in coupled}
     return found | {s.act.point: s.act.links for s in sheet.steps if isinstance(s.act, PitchPoint)}
 

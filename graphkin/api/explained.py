@@ -273,11 +273,10 @@ def _groups(structure: Structure) -> Iterator[Sentence]:
     with suppress(GraphkinError):  # the position cannot be had: solve says why
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
     for group in structure.groups:
-        order = group.order if isinstance(group, Cluster) else 2
         links = ", ".join(group.links)
-        larger = Phrase("explained group kind" if order > 2 else "explained rolling kind")
+        larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
         kind = larger if isinstance(group, Cluster) else group.kind
-        yield "explained groups", Phrase("explained group", (links, kind, class_of(order)))
+        yield "explained groups", Phrase("explained group", (links, kind, class_of(group.order)))
         taken = assembly.get(links)
         if taken is not None:
             yield "explained groups", Phrase("explained assembly", (taken,))

@@ -14,7 +14,6 @@ from graphkin.construction.touching import Touching
 from graphkin.errors import CallError, Problem
 from graphkin.plane import dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -122,7 +121,7 @@ def _pair(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
         if sides == {of, to}:
             return s.b
     seen = {ref.link for ref in (symbol.of, symbol.to) if ref}
-    if symbol.to and any(isinstance(g, Cluster) and seen <= {*g.members} for g in plot.structure.groups):
+    if symbol.to and any(seen <= {*group.members} for group in plot.structure.larger_groups):
         return symbol.to.link  # links of a group that are drawn as one, seen from one of them
     known = ", ".join(s.key for s in plot.structure.slides)
     raise CallError(

@@ -26,7 +26,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, pick
 from graphkin.words import Phrase
 
 __all__ = ["Known", "all_fits", "as_sketched", "assembly_at", "fits_between", "nearest_assembly", "own_position"]
@@ -112,7 +112,7 @@ def nearest_assembly(
                 raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
             given = starting is not None and bool(element.rolling)
             trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
-        for name in links_of(element):
+        for name in element.members:
             paper.poses[name] = poses[name]
     return branches, trials
 
@@ -124,14 +124,14 @@ def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[
     """The links of some elements at driver values (rad, m) that are the scene's own, on paper of its size."""
     structure = choices.structure
     paper = start_board(structure, 1.0 / structure.scene.size, values)
-    wanted = {n for element in elements for n in links_of(element)}
+    wanted = {n for element in elements for n in element.members}
 
     def choose(_: int, element: Dyad | Cluster) -> Poses:
         if isinstance(element, Dyad):
             return meant(structure, paper, element)
         return _cluster_by_sketch(choices, paper, element)
 
-    here = [element for element in structure.elements if wanted.intersection(links_of(element))]
+    here = [element for element in structure.elements if wanted.intersection(element.members)]
     assembled(paper, here, choose, lambda driver: driver.start)
     return paper
 

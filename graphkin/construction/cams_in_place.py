@@ -18,7 +18,7 @@ from graphkin.plane import dot
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Cluster, Driven, Structure, analyse, part_of
+from graphkin.structure import Structure, analyse, part_of
 from graphkin.structure.assembly import ways
 from graphkin.structure.replacement import cams_replaced
 from graphkin.words import Phrase
@@ -38,8 +38,7 @@ def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool 
     """
     scene = structure.scene
     own = {d.key: d.values[0] for d in scene.drivers}
-    groups = [e for e in structure.elements if not isinstance(e, Driven)]
-    if not groups or any(isinstance(e, Cluster) for e in groups):
+    if not structure.groups or structure.larger_groups:
         return analyse(_replaced(scene, values, {}, bars))
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     way = next(iter(ways(scene.drivers, first, goal)), goal)

@@ -19,7 +19,7 @@ from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, Dyad, Pair, Rolled, links_of
+from graphkin.structure import Driven, Dyad, Pair, Rolled
 from graphkin.words import Phrase
 
 __all__ = ["draw_element"]
@@ -34,7 +34,7 @@ def draw_element(plot: Polygons, order: Order, element: Driven | Dyad) -> None:
         if element not in plot.chains:
             plot.chains[element] = _found(plot, element)
         draw_equation(plot, order, element, plot.chains[element])
-    for name in links_of(element):
+    for name in element.members:
         plot.complete(order, name)
 
 
@@ -112,7 +112,7 @@ def _found(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
     welds = tuple(w for body in dyad.bodies for w in body.welds)
     pairs = (dyad.outer_first, dyad.inner, dyad.outer_second, *(w.pair for w in welds))
     slides = [p for p in pairs if not p.turns]
-    joined = Joined(links_of(dyad), pairs, welds)
+    joined = Joined(dyad.members, pairs, welds)
     chain = equation_of(
         plot.links,
         plot.ground,

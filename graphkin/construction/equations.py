@@ -48,7 +48,7 @@ from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Weld, links_of
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Weld
 
 __all__ = [
     "at_contacts", "draw_equation", "draw_parallel_legs", "draw_relative", "first_ends", "known_turns", "links_alike",
@@ -80,7 +80,7 @@ def same_turn(plot: Polygons, group: Dyad | Cluster) -> dict[str, str]:
         inside = set(group.members)
         return {n: plot.ground if plot.ground in alike[n] else min(alike[n] & inside) for n in group.members}
     without = {c.block for c in contacts_of(plot.structure, group)} if plot.at_contacts else set()
-    names = links_of(group)
+    names = group.members
     alike = links_alike(names, turned(plot, None, group))
     own = {n: min(alike[n].difference(without), default=n) for n in names}
     return {n: next((m for m in sorted(alike[n]) if m not in names), own[n]) for n in names}

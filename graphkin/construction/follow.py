@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from graphkin.construction.dyads import assembled, meet
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
-from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, clusters, reduced_mechanisms
+from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, reduced_mechanisms
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Driver
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, links_of, outside_of, started
+from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, started
 from graphkin.structure.assembly import out_of_reach, ways
 
 __all__ = [
@@ -42,7 +42,7 @@ class Choices:
 
     def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
         self.structure, self.elements = structure, elements
-        wanted = [c for c in clusters(structure) if c in elements]
+        wanted = [c for c in structure.larger_groups if c in elements]
         self.of: Mapping[Cluster, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
         self.last: dict[Cluster, ReducedMechanism] = {}
         self._further: dict[Cluster, list[ReducedMechanism]] = {}
@@ -54,8 +54,8 @@ class Choices:
         there = started(self.structure)
         if there is self.structure:
             return self
-        wanted = {n for element in self.elements for n in links_of(element)}
-        return Choices(there, [e for e in there.elements if wanted.intersection(links_of(e))])
+        wanted = {n for element in self.elements for n in element.members}
+        return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
 
     def further(self, cluster: Cluster) -> list[ReducedMechanism]:
         """Those with more constraints removed than it takes, for where the others are at dead points."""
@@ -342,11 +342,11 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
     drawn: list[Driven | Dyad] = []
     held: dict[str, tuple[str, float]] = {}
     before = replace(known, poses=dict(known.poses))
-    mine = [e for e in choices.structure.elements if set(links_of(e)) <= set(cluster.members)]
+    mine = [e for e in choices.structure.elements if set(e.members) <= set(cluster.members)]
     for k, element in enumerate(mine):
         if isinstance(element, Cluster):
             # what later ones hang on is not left out
-            wanted = {name for later in mine[k + 1 :] for name in outside_of(later)}
+            wanted = {name for later in mine[k + 1 :] for name in later.outside}
             few_or_more = (choices.of[element], choices.further(element))
             found = (_best_of(_with_links(some, wanted), before, guess) for some in few_or_more)
             best = next((one for one in found if one is not None), None)
@@ -358,5 +358,5 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
             held.update(best.reduced.held)
         else:
             drawn.append(element)
-        before.poses.update({name: guess[name] for name in links_of(element)})
+        before.poses.update({name: guess[name] for name in element.members})
     return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), cluster, tuple(drawn), held=held)

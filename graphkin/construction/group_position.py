@@ -39,7 +39,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedCon
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver
-from graphkin.structure import Driven, links_of
+from graphkin.structure import Driven
 from graphkin.words import Phrase
 
 __all__ = ["GroupTrial"]
@@ -135,7 +135,7 @@ class GroupTrial:
                 best = meeting.nearest(poses)
                 told_here = meeting.tell(best) if best is not None else ()
             story += told_here
-            for name in links_of(element):
+            for name in element.members:
                 board.poses[name] = poses[name]
         return tuple(story)
 

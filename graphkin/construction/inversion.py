@@ -83,8 +83,8 @@ def opened_at_triangles(structure: Structure) -> Structure:
 
 def inversions_of(structure: Structure) -> tuple[Inversion, ...]:
     """The driven triangles of a structure, in the order in which their groups are drawn."""
-    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.parts]
-    return tuple(Inversion(t, analyse(_held(structure.scene, t))) for group in groups for t in group.triangles)
+    triangles = (triangle for group in structure.larger_groups if group.parts for triangle in group.triangles)
+    return tuple(Inversion(t, analyse(_held(structure.scene, t))) for t in triangles)
 
 
 def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
@@ -136,7 +136,7 @@ def own_assembly(
     taken: dict[str, int] = {}
     i = 0
     while i < len(elements):
-        group = next((e for e in structure.elements if isinstance(e, Cluster) and elements[i] in e.parts), None)
+        group = next((e for e in structure.larger_groups if elements[i] in e.parts), None)
         if group is None:
             assembled(paper, elements[i : i + 1], lambda _, dyad: meant(opened, paper, dyad))  # type: ignore[arg-type]
             i += 1

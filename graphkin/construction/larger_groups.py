@@ -54,7 +54,7 @@ from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Pair, Weld, driver_pair, links_of
+from graphkin.structure import Cluster, Pair, Weld, driver_pair
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -167,7 +167,7 @@ def _draw_move(plot: Polygons, order: Order, group: Cluster, step: Move) -> None
 def _complete(plot: Polygons, order: Order, group: Cluster) -> None:
     """All points of links that turn at known rates and of which one point is known, by images."""
     ends = plot.ends[order]
-    left = [n for n in links_of(group) if n in plot.rates[order]]
+    left = [n for n in group.members if n in plot.rates[order]]
     while ready := [n for n in left if any(plot.on(ref, n) for ref in ends)]:
         for name in ready:
             plot.complete(order, name)

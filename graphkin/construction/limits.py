@@ -23,7 +23,7 @@ from graphkin.construction.position import place
 from graphkin.construction.sheet import LimitPosition, Limits, Scales
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Element, Pair, Structure, links_of
+from graphkin.structure import Element, Pair, Structure
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
@@ -82,7 +82,7 @@ class TurnOfCrank:
             raise Unsolvable("no whole turn", Problem(why, Phrase("belongs to a whole turn but the driver"),
                                                       Phrase("ask for s_ theta_ or d_ at single")))  # fmt: skip
         choices = Choices(structure, elements)
-        placed = {structure.scene.frame.name, *(n for e in elements for n in links_of(e))}
+        placed = {structure.scene.frame.name, *(n for e in elements for n in e.members)}
         start = {name: pose for name, pose in poses.items() if name in placed}
         value = values[driver.key]
         turn = cls(structure, elements, values, choices, (Turned(value, start),))
@@ -186,7 +186,7 @@ def limits_asked(
         if symbol.scope != "turn" or symbol.pair in found:
             continue
         output = sliding_pair(structure, symbol) if symbol.other else symbol.link
-        if not {n for e in elements for n in links_of(e)} <= set(poses):
+        if not {n for e in elements for n in e.members} <= set(poses):
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
         low, high, swing = turn.limits(output, str(symbol))

@@ -24,7 +24,7 @@ from graphkin.construction.sizes import Direction
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Dyad, Pair, Structure, Weld, links_of
+from graphkin.structure import Cluster, Dyad, Pair, Structure, Weld
 
 __all__ = [
     "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
@@ -428,7 +428,7 @@ def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink])
 
 def contacts_of(structure: Structure, group: Dyad | Cluster) -> tuple[PlacedContact, ...]:
     """The sliding contacts that a bar or a block of a group stands for."""
-    members = links_of(group)
+    members = group.members
     return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)
 
 

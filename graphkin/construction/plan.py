@@ -42,7 +42,6 @@ from graphkin.structure import (
     Element,
     Structure,
     analyse,
-    links_of,
     needed,
     pins_on_circles,
 )
@@ -100,9 +99,9 @@ class Task:
     def left_out(self) -> tuple[Phrase, ...]:
         """What nothing asked for needs."""
         wanted = needed(self.opened, self.asked)
-        placed = {n for e in self.elements for n in links_of(e)}
-        pushed = {n for e in self.drawn["acceleration"] for n in links_of(e)}
-        gone = {n for e in self.opened.elements if e not in wanted for n in links_of(e)}
+        placed = {n for e in self.elements for n in e.members}
+        pushed = {n for e in self.drawn["acceleration"] for n in e.members}
+        gone = {n for e in self.opened.elements if e not in wanted for n in e.members}
         names = [link.name for link in self.structure.scene.links]
         without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
         keys = "left out elements", "left out accelerations"
@@ -368,7 +367,7 @@ def _drawn_apart(
 ) -> TriangleDrawn:
     """The triangle on a board of its own, with its two polygons."""
     board = Board(instrument)
-    elements = [e for e in inversion.structure.elements if isinstance(e, Dyad)]
+    elements = [*inversion.structure.dyads.values()]
     position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
     draw_position(board, inversion.structure, elements, position, {0: branch})
     board.causes[:] = position.causes
@@ -490,7 +489,7 @@ def plan(
         start = {d.key: own[d.key] for d in opened.scene.drivers}, poses
         triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
         values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
-    elif near is not None and {n for e in elements for n in links_of(e)} <= near.poses.keys() and not scene.instead_of:
+    elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys() and not scene.instead_of:
         start = _known(near)
     here = {d.key: values[d.key] for d in opened.scene.drivers}
     branches, trials, rolled = assembly_at(opened, elements, here, start)

@@ -27,7 +27,6 @@ from graphkin.structure import (
     Dyad,
     Element,
     Structure,
-    links_of,
 )
 from graphkin.words import Phrase
 
@@ -129,7 +128,7 @@ def draw_position(
             which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
             assembly[key] = Phrase(which, tuple(pair.key for pair in element.pairs))
         found: set[str] = set()
-        left = list(links_of(element))
+        left = list(element.members)
 
         def known(name: str, found: set[str] = found) -> int:
             return len(structure.links[name].points.keys() & (named | found))
@@ -149,7 +148,7 @@ def draw_position(
             name = max(left, key=known)
             left.remove(name)
             _mark_points(board, structure, paper, name, named)
-        for name in links_of(element):
+        for name in element.members:
             so_far.poses[name] = paper.poses[name]
     return assembly
 

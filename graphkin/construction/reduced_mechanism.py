@@ -18,10 +18,10 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, trave
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure, links_of, regrouped, unrolled
+from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure, regrouped, unrolled
 from graphkin.words import Phrase
 
-__all__ = ["ReducedMechanism", "RemovedConstraint", "clusters", "reduced_mechanisms"]
+__all__ = ["ReducedMechanism", "RemovedConstraint", "reduced_mechanisms"]
 
 MOST_REMOVED = 4
 MOST_KEPT = 24  # reduced mechanisms with several trial drivers that are looked at
@@ -102,11 +102,6 @@ class ReducedMechanism:
         return travel(self.structure.slide(driver.key), poses, mm) / mm
 
 
-def clusters(structure: Structure) -> list[Cluster]:
-    """The larger groups, in the order of solution."""
-    return [e for e in structure.elements if isinstance(e, Cluster)]
-
-
 def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 0) -> list[ReducedMechanism]:
     """All ways to replace a larger group of a mechanism by dyads with the fewest constraints removed, or the fewest
     that are ``more_than`` so many.
@@ -116,7 +111,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
     Unsolvable : "not drawn": nothing can be left out so that only dyads remain
     """
     before = structure.elements[: structure.elements.index(cluster)]
-    known = {structure.scene.frame.name, *(n for e in before for n in links_of(e))}
+    known = {structure.scene.frame.name, *(n for e in before for n in e.members)}
     for count in range(max(more_than + 1, len(cluster.rolling)), len(cluster.rolling) + MOST_REMOVED + 1):
         found: list[ReducedMechanism] = []
         for reduced in _reduced(structure, cluster, known, count):

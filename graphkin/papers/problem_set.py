@@ -22,7 +22,7 @@ from graphkin.papers.fresh_numbers import Spread, candidate, varied_keys
 from graphkin.papers.variants import Answer, Unfit, Variant, examined
 from graphkin.papers.vary_rules import level_of
 from graphkin.scene import mechanism_of
-from graphkin.structure import Cluster, analyse
+from graphkin.structure import analyse
 
 __all__ = ["Failure", "Job", "MadeSet", "Render", "accepted", "distinct", "jobs_of_rows", "jobs_of_seed", "make"]
 
@@ -109,7 +109,7 @@ def work(job: Job, attempt: int) -> Attempt:
         return _row(job)
     why: Counter[str] = Counter()
     begun = time.process_time()
-    large = any(isinstance(group, Cluster) for group in analyse(mechanism_of(job.source)).elements)
+    large = bool(analyse(mechanism_of(job.source)).larger_groups)
     lone: Attempt | None = None  # of which a pencil finds one quantity
     for k in range(attempt, ATTEMPTS):
         if time.process_time() - begun > (LONGER if large else PATIENCE) or (lone is not None and k - attempt >= AMONG):

@@ -22,7 +22,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
-from graphkin.structure import Cluster, Driven, Dyad, Pair, analyse, links_of
+from graphkin.structure import Cluster, Dyad, Pair, analyse
 from graphkin.words import Phrase
 
 __all__ = ["Answer", "Unfit", "Variant", "asked_of", "examined"]
@@ -68,14 +68,14 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     if scene.find:
         return scene.find
     structure = analyse(scene)
-    driven = {e.link for e in structure.elements if isinstance(e, Driven)}
+    driven = {e.link for e in structure.driven}
     turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
     found: list[Symbol] = []
-    last = next((e for e in reversed(structure.elements) if not isinstance(e, Driven)), None)
+    last = next(reversed(structure.groups), None)
     if last is not None:
         names = [p.point or p.pin for p in _joints(last)]
         known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
-        rolled = {e.link for e in structure.elements if isinstance(e, Driven) and e.driver.rolls}
+        rolled = {e.link for e in structure.driven if any(d.rolls for d in e.drivers)}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}
         moving = next((n for n in names if n and n not in known), None)
         found += [Symbol.parse(f"{k}_{moving}") for k in ("v", "a")] if moving else []
@@ -107,7 +107,7 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
     their links."""
     found = set(scene.frame.points)
     for group in analyse(scene).elements:
-        links = [scene.by_name[name] for name in links_of(group) if name in scene.by_name]
+        links = [scene.by_name[name] for name in group.members if name in scene.by_name]
         if isinstance(group, Cluster):
             points = dict.fromkeys(p for link in links for p in link.points if p not in found)
             names = [f"{k}_{p}" for k in "va" for p in points]

@@ -22,10 +22,8 @@ from graphkin.structure import (
     Cluster,
     Driven,
     Dyad,
-    Rolled,
     Structure,
     in_stages,
-    links_of,
     named_with_contact,
     pick,
     started,
@@ -81,9 +79,9 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
         if isinstance(element, Dyad):
             forms[i], known = _choose_sign(structure, i, element, drive, forms, known)
         elif isinstance(element, Driven):
-            if isinstance(element.driver, Rolled):
+            if element.rolled is not None:
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
-                own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.driver.factors]
+                own = [reading(structure, state.poses, coordinate)[0] for coordinate, _ in element.rolled.factors]
                 forms[i] = np.repeat(own, 2)
             if structure.scene.drawn:  # one place alone, which must be the drawn one
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i + 1, rates=False)
@@ -110,7 +108,7 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
         dead = group.condition[0] * SINGULAR > 1 if isinstance(group, ClusterSolved) else (
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
         if dead:
-            names = ", ".join(links_of(there.elements[i]))
+            names = ", ".join(there.elements[i].members)
             wanted = Phrase("let what rolls start a little beside it")
             raise Unsolvable(
                 "dead point", Problem(Phrase("links", links=names), Phrase("they start in a dead point"), wanted)
@@ -130,7 +128,7 @@ def _choose_sign(
         states.append(positions(structure, drive, given, i + 1, rates=False, known=own))
     solved = states[0].groups[i]
     assert isinstance(solved, DyadSolution)
-    links = dyad.links or links_of(dyad)  # what stands for two contacts of one link has no link of the file
+    links = dyad.links or dyad.members  # what stands for two contacts of one link has no link of the file
     if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
@@ -203,7 +201,7 @@ def new_places(structure: Structure, i: int, links: Sequence[str], state: State)
     """Where the points lie that only this group has placed."""
     before = {structure.scene.frame.name}
     for element in structure.elements[:i]:
-        before.update(links_of(element))
+        before.update(element.members)
     known = {p for name in before for p in structure.links[name].points}
     found: dict[str, complex] = {}
     for name in links:

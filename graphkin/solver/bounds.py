@@ -19,7 +19,7 @@ from graphkin.solver.dyads import DyadSolution, Frames, Joints, PoseFormula, bod
 from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
 from graphkin.solver.pose import FIELDS, ErrorBound, Pose
 from graphkin.solver.rounding import Rounding
-from graphkin.structure import Driven, Dyad, DyadKind, Element, Pair, Rolled, links_of
+from graphkin.structure import Driven, Dyad, DyadKind, Element, Pair, Rolled
 from graphkin.structure.model import Coordinate
 
 __all__ = ["ErrorFormulas", "FrameError", "carried"]
@@ -283,7 +283,7 @@ class ErrorFormulas:
     def _error_of(self, link: str) -> FrameError:
         """How far a link may be off: by what it inherits from the links it hangs on, and by its own rounding."""
         if link not in self._errors:
-            i = next(k for k, e in enumerate(self.structure.elements) if link in links_of(e))
+            i = next(k for k, e in enumerate(self.structure.elements) if link in e.members)
             self._errors.update(self._errors_of(i, self.structure.elements[i]))
         return self._errors[link]
 
@@ -406,13 +406,6 @@ def _base(pair: Pair, inside: Iterable[str]) -> str:
 def _bases(element: Driven | Dyad) -> list[str]:
     """The known links that an element hangs on."""
     if isinstance(element, Driven):
-        found = [_base(element.pair, [element.link])]
-        if isinstance(element.driver, LawCam):
-            return [*found, element.driver.link]
-        if isinstance(element.driver, Rolled):
-            return [*found, *(n for n in element.driver.links if n != element.link)]
-        if element.driver.turns:
-            found += [n for n in (element.driver.link, element.driver.relative_to) if n != element.link]
-        return found
+        return [_base(element.pair, element.links), *(n for n in element.driver.links if n != element.link)]
     bodies = zip(element.outer, element.bodies, strict=True)
     return [_base(pair, body.links) for pair, body in bodies]

@@ -241,7 +241,7 @@ class Path:
         found = []
         for i, t in sorted(self.passed, key=lambda one: one[1]):
             element = self.structure.elements[i]
-            if t < self.reach and isinstance(element, Dyad | Cluster):
+            if t < self.reach and element.order > 1:
                 found.append(ChangePoint(element.links, tuple(self.values(np.array([t]))[0].tolist())))
         return tuple(found)
 
@@ -293,8 +293,8 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
     for i, element in enumerate(structure.elements):
         if isinstance(element, Dyad):
             path = _follow_dyad(path, i, element, float(forms[i]), grid)
-        elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
-            path = _follow_rolled(path, i, element.driver, np.asarray(forms[i]), grid)
+        elif isinstance(element, Driven) and element.rolled is not None:
+            path = _follow_rolled(path, i, element.rolled, np.asarray(forms[i]), grid)
         elif isinstance(element, Cluster):
             path = _follow_cluster(path, i, np.asarray(forms[i]))
         if path.limit is not None:

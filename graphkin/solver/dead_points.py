@@ -57,15 +57,14 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     ------
     Unsolvable : it has a larger group, whose dead points are known only along its motion
     """
-    for element in structure.elements:
-        if isinstance(element, Cluster):
-            where = links_words(element.links)
-            raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
+    for group in structure.larger_groups:
+        where = links_words(group.links)
+        raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
     if in_stages(structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     found: list[DeadPoint] = []
-    dyads = [i for i, e in enumerate(structure.elements) if isinstance(e, Dyad)][:MOST_GROUPS]
+    dyads = [*structure.dyads][:MOST_GROUPS]
     for k, i in enumerate(dyads):
         for chosen in product((1.0, -1.0), repeat=k):
             signs = dict(zip(dyads, chosen, strict=False))
@@ -83,8 +82,7 @@ def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
 
 def not_searched(structure: Structure) -> tuple[str, ...]:
     """Links of groups that stand behind so many others that not all their assemblies are tried."""
-    dyads = [e for e in structure.elements if isinstance(e, Dyad)]
-    return tuple(name for e in dyads[MOST_GROUPS:] for name in e.links)
+    return tuple(name for e in [*structure.dyads.values()][MOST_GROUPS:] for name in e.links)
 
 
 def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
@@ -328,7 +326,7 @@ def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> W
 def _where(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Wording:
     """Where the dead point lies, and how far away."""
 
-    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if isinstance(structure.elements[j], Dyad) and j < i}
+    signs = {j: float(np.ravel(f)[0]) for j, f in forms.items() if j in structure.dyads and j < i}
     value = float(values[0])
     point = nearest_dead_point(structure, i, signs, value)
     if point is None:

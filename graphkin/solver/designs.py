@@ -23,7 +23,7 @@ from graphkin.solver.expressions import Name
 from graphkin.solver.pose import Array, turned
 from graphkin.solver.prepared import CLEAR, PreparedMechanism, bounds, formulas, prepare
 from graphkin.solver.program import GIVEN, program_of
-from graphkin.structure import Dyad, analyse
+from graphkin.structure import analyse
 
 __all__ = ["PreparedMechanisms"]
 
@@ -183,8 +183,8 @@ class PreparedMechanisms:
             forms = choose_forms(structure)
         except (Unsolvable, SceneError):
             return None
-        for i, element in enumerate(structure.elements):
-            if isinstance(element, Dyad) and not element.is_two_lines:
+        for i, dyad in structure.dyads.items():
+            if not dyad.is_two_lines:
                 forms[i] = own[i][0]
         along = range_from(structure, forms, own_values(scene))
         return prepare(structure, ready.wanted, ready.units, ready.bounded, along)

@@ -29,7 +29,7 @@ from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.pose import FIELDS, UNIT, Array, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
 from graphkin.solver.rounding import Rounding
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages, links_of
+from graphkin.structure import Cluster, Driven, Rolled, Structure, in_stages
 
 if TYPE_CHECKING:
     from graphkin.solver.larger_groups import ClusterSolved
@@ -270,7 +270,7 @@ class _Run:
             else:
                 given["travel", k] = value
         for i, form in self.forms.items():
-            if isinstance(self.structure.elements[i], Dyad):
+            if i in self.structure.dyads:
                 given["sign", i] = np.broadcast_to(form, (self.n,))
         return given
 
@@ -288,8 +288,8 @@ class _Run:
         self.follow(upto)
         elements = self.structure.elements[:upto]
         program = self.dimensioned.program
-        names = [n for e in elements for n in links_of(e)]
-        dyads = [i for i, e in enumerate(elements) if isinstance(e, Dyad)]
+        names = [n for e in elements for n in e.members]
+        dyads = [i for i in self.structure.dyads if i < upto]
         parts = ("discriminant", "sine", *(("e1", "e2", "right_side") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
         followed = self.sure and not self.clusters

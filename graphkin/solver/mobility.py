@@ -29,7 +29,7 @@ from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Array
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, analyse, links_of, mobility_of, pick
+from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, mobility_of, pick
 from graphkin.structure.assembly import TOUCH
 from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase, Wording, clauses, listed
@@ -156,14 +156,14 @@ def with_sensible_slots(structure: Structure) -> Structure:
     (some, state), scene = found[0], structure.scene
     sketch = dict(scene.sketch)
     for k in some:
-        sketch |= new_places(structure, k, links_of(structure.elements[k]), state)
+        sketch |= new_places(structure, k, structure.elements[k].members, state)
     return analyse(replace(scene, sketch=sketch))
 
 
 def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
     """The dyads before the first larger group, and before anything that rolls."""
     for i, element in enumerate(structure.elements):
-        if isinstance(element, Cluster) or (isinstance(element, Driven) and isinstance(element.driver, Rolled)):
+        if isinstance(element, Cluster) or (isinstance(element, Driven) and element.rolled):
             return
         if isinstance(element, Dyad):
             yield i, element
@@ -176,7 +176,7 @@ def _free_guides(structure: Structure) -> list[int]:
     found = []
     for i, dyad in dyads:
         own = {p for name in dyad.links for p in structure.links[name].points}
-        known = {p for j in range(i) for n in links_of(structure.elements[j]) for p in structure.links[n].points}
+        known = {p for j in range(i) for n in structure.elements[j].members for p in structure.links[n].points}
         fresh = own - known - set(scene.frame.points)
         if dyad.is_slider_on_bar and not dyad.inner.turns and fresh and not fresh & told and dyads[-1][0] > i:
             found.append(i)

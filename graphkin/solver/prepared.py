@@ -28,7 +28,7 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, UNIT, Array, turned
 from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import VALUES, Posed
-from graphkin.structure import Cluster, Structure, in_stages
+from graphkin.structure import Structure, in_stages
 from graphkin.words import Phrase
 
 __all__ = ["Column", "PreparedMechanism", "Units", "bounds", "force_heads", "force_rows", "formulas", "prepare"]
@@ -266,7 +266,7 @@ class PreparedMechanism:
         for _, dead in singular(self.structure, state, len(value)):
             ok &= ~dead
         given: dict[Name, Array] = {}
-        for name in (n for e in self.structure.elements if isinstance(e, Cluster) for n in e.members):
+        for name in (n for group in self.structure.larger_groups for n in group.members):
             for field in FIELDS:
                 part = np.broadcast_to(getattr(state.poses[name], field), value.shape)
                 given["pose", name, field, "x"] = np.ascontiguousarray(part.real)

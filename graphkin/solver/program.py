@@ -192,8 +192,8 @@ def _numbers(structure: Structure) -> dict[Name, complex]:
         found["turn", s.key] = s.turn
         found["through", s.key] = s.guide.through
         found["direction", s.key] = s.guide.direction
-    for element in structure.elements:
-        if isinstance(element, Driven) and isinstance(rolled := element.driver, Rolled):
+    for element in structure.driven:
+        if rolled := element.rolled:
             found |= {("ratio", rolled.key, *coordinate): complex(factor) for coordinate, factor in rolled.factors}
     return found
 
@@ -211,7 +211,7 @@ def _form(structure: Structure, open_: Container[Name]) -> Hashable:
 
 def _element_form(element: Driven | Dyad | Cluster) -> Hashable:
     if isinstance(element, Driven):
-        follows = tuple(c for c, _ in element.driver.factors) if isinstance(element.driver, Rolled) else ()
+        follows = tuple(c for c, _ in element.rolled.factors) if element.rolled else ()
         return element.link, _pair_form(element.pair), type(element.driver).__name__, element.driver.key, follows
     if isinstance(element, Cluster):
         return element.members

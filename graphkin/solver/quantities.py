@@ -19,7 +19,7 @@ from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import Array, Pose, R, V
-from graphkin.structure import Cluster, Dyad, Pair, Structure, links_of
+from graphkin.structure import Dyad, Pair, Structure
 from graphkin.structure.transmission import (
     TransmissionAngle,
     joint_between,
@@ -80,7 +80,7 @@ class Posed(Generic[V, R]):
 
     @cached_property
     def _order(self) -> dict[str, int]:
-        order = {name: i for i, e in enumerate(self.structure.elements) for name in links_of(e)}
+        order = {name: i for i, e in enumerate(self.structure.elements) for name in e.members}
         return {**order, self.structure.scene.frame.name: -1}
 
     def is_under(self, ref: PointRef) -> bool:
@@ -316,7 +316,7 @@ def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array
             if guides.link == pair.b or (not guides.link and _is_on(posed, guides, pair.b)):
                 return _against(posed, symbol, of, to, pair.b)
     # links of a group that are drawn as one, seen from one of them
-    together = [{*group.members} for group in posed.structure.groups if isinstance(group, Cluster)]
+    together = [{*group.members} for group in posed.structure.larger_groups]
     if of.point == to.point and any({of.link, to.link} <= members for members in together):
         return _against(posed, symbol, of, to, to.link)
     raise CallError(

@@ -608,5 +608,4 @@ def _bounds(motion: Motion, k: int) -> dict[str, Json]:
 
 
 def _group(group: Dyad | Cluster, words: Phrase) -> dict[str, Json]:
-    order = group.order if isinstance(group, Cluster) else 2
-    return {"class": order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}
+    return {"class": group.order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}

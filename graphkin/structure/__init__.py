@@ -16,11 +16,14 @@ from graphkin.structure.model import (
     RollingRelation,
     Structure,
     Weld,
+    by_drivers_alone,
     driver_pair,
-    links_of,
-    outside_of,
+    greatest_before,
+    in_stages,
+    links_for,
+    needed,
+    part_of,
 )
-from graphkin.structure.needed_elements import by_drivers_alone, greatest_before, in_stages, links_for, needed, part_of
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
@@ -46,12 +49,10 @@ __all__ = [
     "greatest_before",
     "in_stages",
     "links_for",
-    "links_of",
     "meshes_of",
     "mobility_of",
     "named_with_contact",
     "needed",
-    "outside_of",
     "part_of",
     "pick",
     "pins_on_circles",

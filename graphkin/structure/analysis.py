@@ -13,7 +13,7 @@ from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_me
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
-from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure, links_of
+from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
 from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.structure.triangles import triangles_of
 from graphkin.words import Phrase, Wording, about, clauses
@@ -164,9 +164,9 @@ def _in_parts(structure: Structure) -> Structure:
     """Larger groups that driven triangles turn into dyads, told as such: of class II."""
     taken = {d.key for d in structure.drivers}
     found: dict[Element, tuple[DrivenTriangle, ...]] = {}
-    for e in structure.elements:
-        if isinstance(e, Cluster) and (triangles := triangles_of(e, structure.links, structure.hinges, taken)):
-            found[e] = tuple(triangles)
+    for group in structure.larger_groups:
+        if triangles := triangles_of(group, structure.links, structure.hinges, taken):
+            found[group] = tuple(triangles)
     if not found:
         return structure
     instead: dict[Driver, Driver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
@@ -177,7 +177,7 @@ def _in_parts(structure: Structure) -> Structure:
     elements: list[Element] = []
     for e in structure.elements:
         if e in found and isinstance(e, Cluster):
-            inside = [part for part in opened.elements if set(links_of(part)) & set(e.members)]
+            inside = [part for part in opened.elements if set(part.members) & set(e.members)]
             parts = tuple(part for part in inside if isinstance(part, Driven | Dyad))
             if len(parts) == len(inside):
                 e = replace(e, order=2, triangles=found[e], parts=parts)
@@ -187,7 +187,7 @@ def _in_parts(structure: Structure) -> Structure:
 
 def _with_starts(structure: Structure) -> Structure:
     """Groups with links that roll and move each other, told where they stand at the scene's own position."""
-    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.rolling]
+    groups = [e for e in structure.larger_groups if e.rolling]
     if not groups:
         return structure
     for drivers in start_drivers(structure, groups):
@@ -207,7 +207,7 @@ def _with_starts(structure: Structure) -> Structure:
 def started(structure: Structure) -> Structure:
     """The mechanism at the scene's own position, without the rolling of groups in which links move each other by it:
     drivers say where they stand.  Itself where there are none."""
-    groups = [e for e in structure.elements if isinstance(e, Cluster) and e.starts]
+    groups = [e for e in structure.larger_groups if e.starts]
     if not groups:
         return structure
     scene = structure.scene

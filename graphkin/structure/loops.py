@@ -97,13 +97,9 @@ def loops_of(structure: Structure) -> tuple[Loop, ...]:
 Edge = tuple[str, str, Pair]
 
 
-def _pairs(element: Element) -> list[Pair]:
-    if isinstance(element, Driven):
-        return [element.pair]
-    if isinstance(element, Cluster):
-        return list(element.pairs)
-    return [element.outer_first, element.inner, element.outer_second,
-            *(w.pair for body in element.bodies for w in body.welds)]  # fmt: skip
+def _pairs(element: Element) -> tuple[Pair, ...]:
+    welds = element.welds if isinstance(element, Dyad) else ()
+    return *element.pairs, *(weld.pair for weld in welds)
 
 
 def _found(structure: Structure) -> tuple[Loop, ...]:
@@ -135,7 +131,7 @@ Cycle = list[tuple[str, Pair, Pair]]
 
 def _cycles(structure: Structure, element: Dyad | Cluster, edges: list[Edge], known: list[Edge]) -> list[Cycle]:
     """Independent cycles: a tree from the known links over the group; each pair that is left over closes one."""
-    members = set(element.members if isinstance(element, Cluster) else (n for b in element.bodies for n in b.links))
+    members = set(element.members)
     reached = {n for a, b, _ in edges for n in (a, b)} - members
     way: dict[str, list[tuple[str, Pair, str]]] = {name: [] for name in reached}  # from a known link: from, pair, to
     left = list(edges)
@@ -186,7 +182,7 @@ def _known_way(structure: Structure, start: str, end: str, known: list[Edge]) ->
 def _oriented(structure: Structure, steps: list[tuple[str, Pair, str]]) -> Cycle:
     """A cycle that begins on a driven link if it has one, else on the frame."""
     cycle: Cycle = [(to, pair, steps[(k + 1) % len(steps)][1]) for k, (_, pair, to) in enumerate(steps)]
-    driven = [e.link for e in structure.elements if isinstance(e, Driven)]
+    driven = [e.link for e in structure.driven]
     frame = structure.scene.frame.name
     first = next((k for k, (n, _, _) in enumerate(cycle) if n in driven), None)
     if first is None:

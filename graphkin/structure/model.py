@@ -6,15 +6,18 @@ one, 高副低代); such a block is a link named ``B/3`` like its pair, and is n
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, Literal
 
+from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.symbol import Symbol, centre_links
+from graphkin.words import Phrase
 
 __all__ = [
     "Body",
@@ -30,9 +33,13 @@ __all__ = [
     "RollingRelation",
     "Structure",
     "Weld",
+    "by_drivers_alone",
     "driver_pair",
-    "links_of",
-    "outside_of",
+    "greatest_before",
+    "in_stages",
+    "links_for",
+    "needed",
+    "part_of",
 ]
 
 
@@ -172,6 +179,39 @@ class Driven:
     link: str
     pair: Pair
     driver: Driver | LawCam | Rolled
+    order: ClassVar[int] = 1
+    starts: ClassVar[tuple[Driver, ...]] = ()
+    rolling: ClassVar[tuple[RollingRelation, ...]] = ()
+
+    @property
+    def rolled(self) -> Rolled | None:
+        """How it rolls on links whose motion is known, if it does."""
+        return self.driver if isinstance(self.driver, Rolled) else None
+
+    @property
+    def links(self) -> tuple[str]:
+        """The link that it places."""
+        return (self.link,)
+
+    @property
+    def members(self) -> tuple[str]:
+        """The same."""
+        return (self.link,)
+
+    @property
+    def pairs(self) -> tuple[Pair]:
+        """The pair that holds it."""
+        return (self.pair,)
+
+    @property
+    def drivers(self) -> tuple[Driver, ...]:
+        """The driver, where it is neither a cam nor rolling without a ratio."""
+        return (self.driver,) if isinstance(self.driver, Driver) else ()
+
+    @property
+    def outside(self) -> set[str]:
+        """The links that it hangs on."""
+        return {*self.pair.links, *self.driver.links, *self.driver.through} - {self.link}
 
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
@@ -197,10 +237,35 @@ class Dyad:
     outer_first: Pair
     outer_second: Pair
     links: tuple[str, ...]
+    order: ClassVar[int] = 2
+    starts: ClassVar[tuple[Driver, ...]] = ()
+    rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
     @property
     def bodies(self) -> tuple[Body, Body]:
+        """The first and the second."""
         return self.first, self.second
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        """All its links, blocks of pins included."""
+        return self.first.links + self.second.links
+
+    @property
+    def welds(self) -> tuple[Weld, ...]:
+        """The links that drivers hold together in both bodies."""
+        return self.first.welds + self.second.welds
+
+    @property
+    def drivers(self) -> tuple[Driver, ...]:
+        """The drivers inside its bodies."""
+        return tuple(weld.driver for weld in self.welds)
+
+    @property
+    def outside(self) -> set[str]:
+        """The links that it hangs on."""
+        names = {name for pair in self.outer for name in pair.links}
+        return names.union(*(driver.through for driver in self.drivers)).difference(self.members)
 
     @property
     def outer(self) -> tuple[Pair, Pair]:
@@ -262,34 +327,18 @@ class Cluster:
 
     @property
     def kind(self) -> str:
+        """What it is called in messages: it has no kind as dyads have."""
         return "group of " + ", ".join(self.links)
+
+    @property
+    def outside(self) -> set[str]:
+        """The links that it hangs on."""
+        names = {name for pair in self.pairs for name in pair.links}
+        names.update(name for driver in self.drivers for name in (*driver.links, *driver.through))
+        return names.union(*(relation.links for relation in self.rolling)).difference(self.members)
 
 
 Element = Driven | Dyad | Cluster
-
-
-def links_of(element: Element) -> tuple[str, ...]:
-    """The links that an element places."""
-    if isinstance(element, Driven):
-        return (element.link,)
-    if isinstance(element, Cluster):
-        return element.members
-    return tuple(n for body in element.bodies for n in body.links)
-
-
-def outside_of(element: Element) -> set[str]:
-    """The links that an element hangs on."""
-    if isinstance(element, Driven):
-        driver = element.driver
-        return {element.pair.a, element.pair.b, *driver.links, *driver.through} - {element.link}
-    if isinstance(element, Cluster):
-        names = {n for pair in element.pairs for n in (pair.a, pair.b)}
-        names |= {n for driver in element.drivers for n in (*driver.links, *driver.through)}
-        names |= {n for relation in element.rolling for n in relation.links}
-    else:
-        names = {n for pair in element.outer for n in (pair.a, pair.b)}
-        names |= {n for body in element.bodies for weld in body.welds for n in weld.driver.through}
-    return names.difference(links_of(element))
 
 
 @dataclass(frozen=True)
@@ -329,9 +378,8 @@ class Structure:
     @property
     def rolls(self) -> bool:
         """Whether something rolls, so that the motion need not close with a turn of the driver."""
-        driven = (e.driver for e in self.elements if isinstance(e, Driven))
-        coupled = any(isinstance(e, Cluster) and e.rolling for e in self.elements)
-        return bool(self.followers) or coupled or any(isinstance(driver, Rolled) for driver in driven)
+        coupled = any(element.rolling for element in self.elements)
+        return bool(self.followers) or coupled or any(element.driver.rolls for element in self.driven)
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Driver values by key (rad, m), with those of what follows them."""
@@ -344,10 +392,25 @@ class Structure:
             for f in self.followers
         }}  # fmt: skip
 
-    @property
+    @cached_property
     def groups(self) -> tuple[Dyad | Cluster, ...]:
         """The Assur groups, in the order of solution."""
         return tuple(e for e in self.elements if not isinstance(e, Driven))
+
+    @cached_property
+    def driven(self) -> tuple[Driven, ...]:
+        """The links that drivers, cams and rolling move, in the order of solution."""
+        return tuple(e for e in self.elements if isinstance(e, Driven))
+
+    @cached_property
+    def dyads(self) -> Mapping[int, Dyad]:
+        """The groups of class II, by their places in the order of solution."""
+        return {i: e for i, e in enumerate(self.elements) if isinstance(e, Dyad)}
+
+    @cached_property
+    def larger_groups(self) -> tuple[Cluster, ...]:
+        """The groups that are solved as a whole, in the order of solution."""
+        return tuple(e for e in self.elements if isinstance(e, Cluster))
 
     @cached_property
     def kept(self) -> dict[Hashable, Any]:
@@ -361,12 +424,12 @@ class Structure:
     @cached_property
     def place_of(self) -> Mapping[str, int]:
         """The place among the elements of the one that places each link."""
-        return {name: i for i, element in enumerate(self.elements) for name in links_of(element)}
+        return {name: i for i, element in enumerate(self.elements) for name in element.members}
 
     @cached_property
     def hangs_on(self) -> tuple[frozenset[str], ...]:
         """The links that each element hangs on; what stands for a contact is there only with both links of it."""
-        found = [outside_of(element) for element in self.elements]
+        found = [element.outside for element in self.elements]
         for contact in self.scene.contacts:
             if (place := self.place_of.get(contact.block)) is not None:
                 found[place] |= {*contact.links}
@@ -375,12 +438,12 @@ class Structure:
     @cached_property
     def found_by_groups(self) -> frozenset[str]:
         """The links that are not moved by drivers and cams alone: those of groups, and what hangs on them."""
-        found = {name for element in self.groups for name in links_of(element)}
+        found = {name for element in self.groups for name in element.members}
         before = -1
         while len(found) > before:  # what rolls may follow through links that come later
             before = len(found)
             found.update(n for e, on in zip(self.elements, self.hangs_on, strict=True)
-                         if not on.isdisjoint(found) for n in links_of(e))  # fmt: skip
+                         if not on.isdisjoint(found) for n in e.members)  # fmt: skip
         return frozenset(found)
 
     def slide(self, key: str) -> Pair:
@@ -394,3 +457,148 @@ def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[P
         return next(s for s in slides if s.key == driver.slide)
     common = [p for p in links[driver.link].points if p in links[driver.relative_to].points]
     return Pair(common[0], driver.link, driver.relative_to) if common else None
+
+
+# -- the part of a mechanism that leads to what is asked, and nothing more ---------------------------------------------
+
+
+def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
+    """The elements on the way to what is asked, in the order of solution; all of them if nothing is asked.
+
+    Raises
+    ------
+    CallError : a symbol that names no point of a link here
+    """
+    if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
+        return list(structure.elements)
+    wanted = [name for symbol in asked for name in links_for(structure, symbol)]
+    kept: set[int] = set()
+    while wanted:
+        place = structure.place_of.get(wanted.pop())
+        if place is not None and place not in kept:
+            kept.add(place)
+            wanted += structure.hangs_on[place]
+    return [structure.elements[place] for place in sorted(kept)]
+
+
+def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
+    """Whether a quantity of the motion hangs on no group, but on links that drivers and cams move from the frame: it is
+    known where a group is lost in rounding."""
+    if symbol.seen or not all(
+        name in structure.links for name in symbol.links()
+    ):  # of redundant links nothing is asked
+        return False
+    try:
+        return links_for(structure, symbol).isdisjoint(structure.found_by_groups)
+    except CallError:  # a special point of the drawing
+        return False
+
+
+def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
+    """For a quantity of the motion the greatest of sizes: of its own, and of those of the links that it hangs on.
+
+    What is greater farther on in the order of solution has no part in it: beside a dead point of the last group the
+    rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
+    link that is held still, all sizes count; theirs count from the first larger group on.
+    """
+
+    def places(symbol: Symbol) -> list[int] | None:
+        try:
+            found = None if symbol.seen else links_for(structure, symbol)
+        except CallError:
+            return None
+        return None if found is None else [place for n in found if (place := structure.place_of.get(n)) is not None]
+
+    count = len(structure.elements)
+    special = next((i for i, e in enumerate(structure.elements) if isinstance(e, Cluster)), count - 1)
+    before = [0.0] * count
+    for symbol, size in sizes:
+        at = places(symbol)
+        if count and at != []:
+            last = special if at is None else max(at)
+            before[last] = max(before[last], size)
+    whole, grows = max(before, default=0.0), True
+    while grows:  # what rolls may follow through links that come later
+        grows = False
+        for i, links in enumerate(structure.hangs_on):
+            most = max((before[structure.place_of[n]] for n in links if n in structure.place_of), default=0.0)
+            if most > before[i]:
+                before[i], grows = most, True
+
+    def greatest(symbol: Symbol) -> float:
+        at = places(symbol)
+        return whole if at is None else max((before[place] for place in at), default=0.0)
+
+    return greatest
+
+
+def in_stages(elements: Sequence[Element]) -> bool:
+    """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
+    followers of cams, whose law has pieces, and what rolls."""
+    return any(isinstance(e, Cluster) or (isinstance(e, Driven) and not e.driver.given) for e in elements)
+
+
+def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
+    """The scene with only the links, pairs and drivers on the way to what is asked; itself if nothing is asked or
+    nothing is left out.
+
+    A link that only repeats others is not on the way to anything, unless it is asked for itself: then all is kept.
+    """
+    scene = structure.scene
+    named = {name for s in asked for name in s.links()}
+    if not asked or any(link.redundant and link.name in named for link in scene.links):
+        return scene
+    kept = {scene.frame.name, *(n for e in needed(structure, asked) for n in e.members)}
+    if all(link.name in kept for link in scene.links):
+        return scene
+    return _part_scene(scene, kept, tuple(asked))
+
+
+def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
+    """The scene with these links only."""
+    of = {pin.key: pin.of for pin in scene.pins}
+    return replace(
+        scene,
+        links=tuple(link for link in scene.links if link.name in kept),
+        slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= kept),
+        pins=tuple(p for p in scene.pins if {p.of, p.on} <= kept),
+        cams=tuple(c for c in scene.cams if {c.link, c.follower} <= kept),
+        contacts=tuple(c for c in scene.contacts if set(c.links) <= kept),
+        gears=tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= kept),
+        drivers=tuple(d for d in scene.drivers if {of.get(d.link, d.link), d.relative_to} <= kept),
+        find=asked,
+        stated=(),
+        instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
+    )
+
+
+def links_for(structure: Structure, symbol: Symbol) -> frozenset[str]:
+    """The links that a quantity names, and those that hold its points.  Raises CallError where there are none."""
+    known: dict[Symbol, frozenset[str]] = structure.kept.setdefault("links for", {})
+    if symbol not in known:
+        known[symbol] = frozenset(_links_for(structure, symbol))
+    return known[symbol]
+
+
+def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
+    if symbol.link:
+        # of a pin in a slot the block that stands for it
+        return {name for name in (symbol.link, symbol.other, symbol.pair) if name in structure.links} or {symbol.link}
+    found: set[str] = set()
+    for ref in (symbol.of, symbol.to):
+        if ref is None:
+            continue
+        centre = None if ref.point in structure.scene.holders else centre_links(ref.point, structure.scene.by_name)
+        if centre is not None:
+            found.update(centre)
+            continue
+        holders = [n for n, link in structure.links.items() if ref.point in link.points]
+        if not holders or (ref.link and ref.link not in structure.links):
+            wanted = did_you_mean(ref.point, structure.scene.holders)
+            raise CallError(Problem(str(symbol), Phrase("names no point of a link here", ref=ref), wanted))
+        if ref.link:
+            found.add(ref.link)
+        if not ref.link or ref.point not in structure.links[ref.link].points:
+            # the pin itself must be placed too: by the first link of the order of solution that has it
+            found.add(min(holders, key=lambda n: structure.place_of.get(n, -1)))
+    return found

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from graphkin.errors import CallError, Problem
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import Symbol
-from graphkin.structure.model import Cluster, Dyad, Pair, Structure
+from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["TransmissionAngle", "joint_between", "joint_of_dyad", "joint_of_follower", "sliding_pair"]
@@ -74,11 +74,10 @@ def joint_of_dyad(structure: Structure, dyad: Dyad) -> TransmissionAngle:
 def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> TransmissionAngle:
     """The joint that two links share.  Raises CallError where they share none that has a transmission angle."""
     blocks = {p.key: {p.of, p.key} for p in structure.scene.pins}
-    for dyad in structure.groups:
-        if isinstance(dyad, Dyad):
-            one, two = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
-            if (a in one and b in two) or (b in one and a in two):
-                return joint_of_dyad(structure, dyad)
+    for dyad in structure.dyads.values():
+        one, two = ({n for link in body.links for n in blocks.get(link, {link})} for body in dyad.bodies)
+        if (a in one and b in two) or (b in one and a in two):
+            return joint_of_dyad(structure, dyad)
     links = structure.links
     shared = [p for p in links[a].points if p in links[b].points]
     for point in shared:
@@ -105,11 +104,11 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
         joint = _at_contact(structure, contact, name) if not contact.rolling and name in contact.links else None
         if joint is not None:
             return joint
-    for dyad in structure.groups:
-        if isinstance(dyad, Dyad) and any(name in body.links for body in dyad.bodies):
+    for dyad in structure.dyads.values():
+        if name in dyad.members:
             return joint_of_dyad(structure, dyad)
     frame, link = structure.scene.frame, structure.links.get(name)
-    members = {n for e in structure.elements if isinstance(e, Cluster) and name in e.links for n in e.links}
+    members = {n for group in structure.larger_groups if name in group.links for n in group.links}
     # in a larger group: by a bar of two joints, which passes a force on along itself
     for other in (n for n in structure.scene.links if n.name in members and link is not None):
         ends = [p for p in other.points if len(structure.scene.holders[p]) > 1]

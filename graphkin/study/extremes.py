@@ -229,7 +229,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
     """Find all extremes and zeros of quantities, and the least transmission angle of each group of two links; of a
     mechanism that is singular throughout there are none."""
     way = CurveParameter(reach)
-    dyads = [g for g in reach.structure.groups if isinstance(g, Dyad)]
+    dyads = [*reach.structure.dyads.values()]
     places = [q for q in quantities if q.is_position]
     rates = [q for q in quantities if not q.is_position]
     size = reach.scene.size

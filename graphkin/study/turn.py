@@ -22,7 +22,7 @@ from graphkin.solver.driver_range import Extremes, extremes
 from graphkin.solver.drivers import Drive
 from graphkin.solver.engine import positions
 from graphkin.solver.values import FlywheelStudy, flywheel_of
-from graphkin.structure import Cluster, Dyad
+from graphkin.structure import Dyad
 from graphkin.study.extremes import Extreme, Least, Traced, trace
 from graphkin.study.grashof import BasicLoop, loops
 from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
@@ -237,7 +237,7 @@ def ranges(reach: DriverRange) -> tuple[AssemblyRange, ...]:
     low, high = sorted(float(reach.value(np.array(end))) for end in reach.ends)
     below, above = reach.limited if reach.sense > 0 else reach.limited[::-1]
     own = AssemblyRange(low, high, True, open_low=not below, open_high=not above)
-    dyads = [i for i, e in enumerate(reach.structure.elements) if isinstance(e, Dyad)]
+    dyads = [*reach.structure.dyads]
     if not dyads or not_searched(reach):
         return (own,)
     return own, *_elsewhere(reach, dyads, own)
@@ -248,8 +248,8 @@ def not_searched(reach: DriverRange) -> tuple[str, ...]:
     assemblies are known only along their motion, or of too many groups to try all their assemblies."""
     if reach.full:
         return ()
-    larger = [e.links for e in reach.structure.elements if isinstance(e, Cluster)]
-    dyads = [e.links for e in reach.structure.elements if isinstance(e, Dyad)]
+    larger = [e.links for e in reach.structure.larger_groups]
+    dyads = [e.links for e in reach.structure.dyads.values()]
     many = dyads[MOST_GROUPS:] if not larger else []
     return tuple(name for links in (*larger, *many) for name in links)
 

@@ -14,7 +14,7 @@ from graphkin.construction import assembly
 from graphkin.construction.centres import work
 from graphkin.construction.centres.find import Worked
 from graphkin.construction.mechanism_acts import TrialPositions
-from graphkin.construction.reduced_mechanism import clusters, reduced_mechanisms
+from graphkin.construction.reduced_mechanism import reduced_mechanisms
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.structure import analyse
@@ -82,7 +82,7 @@ def test_what_the_superposition_keeps_is_named() -> None:
 def test_no_trial_driver_bears_the_name_of_a_real_one() -> None:
     scene = mechanism_of(COUPLER_DRIVEN)
     structure = analyse(scene)
-    (group,) = clusters(structure)
+    (group,) = structure.larger_groups
     assert "2" not in {driver.key for reduced in reduced_mechanisms(structure, group) for driver in reduced.trial}
 
 

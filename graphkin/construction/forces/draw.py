@@ -29,7 +29,7 @@ from graphkin.construction.forces.force_sheet import (
     LeverRow,
 )
 from graphkin.construction.forces.groups import at_driver, of_dyad, of_larger_group
-from graphkin.construction.forces.joints import BalanceForm, Images, JointNames, balance_of, driver_of, force_groups
+from graphkin.construction.forces.joints import BalanceForm, Images, JointNames, balance_of, force_groups
 from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
@@ -115,7 +115,7 @@ def _state(
 
 def _group(cut: CutFree, element: Element) -> ForceGroup:
     structure = cut.names.structure
-    balances: Mapping[str, BalanceForm] = {d.key: balance_of(structure, d) for d in driver_of(element)}
+    balances: Mapping[str, BalanceForm] = {d.key: balance_of(structure, d) for d in element.drivers}
     if isinstance(element, Driven):
         return at_driver(cut, element, balances[element.driver.key])
     if isinstance(element, Dyad):

@@ -33,7 +33,7 @@ from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.construction.sizes import Direction
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Weld, links_of
+from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Weld
 
 __all__ = ["at_driver", "of_dyad", "of_larger_group"]
 
@@ -174,7 +174,7 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
     ------
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
-    inside = links_of(dyad)
+    inside = dyad.members
     cut.load_pins(inside)
     one, two = CutBody(cut, dyad.first, dyad.outer_first), CutBody(cut, dyad.second, dyad.outer_second)
     figure = GroupFigure()
@@ -309,7 +309,7 @@ def _inner_forces(
     figure.couples.append(found)
     figure.line_of_action(cut, on_first, found.value)
     sign = 1.0 if mine else -1.0
-    cut.set_slide(slide, sign * force, sign * found.value, links_of(dyad))
+    cut.set_slide(slide, sign * force, sign * found.value, dyad.members)
     return on_first, on_second
 
 

@@ -15,13 +15,12 @@ from functools import cached_property
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
-from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Rolled, Structure, analyse
+from graphkin.structure import Cluster, Element, Pair, Structure, analyse
 from graphkin.words import Phrase
 
-__all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "driver_of", "force_groups", "opposite"]
+__all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "force_groups", "opposite"]
 
 
 def opposite(symbol: Symbol) -> Symbol:
@@ -145,15 +144,6 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
         members = tuple(name for name in structure.links if name != frame)
         real = tuple(link.name for link in scene.links if link.name in members)
         return (Cluster(members, (), (driver,), real, 3),)
-
-
-def driver_of(element: Element) -> tuple[Driver, ...]:
-    """The drivers that act in a group."""
-    if isinstance(element, Driven):
-        return () if isinstance(element.driver, LawCam | Rolled) else (element.driver,)
-    if isinstance(element, Dyad):
-        return tuple(weld.driver for body in element.bodies for weld in body.welds)
-    return element.drivers
 
 
 # -- motion off the polygons -------------------------------------------------------------------------------------------

@@ -27,7 +27,7 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Structure, links_of, replacement_told
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["FIGURES", "structure_figure"]
@@ -136,12 +136,8 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
 
 def _class(structure: Structure) -> int | None:
     """The class of the mechanism: the highest of its groups; None where nothing but wheels follows the driver."""
-    led = any(isinstance(e, Driven) and not e.driver.given for e in structure.elements)
-    return max((_order(g) for g in structure.groups), default=None if led else 1)
-
-
-def _order(group: Dyad | Cluster) -> int:
-    return group.order if isinstance(group, Cluster) else 2
+    led = any(not e.driver.given for e in structure.driven)
+    return max((g.order for g in structure.groups), default=None if led else 1)
 
 
 def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
@@ -151,9 +147,8 @@ def _taken_apart(page_: FigurePage, structure: Structure) -> Block:
     drivers = page_.said("structure ungrouped", names) if order is None else (
         page_.said("structure driven by", names, class_of(order)))
     shown: list[Sequence[Element]] = [(group,) for group in reversed(structure.groups)]
-    driven = [e for e in structure.elements if isinstance(e, Driven)]
-    if driven:  # a driver inside a group has no part of its own
-        shown.append(driven)
+    if structure.driven:  # a driver inside a group has no part of its own
+        shown.append(structure.driven)
     parts = []
     for number, elements in enumerate(shown, 1):
         tag = f"{names.replace('/', '-').replace(', ', '-')}-{number}"
@@ -175,10 +170,10 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
         inner, outer = _joints(element)
         links = [
             name if name not in _blocks(sheet) else say(Phrase("structure block", (_blocks(sheet)[name],)), language)
-            for name in (*element.links, *(n for n in links_of(element) if n not in element.links))
+            for name in (*element.links, *(n for n in element.members if n not in element.links))
         ]
         return say(Phrase("structure group", (
-            ", ".join(links), "" if isinstance(element, Cluster) else f" {element.kind}", class_of(_order(element)),
+            ", ".join(links), "" if isinstance(element, Cluster) else f" {element.kind}", class_of(element.order),
             ", ".join(p.key for p in inner), ", ".join(p.key for p in outer),
         )), language)  # fmt: skip
     driver = element.driver
@@ -197,11 +192,10 @@ def _blocks(sheet: Sheet) -> dict[str, str]:
     return {slide.a: slide.pin for slide in sheet.structure.slides if slide.slot and slide.pin}
 
 
-def _joints(element: Dyad | Cluster) -> tuple[list[Pair], list[Pair]]:
+def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
     """Inner joints, between links of the group, and outer ones, to others."""
     if isinstance(element, Dyad):
-        welds = [w.pair for body in element.bodies for w in body.welds]
-        return [element.inner, *welds], [element.outer_first, element.outer_second]
+        return [element.inner, *(weld.pair for weld in element.welds)], [*element.outer]
     own = set(element.members)
     inner = [p for p in element.pairs if {p.a, p.b} <= own]
     return inner, [p for p in element.pairs if not {p.a, p.b} <= own]
@@ -229,11 +223,11 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str
 def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:
     """Links of elements with their joints, and the names of both."""
     structure = here.sheet.structure
-    links = {n for e in elements for n in links_of(e)}
+    links = {n for e in elements for n in e.members}
     inner: list[Pair] = []
     outer: list[Pair] = []
     for element in elements:
-        more = ([], [element.pair]) if isinstance(element, Driven) else _joints(element)
+        more = _joints(element)
         inner += more[0]
         outer += more[1]
     parts, labels = links_alone(here, links, 1, replaced=True)
