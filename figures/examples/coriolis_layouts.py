@@ -12,7 +12,6 @@ from dataclasses import replace
 
 from graphkin.account.notation import letters_of
 from graphkin.construction import Room, draft
-from graphkin.construction.polygon_acts import Carried, LaidOff
 from graphkin.drawing import Box, Drawing, Group, Polygon, Text
 from graphkin.drawing.ink.strokes import DIMENSION
 from graphkin.drawing.parts.insets import coriolis_terms
@@ -117,8 +116,8 @@ def row(sheet, title, y, language):
         said = f"${letters.vector(vector.symbol)}$ = ${letters.size(rule)}$"
     back = bare_mechanism(sheet, letters)
     pieces = [framed(back, complex(LEFT, y + HEAD), ink_box(back.drawn))]
-    laid_off = (LaidOff, Carried)
-    known = max(s.number for s in sheet.steps if s.diagram == "acceleration" and isinstance(s.act, laid_off))
+    laid_off = [s for s in sheet.steps if s.verb == "lay off" or s.reason == "before its turn"]
+    known = max(s.number for s in laid_off if s.diagram == "acceleration")
     stages = (("velocity", 0, math.inf), ("acceleration", 0, known), ("acceleration", known + 1, math.inf))
     for column, (diagram, first, last) in enumerate(stages, 1):
         content = extent(sheet, diagram)

@@ -6,32 +6,28 @@ same; its figures are those that the drawing carries.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from graphkin.account.headings import number, written
-from graphkin.account.measured_lengths import arm_written, is_given, scale_of, unit_of
+from graphkin.account.headings import number, slide_index, written
+from graphkin.account.notation import Letters
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.polygon_acts import (
-    ByRate,
-    MeasuredRate,
-    PlanDrawn,
-    RateSeen,
-    SeenByRate,
-    Superposed,
-    TrialDrawn,
-)
+from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import DiagramName, Sheet, Step, either_way
+from graphkin.construction.sheet import Sheet, either_way
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
+from graphkin.construction.steps import DiagramName, RateTrial, Step, Superposed
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.tables import Units
 from graphkin.words.written import (
     FINER,
+    LEAST,
     MOST,
     amount,
+    as_given,
     computed,
     difference,
     figures,
@@ -43,16 +39,92 @@ from graphkin.words.written import (
 )
 
 __all__ = [
-    "Division", "RatePart", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "parts_by_rates", "plan_sum",
-    "rate_sum", "rule_sum", "substituted", "trials_of",
+    "Division", "RatePart", "bound", "carried_by", "divisions", "factors_of", "laid_sum", "lengths_measured",
+    "parts_by_rates", "plan_sum", "rate_sum", "rule_sum", "scale_of", "substituted", "times_scale", "trials_of",
+    "unit_of",
 ]  # fmt: skip
 
 SAME_RATE = 1e-12  # of rates: what rounding leaves of the difference of two that are the same
-def rate_sum(sheet: Sheet, act: MeasuredRate | RateSeen, units: bool = True) -> str:
+_TAILS = {"mechanism": "", "velocity": "/s", "acceleration": "/s²"}
+
+
+def unit_of(sheet: Sheet, diagram: DiagramName) -> str:
+    """The unit of what a diagram shows."""
+    return _units(sheet, diagram).length + _TAILS[diagram]
+
+
+def scale_of(sheet: Sheet, diagram: DiagramName) -> float:
+    """Scene units for one mm of paper."""
+    return sheet.scales.of(diagram) / _units(sheet, diagram).metres
+
+
+def _units(sheet: Sheet, diagram: DiagramName) -> Units:
+    return sheet.scene.units if diagram == "mechanism" else sheet.scene.units.rates
+
+
+def arm_written(sheet: Sheet, bar: tuple[str, str], mm: float, most: int = MOST) -> str:
+    """A length in the unit of rates, with which it is multiplied or by which they are divided: given where one link has
+    both ends, whatever a hand has made of it, else what so many mm on paper are."""
+    held = (link.points for link in sheet.structure.links.values())
+    given = (abs(p[bar[0]] - p[bar[1]]) for p in held if bar[0] in p and bar[1] in p and p[bar[0]] != p[bar[1]])
+    pushed = pushed_by_driver(sheet.structure, sheet.drivers, bar)
+    long = next(given, None) or (pushed and pushed[1])
+    if long is None and sheet.instrument != EXACT.name and abs(mm) >= LEAST:
+        return product(on_paper(mm), amount(sheet.scales.length / sheet.scene.units.rates.metres, 12))
+    metres = sheet.scene.units.rates.metres
+    return amount(mm * sheet.scales.length / metres, most) if long is None else as_given(long / metres, most + 1)
+
+
+def times_scale(sheet: Sheet, diagram: DiagramName, mm: float) -> str:
+    """``56.67 mm × 5 (mm/s)/mm = 283.35 mm/s (283.37)``: a length on paper, and, where exact hands have drawn it, what
+    it is beyond the hundredth of a millimetre in brackets."""
+    unit, per = unit_of(sheet, diagram), scale_of(sheet, diagram)
+    length = on_paper(mm)
+    value, finer = product(length, amount(per, 12)), amount(mm * per, MOST)
+    more = "" if finer == value or sheet.instrument != EXACT.name else f" ({written(finer)})"
+    shown = unit if diagram == "mechanism" else f"({unit})"
+    return f"{written(length)} mm × {number(per)} {shown}/mm = {written(value)} {unit}{more}"
+
+
+def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str, str], str]]:
+    """Each length that enters an equation and is not given, in the order of use, by its ends, with its millimetres:
+    ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
+    bars: dict[frozenset[str], tuple[str, str]] = {}
+    for step in sheet.steps:
+        sizes = [step.size]
+        if step.reason == "before its turn":
+            sizes = [t.size for e in sheet.equations for side in e.sides for t in side if t.symbol == step.symbol]
+        used = (s.factor for s in sizes if isinstance(s, RateTimes) and not isinstance(s.factor, Symbol))
+        bar = (step.points[0], step.points[1]) if step.reason == "rate" else next(used, None)
+        if bar is not None and not is_given(sheet, bar):
+            bars.setdefault(frozenset(bar), bar)
+    for one, other in bars.values():
+        pushed = pushed_by_driver(sheet.structure, sheet.drivers, (one, other))
+        if pushed is not None:
+            driver, far = pushed
+            value = f"{written(as_given(far / sheet.scene.units.metres))} {sheet.scene.units.length}"
+            yield (one, other), f"${letters.length((one, other))}$ = $s_{{{slide_index(sheet, driver.key)}}}$ = {value}"
+            continue
+        mm = sheet.arm_mm((one, other)) or 0.0
+        yield (one, other), f"${letters.length((one, other))}$ = {times_scale(sheet, 'mechanism', mm)}"
+
+
+def is_given(sheet: Sheet, bar: tuple[str, str]) -> bool:
+    """Whether one link holds both ends, or a place of one of them is not on the drawing."""
+    if any(PointRef(name) not in sheet.points for name in bar):
+        return True
+    bodies = (sheet.scene.frame, *sheet.scene.links)
+    return any(set(bar) <= set(body.points) for body in bodies)
+
+
+# -- rates -------------------------------------------------------------------------------------------------------------
+
+
+def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
     """``283.37 mm/s / 383.14 mm = 0.7396 rad/s``, or without units before the result; "" where there is nothing to
     divide."""
-    omega = act.rate == "omega"
-    divided = _divided(sheet, act)
+    omega = step.kind == "omega"
+    divided = _divided(sheet, step)
     if divided is None:
         return ""
     size, arm, value = (written(one) for one in divided)
@@ -61,16 +133,17 @@ def rate_sum(sheet: Sheet, act: MeasuredRate | RateSeen, units: bool = True) -> 
     return f"{size}{of} / {arm}{over} = {value} {'rad/s' if omega else 'rad/s²'}"
 
 
-def _divided(sheet: Sheet, act: MeasuredRate | RateSeen) -> tuple[str, str, str] | None:
+def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     """The numbers of a measured rate as they are written: size, length and quotient; None where there are none."""
-    diagram: DiagramName = "velocity" if act.rate == "omega" else "acceleration"
-    mm, arm_mm, rate = _measured_rate(sheet, diagram, act)
+    diagram = step.diagram
+    mm, arm_mm, rate = _measured_rate(sheet, step)
     if mm == 0.0 or not arm_mm:
         return None
     carried = figures(on_paper(mm))
     shown = computed(abs(rate), min(MOST - 1, carried))
+    bar = step.points[0], step.points[1]
     tried = [
-        (_carried(sheet, diagram, mm, carried, most), arm_written(sheet, act.bar, arm_mm, most))
+        (_carried(sheet, diagram, mm, carried, most), arm_written(sheet, bar, arm_mm, most))
         for most in FINER
     ]  # fmt: skip
     size, arm = next((t for t in tried if quotient(*t, min(MOST - 1, carried)) == shown), tried[0])
@@ -79,21 +152,19 @@ def _divided(sheet: Sheet, act: MeasuredRate | RateSeen) -> tuple[str, str, str]
     return size, arm, quotient(size, arm, min(MOST - 1, carried))
 
 
-def _measured_rate(
-    sheet: Sheet, diagram: DiagramName, act: MeasuredRate | RateSeen
-) -> tuple[float, float | None, float]:
+def _measured_rate(sheet: Sheet, step: Step) -> tuple[float, float | None, float]:
     """The lengths (mm) of vector and bar from which a rate is measured, and the rate."""
-    if isinstance(act, MeasuredRate):
-        rate = (sheet.omega if act.rate == "omega" else sheet.alpha)[act.link]
-        return rate.mm, sheet.readings.get(frozenset(act.bar), rate.arm_mm), rate.value
-    drawn = (abs(one.span) for one in vectors_seen(sheet, diagram) if one.symbol == act.vector)
-    return _as_read(sheet, act.vector, next(drawn, 0.0)), sheet.arm_mm(act.bar), act.value
+    if not step.held:
+        rate = (sheet.omega if step.kind == "omega" else sheet.alpha)[step.link]
+        return rate.mm, sheet.readings.get(frozenset(step.points), rate.arm_mm), rate.value
+    drawn = (abs(one.span) for one in vectors_seen(sheet, step.diagram) if one.symbol == step.symbol)
+    return _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
 
 
-def plan_sum(act: PlanDrawn) -> str:
+def plan_sum(step: Step) -> str:
     """``30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s``: a rate as it is read off the plan of a train."""
-    unit = "rad/s" if act.rate == "omega" else "rad/s²"
-    length, scale = on_paper(act.mm), amount(act.per_mm, 12)
+    unit = "rad/s" if step.kind == "omega" else "rad/s²"
+    length, scale = on_paper(step.mm), amount(step.per_mm, 12)
     return f"{length} mm × {scale} ({unit})/mm = {product(length, scale)} {unit}"
 
 
@@ -106,28 +177,28 @@ class Division:
     part: str
 
 
-def trials_of(sheet: Sheet, step: Step, act: Superposed) -> list[TrialDrawn]:
+def trials_of(sheet: Sheet, step: Step, divided: Superposed) -> list[RateTrial]:
     """The trial polygons from which a step divides."""
-    before = [s.act for s in sheet.steps if s.number < step.number]
-    return [a for a in before if isinstance(a, TrialDrawn)][-len(act.apart) :]
+    trials = [s.data for s in sheet.before(step) if isinstance(s.data, RateTrial)]
+    return trials[-len(divided.apart) :]
 
 
-def divisions(sheet: Sheet, step: Step, act: Superposed) -> list[Division]:
+def divisions(sheet: Sheet, step: Step, divided: Superposed) -> list[Division]:
     """How each rate follows from the first that was assumed and the step to its other trial: by what the two leave open
     where one rate was assumed, else by the parts of the steps with which nothing is left open."""
-    trials = trials_of(sheet, step, act)
+    trials = trials_of(sheet, step, divided)
     found = []
-    for i, (_, rate) in enumerate(act.found):
+    for i, (_, rate) in enumerate(divided.found):
         low = trials[0].assumed[i][1]
         more = trials[i + 1].assumed[i][1] - low
         start, size = amount(low, MOST), amount(abs(more), MOST)
-        if len(act.found) == 1:
-            one, two = (on_paper(row[0]) for row in act.apart)
-            over, under = on_paper(abs(act.apart[0][0])), on_paper(float(difference(one, two)))
+        if len(divided.found) == 1:
+            one, two = (on_paper(row[0]) for row in divided.apart)
+            over, under = on_paper(abs(divided.apart[0][0])), on_paper(float(difference(one, two)))
             less, most = (written(mm) for mm in sorted((one.lstrip("-"), two.lstrip("-")), key=float))
             whole = f"({less} + {most})" if one.startswith("-") != two.startswith("-") else f"({most} − {less})"
             if under == "0":  # the trials differ by less than a ruler shows
-                under = amount(abs(act.apart[0][0] - act.apart[1][0]), 3)
+                under = amount(abs(divided.apart[0][0] - divided.apart[1][0]), 3)
                 whole = written(under)
             added = quotient(product(over, size), under, figures(over, under))
             part = f"{written(over)} / {whole}"
@@ -186,8 +257,8 @@ def _rate_read(sheet: Sheet, rule: RateTimes) -> str:
         return ""
     rate = (sheet.omega if rule.rate == "omega" else sheet.alpha)[rule.links[0]]
     link = rate.same_as or rate.link
-    acts = (s.act for s in sheet.steps if isinstance(s.act, MeasuredRate))
-    own = next((act for act in acts if (act.rate, act.link) == (rule.rate, link)), None)
+    read = (s for s in sheet.steps if s.reason == "rate" and not s.held)
+    own = next((step for step in read if (step.kind, step.link) == (rule.rate, link)), None)
     divided = None if own is None or abs(own.value) != abs(rate.value) else _divided(sheet, own)
     return "" if divided is None else divided[2]
 
@@ -266,18 +337,18 @@ class RatePart:
     span: complex
 
 
-def parts_by_rates(sheet: Sheet, diagram: DiagramName, act: ByRate | SeenByRate) -> list[RatePart]:
+def parts_by_rates(sheet: Sheet, step: Step) -> list[RatePart]:
     """What is laid off to go from an end point to another of its link by the rates of that, one part after the other;
     none where a place or a rate is not known, or where it turns at none."""
-    start, point, links = _way_by_rates(act)
+    (start,), point = step.refs, step.ref
+    links = (step.link, step.held) if step.held else (step.link,)
     places = [sheet.points.get(PointRef(ref.point)) for ref in (start, point)]
     if places[0] is None or places[1] is None or not all(name in sheet.omega for name in links):
         return []
     arm, ends = (places[1] - places[0]) * sheet.scales.length, (point.point, start.point)
-    held = links[1] if len(links) > 1 else ""
     way: Literal["square", "towards"] = "square"
     rules = [("v", RateTimes("omega", links, ends), way)]
-    if diagram == "acceleration":
+    if step.diagram == "acceleration":
         if not all(name in sheet.alpha for name in links):
             return []
         inwards = RateTimes("omega", links, ends, square=True)
@@ -285,19 +356,11 @@ def parts_by_rates(sheet: Sheet, diagram: DiagramName, act: ByRate | SeenByRate)
     found = []
     for kind, rule, relation in rules:
         rate = _turning(sheet, rule.rate, links)
-        span = arm * (-rate * rate if rule.square else 1j * rate) / sheet.scales.of(diagram)
+        span = arm * (-rate * rate if rule.square else 1j * rate) / sheet.scales.of(step.diagram)
         if span:
-            symbol = replace(Symbol(kind, point, start), seen=held)
+            symbol = replace(Symbol(kind, point, start), seen=step.held)
             found.append(RatePart(symbol, rule, Direction(relation, ends), span))
     return found
-
-
-def _way_by_rates(act: ByRate | SeenByRate) -> tuple[PointRef, PointRef, tuple[str, ...]]:
-    """From where to where it goes, and the links that turn."""
-    if isinstance(act, ByRate):
-        return act.start, act.point, (act.link,)
-    assert act.vector.of is not None
-    return act.origin, act.vector.of, (act.link, act.held)
 
 
 def bound(text: str) -> str:

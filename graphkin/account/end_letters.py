@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.account.notation import Letters, pole
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.polygon_acts import Carried
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.rich_text import Markup
@@ -129,7 +128,7 @@ class PolygonPoints:
 
     def _lettered_feet(self) -> Iterator[tuple[Foot, str]]:
         found = self._between()
-        special = {s.act.point: s.act.link for s in self.sheet.steps if isinstance(s.act, SpecialPoint)}
+        special = {s.point: s.link for s in self.sheet.steps if s.reason == "special point"}
         per_role = Counter(foot.role for foot in found)
         per_end: Counter[str] = Counter()
         used: set[str] = set()
@@ -171,8 +170,8 @@ class PolygonPoints:
             for stroke in step.strokes:
                 if isinstance(stroke, Aid) and not stroke.trial:
                     symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
-                elif isinstance(stroke, Bar) and isinstance(step.act, Carried):
-                    symbol, tail, tip = step.act.symbol, stroke.a, stroke.b
+                elif isinstance(stroke, Bar) and step.reason == "before its turn":
+                    symbol, tail, tip = step.symbol, stroke.a, stroke.b
                 else:
                     continue
                 if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:

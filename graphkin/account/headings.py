@@ -12,9 +12,9 @@ from dataclasses import replace
 from functools import reduce
 
 from graphkin.account.notation import Letters
-from graphkin.construction.remarks import ZeroVector
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction, plain_in
+from graphkin.construction.steps import DiagramName
 from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -265,7 +265,7 @@ def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -
 def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list[str]:
     """What is to be said of the drawing as a whole: badly conditioned crossings, legs that are parallel; with
     ``letters``, symbols stand between dollar signs as a convention writes them."""
-    notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if not isinstance(r, ZeroVector)))
+    notes = list(dict.fromkeys(r.phrase for r in sheet.remarks if r.key != "zero vector"))
     if letters is None:
         return [_sentence(note, language) for note in notes]
 

@@ -14,8 +14,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Literal
 
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
+from graphkin.construction.steps import DiagramName
 from graphkin.scene.sheet import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import true_minus

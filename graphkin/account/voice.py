@@ -1,4 +1,4 @@
-"""A voice: how a sheet is spoken of in one school of notation, and what is told of a step in it.
+"""A voice: how a sheet is spoken of in one school of notation.
 
 Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; sums are the same in every
 language.
@@ -6,23 +6,19 @@ language.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, TypeVar
 
 from graphkin.account.end_letters import EndLetters, names_in_letters
-from graphkin.account.measured_lengths import times_scale
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Act, Sheet, Step
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
-from graphkin.construction.strokes import Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, word
 from graphkin.words.rich_text import Markup, as_markup, rich_text
 from graphkin.words.written import in_markup
 
-__all__ = ["Told", "Voice", "capital", "whole_sentence"]
+__all__ = ["Voice", "capital", "whole_sentence"]
 
 
 @dataclass(frozen=True)
@@ -74,54 +70,6 @@ class Voice:
     def ends(self) -> EndLetters:
         """The letters of the end points in the polygons."""
         return EndLetters(self.sheet, self.letters)
-
-
-ActType = TypeVar("ActType", bound=Act)
-
-
-@dataclass(frozen=True)
-class Told(Generic[ActType]):
-    """What is told of a step: its sentence, what is computed in it, and what is written on the sheet to repeat it.
-
-    Each is made when it is asked for; an act that is told in another way has a class of its own, named in a ``TOLD`` of
-    `graphkin.account.tell`.
-    """
-
-    voice: Voice
-    step: Step
-    act: ActType
-
-    shares_line = False  # with the step before, where that is told by the same class
-
-    @property
-    def sheet(self) -> Sheet:
-        return self.voice.sheet
-
-    @property
-    def sentence(self) -> Phrase:
-        """With the letters of the points from which it goes and in which it ends, where there are some."""
-        return self.lettered() or self.step.phrase
-
-    def lettered(self) -> Phrase | None:
-        """The step as it is said on paper; None where the sentence of the act itself says enough."""
-        return None
-
-    def sums(self) -> Iterable[str]:
-        """What is computed in it, as lines of symbols and numbers: here each vector as it is measured."""
-        return (self._measured(s) for s in self.step.strokes if isinstance(s, Vector))
-
-    def _measured(self, vector: Vector) -> str:
-        size = abs(vector.span)
-        value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
-        return f"{self.voice.symbol(vector.symbol)} = {value}"
-
-    def above_equation(self, language: str) -> Iterator[str]:
-        """What is written before its equation, where that begins with it."""
-        yield from ()
-
-    def lines(self, language: str) -> Iterator[str]:
-        """What is written of it."""
-        yield from ()
 
 
 def whole_sentence(text: str, language: str) -> str:

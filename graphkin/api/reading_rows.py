@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.checking.report import Compared
-from graphkin.construction.sheet import phrase_of
+from graphkin.construction.steps import phrase_of
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value

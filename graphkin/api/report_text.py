@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
-from graphkin.construction.remarks import AtContact
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import plain_in
 from graphkin.errors import Unsolvable
@@ -156,10 +155,10 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     if other is None:
         pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
         return [say(Phrase("at pins", (", ".join(pins),)), language)] if pins else []
-    ways = dict.fromkeys(n for n in other.sheet.remarks if isinstance(n, AtContact))
+    ways = dict.fromkeys(n for n in other.sheet.remarks if n.key in ("at contact", "at pitch curve"))
     if not ways:  # nothing asked leads over a contact
         return []
-    names, curve = [n.contact for n in ways], any(n.on_curve for n in ways)
+    names, curve = [str(n.of[0]) for n in ways], any(n.key == "at pitch curve" for n in ways)
     first = {row.symbol: row for row in checked.report.rows}
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
     alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)

@@ -11,15 +11,16 @@ from typing import NamedTuple
 import numpy as np
 
 from graphkin import solver
+from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
-from graphkin.account.tell import Account
 from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.moving import movable
 from graphkin.construction import Plan, execute, plan
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.write.svg import svg_element

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.sheet import DiagramName, Sheet, either_way
+from graphkin.construction.sheet import Sheet, either_way
+from graphkin.construction.steps import DiagramName
 from graphkin.construction.strokes import Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol, centre_links

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from graphkin.checking.readings import Reading
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units

@@ -13,7 +13,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.sheet import PlacedScan
 from graphkin.words import Phrase

@@ -27,8 +27,8 @@ from numpy.typing import NDArray
 from graphkin.checking.readings import Reading, read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
 from graphkin.construction.instruments import ErringInstrument
-from graphkin.construction.sheet import Cause, ReadOff, phrase_of
 from graphkin.construction.sizes import Order
+from graphkin.construction.steps import Cause, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.sheet import Tools
@@ -89,7 +89,7 @@ def predict(
         some = _samples(drawing, name, tools, FEW_SAMPLES)
         offs = {s: _spread(value, [values[s] for values in some if s in values]) for s, value in base.items()}
         if sum(COVERAGE * offs[s] > CLEARLY * most[s] for s in most if s in offs) > spare:
-            return {s: Uncertainty(off, ReadOff(s), 1.0, off) for s, off in offs.items()}
+            return {s: Uncertainty(off, _reading(s), 1.0, off) for s, off in offs.items()}
     drawn_causes = drawing.redrawn.sheet.causes
     marks = [acts for acts, _ in drawn_causes]
     reading = len(drawn_causes)
@@ -198,6 +198,11 @@ def _easiest(row: NDArray[np.complex128]) -> NDArray[np.float64]:
     return np.asarray(way / np.linalg.norm(way))
 
 
+def _reading(symbol: Symbol) -> Phrase:
+    """The reading itself, as a cause of what is uncertain."""
+    return Phrase("reading", (symbol,))
+
+
 def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
     """Root of the mean square deviation from a value."""
     return math.sqrt(added_up(abs(v - value) ** 2 for v in values) / len(values)) if values else 0.0
@@ -206,9 +211,9 @@ def _spread(value: complex | float, values: Sequence[complex | float]) -> float:
 def _summed(symbol: Symbol, shares: Mapping[int, float], causes: tuple[tuple[int, Cause], ...]) -> Uncertainty:
     whole = added_up(shares.values())
     if not whole:
-        return Uncertainty(0.0, ReadOff(symbol), 0.0)
+        return Uncertainty(0.0, _reading(symbol), 0.0)
     worst = max(shares, key=shares.__getitem__)
-    cause = causes[worst][1] if worst < len(causes) else ReadOff(symbol)
+    cause = causes[worst][1] if worst < len(causes) else _reading(symbol)
     share = shares[worst] / whole if math.isfinite(whole) else 1.0
     return Uncertainty(math.sqrt(whole), cause, share, math.sqrt(whole))
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from graphkin.construction.net import node
-from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.sizes import Order
+from graphkin.construction.steps import Step
 from graphkin.construction.strokes import Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import CallError, Problem
@@ -57,7 +57,7 @@ def _reachable(plot: Polygons, ref: PointRef) -> bool:
 
 def _draw(plot: Polygons, order: Order, vector: Vector) -> None:
     plot.drawn[order][vector.symbol] = vector
-    plot.board.do(order, Asked(vector.symbol), vector)
+    plot.board.do(Step("join", "asked", order, (vector,), symbol=vector.symbol))
 
 
 def _split(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:

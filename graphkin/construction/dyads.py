@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphkin.construction.links_on_paper import (
     PlacedLinks,
@@ -21,19 +21,8 @@ from graphkin.construction.links_on_paper import (
     inner_hinge,
     rail,
 )
-from graphkin.construction.mechanism_acts import (
-    ArcOnPath,
-    CompassArcs,
-    GuideThrough,
-    GuideTouching,
-    LaidOffAngle,
-    LaidOffTravel,
-    OnMechanism,
-    PathDrawn,
-    PathsCross,
-    SlidToMeet,
-)
-from graphkin.construction.strokes import Bar, CompassArc, Stroke
+from graphkin.construction.steps import Step
+from graphkin.construction.strokes import Bar, CompassArc
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver
@@ -54,7 +43,7 @@ __all__ = ["Choose", "Meeting", "Story", "assemble", "assembled", "drive", "mean
 
 DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 
-Story = tuple[tuple[OnMechanism, tuple[Stroke, ...]], ...]
+Story = tuple[Step, ...]
 
 
 @dataclass(frozen=True)
@@ -101,12 +90,14 @@ def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
         axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
         hinge = paper.point(pair.b, pair.point)
         pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
-        return pose, ((LaidOffAngle(name, value if own else -value, pair.point, to), ()),)
+        value = value if own else -value
+        return pose, (Step("lay off", "angle", link=name, value=value, point=pair.point, base=to),)
     known = pair.b if name == pair.a else pair.a
     pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
     start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
     end = pose.origin if name == pair.a else paper.poses[known].origin
-    return pose, ((LaidOffTravel(pair.key, abs(value) * paper.mm), (Bar(start, end, name),)),)
+    bar = Bar(start, end, name)
+    return pose, (Step("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm),)
 
 
 def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
@@ -123,8 +114,9 @@ def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     poses = [{**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places]
 
     def tell(k: int) -> Story:
-        act = CompassArcs((outer1.point, outer2.point), letter, (r1, r2))
-        return ((act, (CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k]))),)
+        arcs = CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k])
+        about = outer1.point, outer2.point
+        return (Step("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
 
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
@@ -148,8 +140,11 @@ def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
 
     def tell(k: int) -> Story:
         q = places[k]
-        arc = ArcOnPath(outer.point, letter, radius), (CompassArc(p, radius, q),)
-        return (PathDrawn(letter, slide.key), (Bar(q0, q, ""),)), arc
+        arc = CompassArc(p, radius, q)
+        return (
+            Step("line", "path", strokes=(Bar(q0, q, ""),), point=letter, pairs=(slide.key,)),
+            Step("cross", "arc on path", strokes=(arc,), points=(outer.point,), point=letter, mm=radius),
+        )
 
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell)
 
@@ -180,13 +175,13 @@ def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
         poses.append({**one.placed(pose1), **two.placed(pose2)})
 
     def tell(k: int) -> Story:
+        pivots = outer2.point, outer1.point
         if abs(offset) < 1e-9 * size:
-            return ((GuideThrough(outer2.point, outer1.point, slide.key), (Bar(p2, p1, ""),)),)
+            return (Step("line", "guide", strokes=(Bar(p2, p1, ""),), points=pivots, pairs=(slide.key,)),)
         # foot of the square from the pivot to the guide's parallel through the other pivot
         foot = p1 - unit((p1 - p2) / (g * complex(roots[k], offset))) * g * roots[k]
-        act = GuideTouching(outer2.point, outer1.point, abs(offset), slide.key)
-        arcs = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot)
-        return ((act, (*arcs, Bar(foot, p1, ""))),)
+        strokes = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot), Bar(foot, p1, "")
+        return (Step("line", "tangent", strokes=strokes, points=pivots, mm=abs(offset), pairs=(slide.key,)),)
 
     angle = roots[0] / span if roots and abs(offset) >= 1e-9 * size else 1.0  # a line through both pivots crosses none
     return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell, angle)
@@ -203,7 +198,8 @@ def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
         moved2 = Pose(start2.origin + (q - q2), start2.axis)
         return {**one.placed(moved1), **two.placed(moved2)}
 
-    return _two_lines((q1, step1), (q2, step2), placed, PathsCross(letter, (slide1.key, slide2.key)))
+    step = Step("cross", "paths", point=letter, pairs=(slide1.key, slide2.key))
+    return _two_lines((q1, step1), (q2, step2), placed, step)
 
 
 def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
@@ -231,22 +227,22 @@ def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meet
     shift = step * (cross(want, along) / sine)
     base = p - want
     strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
-    story: Story = ((SlidToMeet(outer.point, slide.key, inner.key), strokes),)
-    return Meeting(sine, abs(sine), (placed(shift),), lambda _: story)
+    told = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
+    return Meeting(sine, abs(sine), (placed(shift),), lambda _: (told,))
 
 
 def _two_lines(
     one: tuple[complex, complex],
     two: tuple[complex, complex],
     placed: Callable[[complex], Mapping[str, Pose]],
-    act: OnMechanism,
+    step: Step,
 ) -> Meeting:
     sine = cross(one[1], two[1])
     q = cross_lines(*one, *two)
     if q is None:
         return Meeting(0.0, 0.0, (), _nothing)
-    story: Story = ((act, (Bar(one[0], q, ""), Bar(two[0], q, ""))),)
-    return Meeting(sine, abs(sine), (placed(q),), lambda _: story)
+    told = replace(step, strokes=(Bar(one[0], q, ""), Bar(two[0], q, "")))
+    return Meeting(sine, abs(sine), (placed(q),), lambda _: (told,))
 
 
 # The one place in this room where the kinds of dyads are told apart.

@@ -74,8 +74,8 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
     plot.wheels, value, mm = before.found(
         order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns, plot.board.instrument
     )
-    for act in plot.wheels.acts(before, order):
-        plot.board.do(order, act)
+    for step in plot.wheels.steps(before, order):
+        plot.board.do(step)
     had = plot.given.get(driver.key, (0.0, 0.0))
     plot.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)
     return mm

@@ -21,19 +21,8 @@ from graphkin.construction.net import (
     joined_at_contacts,
     node,
 )
-from graphkin.construction.polygon_acts import (
-    AddedRate,
-    Carried,
-    DirectionLine,
-    FoundVector,
-    LaidOff,
-    LinesMeet,
-    MeasuredRate,
-    PutBack,
-)
 from graphkin.construction.polygons import RATE, Polygons, letter
-from graphkin.construction.remarks import AtContact, ZeroVector
-from graphkin.construction.sheet import Equation, Rate, Term
+from graphkin.construction.sheet import Equation, Rate, Remark, Term
 from graphkin.construction.sizes import (
     Component,
     Direction,
@@ -44,6 +33,7 @@ from graphkin.construction.sizes import (
     RollingCurves,
     SquareOverRadius,
 )
+from graphkin.construction.steps import Step
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
@@ -143,7 +133,8 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | Cluster) -> N
                     told = _told_apart(plot, order, a, b) if a in plot.seen else add != 0.0
                     if isinstance(group, Cluster) and at != plot.ground and told:
                         value = plot.rates[order][at].value
-                        plot.board.do(order, AddedRate(RATE[order], new, at, b, value, add))
+                        plot.board.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
+                                           value=value, other=add))  # fmt: skip
                     queue.append(new)
 
 
@@ -269,7 +260,7 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
     whole = Symbol(letter(order), plot.label(end))
     meeting = _lines_meet(plot, order, whole, 0j, lines, equation)
     mark = Mark(plot.label(end), meeting)
-    plot.board.do(order, LinesMeet(mark.ref), mark, equation=equation)
+    plot.board.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
     for side, (start, carried) in zip(sides, starts, strict=True):
         if len(_open(side)) == 1:
             _fill(plot, order, side, meeting - carried, start - carried, equation)
@@ -280,7 +271,8 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Component], at: complex
     """Add known vectors before their turn; returns where they end."""
     for part in parts:
         if part.span is not None:
-            plot.board.do(order, Carried(part.symbol), Bar(at, at + part.span, ""), equation=equation)
+            bar = Bar(at, at + part.span, "")
+            plot.board.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol))
             at += part.span
     return at
 
@@ -295,7 +287,8 @@ def _lines_meet(
     meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, str(symbol)))
     for through, part in lines:
         ray = Ray(through, part.along, meeting, part.written, part.symbol)
-        plot.board.do(order, DirectionLine(part.symbol, part.written), ray, equation=equation)
+        step = Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.written)
+        plot.board.do(step)
     return meeting
 
 
@@ -315,7 +308,7 @@ def draw_relative(
         lines.append((at, next(part for part in side if part.span is None)))
     meeting = _lines_meet(plot, order, symbol, 0j, lines, number)
     found = Aid(symbol, 0j, meeting, plot.trial)
-    plot.board.do(order, FoundVector(symbol, abs(meeting)), found, equation=number)
+    plot.board.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
     return meeting
 
 
@@ -333,8 +326,9 @@ def draw_parallel_legs(plot: Polygons, order: Order, group: Cluster, legs: Paral
     edge, turning = next((e, p) for e, p in unknown if e.link == legs.link and e.unknown == Turning(own))
     free = [p for e, p in unknown if e is not edge][-1]  # both legs leave that free
     meeting = _lines_meet(plot, order, turning.symbol, start, [(start, turning), (goal, free)], number)
-    act = FoundVector(turning.symbol, plot.found_mm(turning.symbol, meeting - start))
-    plot.board.do(order, act, Aid(turning.symbol, start, meeting, 0), equation=number)
+    found = Aid(turning.symbol, start, meeting, 0)
+    mm = plot.found_mm(turning.symbol, meeting - start)
+    plot.board.do(Step("read", "vector", order, (found,), number, symbol=turning.symbol, mm=mm))
     _rate(plot, order, edge, turning.symbol, meeting - start, group)
 
 
@@ -347,8 +341,9 @@ def _lay_off(plot: Polygons, order: Order, part: Component, at: complex, equatio
         hand = plot.board.instrument
         tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
     vector = Vector(part.symbol, at, tip, part.role)
-    plot.board.notice(order, ZeroVector(part.symbol, size))
-    plot.record(order, vector, LaidOff(part.symbol, part.size, size, part.written, part.role), equation)
+    plot.board.notice(order, Remark("zero vector", (part.symbol,), size))
+    plot.record(vector, Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=size,
+                             direction=part.written))  # fmt: skip
     return tip
 
 
@@ -359,14 +354,14 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
         for part in parts:
             if part.span is None:
                 found = Vector(part.symbol, tail, plot.slip.found(part.symbol, tail, tip), part.role)
-                plot.board.notice(order, ZeroVector(part.symbol, abs(found.span)))
-                act = FoundVector(part.symbol, plot.found_mm(part.symbol, found.span))
-                plot.record(order, found, act, equation)
+                plot.board.notice(order, Remark("zero vector", (part.symbol,), abs(found.span)))
+                mm = plot.found_mm(part.symbol, found.span)
+                plot.record(found, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
             else:
                 if part.symbol not in plot.drawn[order]:
                     moved = Vector(part.symbol, at, at + part.span, part.role)
-                    plot.record(order, moved, PutBack(part.symbol), equation)
+                    plot.record(moved, Step("join", "put back", order, (), equation, symbol=part.symbol))
                 at = plot.drawn[order][part.symbol].tip
         if edge is not side[-1][0]:
             plot.reach(order, edge.end, at, equation)
@@ -393,7 +388,9 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
     plot.rates[order][edge.link] = Rate(edge.link, value if own is None else own, source, read, abs(arm))
-    plot.board.do(order, MeasuredRate(rate, edge.link, symbol, _bar(edge), value, read))
+    plot.board.do(
+        Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=_bar(edge), value=value, mm=read)
+    )
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
 
@@ -534,7 +531,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     one, two = (ref.link for ref in edge.labels)
     contact, place, normal = plot.contact(edge.contact)
     touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
-    plot.board.notice(order, AtContact(contact.name))
+    plot.board.notice(order, Remark("at contact", (contact.name,)))
     tangent = -1j * normal
     fixed = plot.fixed(edge.start)
     role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
@@ -601,7 +598,7 @@ def _bent_parts(plot: Polygons, edge: Edge, slide: Pair, sense: complex) -> list
     inward = 1j * sense * (1 if bends > 0.0 else -1)
     span = inward * (speed**2 * abs(bends) / plot.scales.acceleration)
     size = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
-    plot.board.notice("acceleration", AtContact(edge.start.point, True))
+    plot.board.notice("acceleration", Remark("at pitch curve", (edge.start.point,)))
     way = Direction("turned", edge.direction.names)
     return [Component(symbol_of(plot, "an", edge), "normal", inward, span, way, size)]
 

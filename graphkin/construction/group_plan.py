@@ -21,7 +21,7 @@ from itertools import combinations
 from typing import Literal
 
 from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Path, Turning, TwoUnknowns, Unknown
-from graphkin.construction.polygon_acts import FarPoint
+from graphkin.construction.steps import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster

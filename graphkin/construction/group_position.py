@@ -24,18 +24,9 @@ from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import best_first, drawn_near, fitted
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
-from graphkin.construction.mechanism_acts import (
-    LaidOffAngle,
-    Missed,
-    Moved,
-    OnMechanism,
-    RollingStarts,
-    TrialPositions,
-    TrialRow,
-    TrialTable,
-)
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
+from graphkin.construction.steps import Missed, Moved, Step, TrialPositions, TrialRow, TrialTable
 from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver
@@ -102,9 +93,9 @@ class GroupTrial:
         reduced = self.reduced
         poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.cluster.members}}
         values = np.array(reduced.values(poses, paper.mm))
-        story: list[tuple[OnMechanism, tuple[Stroke, ...]]] = []
+        story: list[Step] = []
         if self.given:
-            story += [(_started(paper, driver), ()) for driver in reduced.cluster.starts]
+            story += [_started(paper, driver) for driver in reduced.cluster.starts]
         if reduced.trial:
             driven = tuple(d.key for d in reduced.trial)
             strokes: tuple[Stroke, ...] = ()
@@ -119,7 +110,7 @@ class GroupTrial:
             left_out = tuple(name for name in reduced.left_out if name not in rolling)
             links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
             told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
-            story.append((told, strokes))
+            story.append(Step("trial", "positions", strokes=strokes, data=told))
         board = reduced.opened(so_far, [float(v) for v in values])
         board = replace(board, instrument=EXACT)
         for element in reduced.elements:
@@ -127,8 +118,7 @@ class GroupTrial:
                 pose, told_here = drive(board, element)
                 axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
                 told_here = tuple(
-                    (replace(act, angle=axis, to="") if isinstance(act, LaidOffAngle) else act, strokes)
-                    for act, strokes in told_here
+                    replace(step, value=axis, base="") if step.reason == "angle" else step for step in told_here
                 )
             else:
                 meeting = meet(board, element)
@@ -224,11 +214,11 @@ def _by_hand(
     return gaps, np.array(rows).T
 
 
-def _started(paper: PlacedLinks, driver: Driver) -> RollingStarts:
+def _started(paper: PlacedLinks, driver: Driver) -> Step:
     """What is given of a link, or of a pair, at the position from which rolling starts."""
     if driver.turns:
-        return RollingStarts(driver.link, "angle", cmath.phase(paper.poses[driver.link].axis))
-    return RollingStarts(driver.key, "travel", driver.values[0] * paper.mm)
+        return Step("lay off", "rolling", link=driver.link, value=cmath.phase(paper.poses[driver.link].axis))
+    return Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm)
 
 
 def _trial_drawings(

@@ -15,7 +15,6 @@ from itertools import chain, product
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction import remarks
 from graphkin.construction.equations import (
     at_contacts,
     draw_equation,
@@ -29,7 +28,6 @@ from graphkin.construction.equations import (
     turned,
 )
 from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
-from graphkin.construction.mechanism_acts import PitchPoint, SpecialPoint
 from graphkin.construction.net import (
     ClosingVector,
     Edge,
@@ -42,13 +40,12 @@ from graphkin.construction.net import (
     TwoUnknowns,
     contacts_of,
 )
-from graphkin.construction.polygon_acts import FarPoint, SeenFrom, Superposed, TakenOff, TrialDrawn
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
-from graphkin.construction.remarks import Magnified
 from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
-from graphkin.construction.sheet import DrawnGroup, Rate
+from graphkin.construction.sheet import DrawnGroup, Rate, Remark
 from graphkin.construction.sizes import Direction, Order
+from graphkin.construction.steps import FarPoint, RateTrial, Step, Superposed, TakenOff
 from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
@@ -131,7 +128,7 @@ def _draw_by(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> N
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, one, two in plan.parallel:
-            plot.board.notice("mechanism", remarks.ParallelLegs((one, two)))
+            plot.board.notice("mechanism", Remark("parallel legs", (one, two)))
     if plan.tried:
         plan = plot.plans[group] = _with_assumptions(plot, order, group, plan)
         _assume(plot, order, group, plan, _true_rates(plot, order, group, plan))
@@ -236,8 +233,9 @@ def _mark_special(plot: Polygons, move: Special) -> None:
         plot.links[move.link] = replace(plot.links[move.link], points=points)
     joints = tuple(leg[-1].end.point for leg in move.legs)
     driven = any(not e.unknown and (e.slide or e.weld) for leg in move.legs for e in leg)
-    act = SpecialPoint(move.letter, move.link, (joints[0], joints[1]), move.base, driven)
-    plot.board.do("mechanism", act, Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at))
+    strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
+    step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
+    plot.board.do(replace(step, base=move.base, kind="driven" if driven else ""))
 
 
 def _leg_line(plot: Polygons, leg: Path) -> tuple[complex, complex]:
@@ -296,7 +294,7 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
     plot.special.add(letter)
     plot.places[letter] = at
     wheels = next(g.wheels for g in plot.structure.scene.gears if g.name == name)
-    plot.board.do("mechanism", PitchPoint(letter, wheels), Mark(PointRef(letter), at))
+    plot.board.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=wheels))
     return letter
 
 
@@ -406,7 +404,7 @@ def _draw_contours(plot: Polygons, order: Order, group: Cluster) -> None:
             apart.complete(order, name)
         _take_special_points(plot, apart, before[0])
         first = len(plot.board.equations) + 1 if len(apart.board.equations) > before[1] else None
-        plot.board.do(order, SeenFrom(held, rest.links, order), equation=first)
+        plot.board.do(Step("carry over", "seen from", order, (), first, held=held, links=rest.links))
         copy_steps(plot, order, group, held, *before)
     for held, rest in plot.contours.get(group, ()):
         for name in (held, *rest.members):
@@ -419,7 +417,7 @@ def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> Non
     plot.special, plot.places, plot.links = other.special, other.places, other.links
     for step in other.board.steps[since:]:
         if step.diagram == "mechanism":
-            plot.board.do("mechanism", step.act, *step.strokes)
+            plot.board.do(step)
 
 
 def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Pair]) -> Cluster:
@@ -593,17 +591,19 @@ def _true_rates(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -
         _take_special_points(plot, trial)
         steps = [step for step in trial.board.steps if step.diagram == order]
         strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
-        plot.board.do(order, TrialDrawn(number, _as_symbols(plot, order, plan, assumed), far), *strokes)
+        told = RateTrial(number, _as_symbols(plot, order, plan, assumed), far)
+        plot.board.do(Step("trial", "polygon", order, tuple(strokes), data=told))
     shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
     places = [[end[ref] for ref in shared] for end in ends]
-    plot.board.notice(order, Magnified(group.links, magnified(places, apart)))
+    plot.board.notice(order, Remark("magnified", (", ".join(group.links),), magnified(places, apart)))
     found = _as_noted(plot, plan, rates, apart)
     closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
     ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
     between = tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e, _ in plan.open_ends)
     less = tuple(tuple(_taken_off(trial, order, *one)) for one in plan.open_ends)
     named = _as_symbols(plot, order, plan, found)
-    plot.board.do(order, Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less))
+    divided = Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less)
+    plot.board.do(Step("divide", "open ends", order, data=divided))
     return found
 
 

@@ -18,15 +18,15 @@ from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.larger_groups import draw_group, drawn_group
-from graphkin.construction.mechanism_acts import HeldStill
 from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import RATE, Polygons
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
-from graphkin.construction.sheet import Board, Cause, DiagramName, DrawnGroup, Limits, Scales, Sheet, Step, either_way
+from graphkin.construction.sheet import Board, DrawnGroup, Limits, Scales, Sheet, either_way
 from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
+from graphkin.construction.steps import DIAGRAMS, Cause, DiagramName, Step
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import Unsolvable
@@ -157,8 +157,8 @@ def positioned(
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
     polygons.plans.update(task.plans)
-    for name, act in told:
-        board.do(name, act)
+    for step in told:
+        board.do(step)
     return OnBoard(polygons, assembly, tuple(step for carried in found for step in carried.steps))
 
 
@@ -349,17 +349,13 @@ class TriangleDrawn:
     causes: tuple[tuple[int, Cause], ...]
     steps: Sequence[Step]
 
-    def carried_over(self) -> tuple[tuple[DiagramName, HeldStill], ...]:
+    def carried_over(self) -> Iterator[Step]:
         """What is carried over to each diagram."""
         t = self.triangle
-        names = (t.held, t.links[0], t.driver.key)
-        value, rate, second = self.value, self.rate, self.second
-        turns = t.pair.turns
-        return (
-            ("mechanism", HeldStill(*names, "angle" if turns else "travel", value)),
-            ("velocity", HeldStill(*names, "omega" if turns else "velocity", rate)),
-            ("acceleration", HeldStill(*names, "alpha" if turns else "acceleration", second)),
-        )
+        kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
+        for diagram, kind, value in zip(DIAGRAMS, kinds, (self.value, self.rate, self.second), strict=True):
+            yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
+                       kind=kind, value=value)  # fmt: skip
 
 
 def _drawn_apart(

@@ -11,16 +11,17 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Literal, TypeVar
 
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
-from graphkin.construction.polygon_acts import ByImage, ByRate, Named, Resultant, SamePlace, Translated
-from graphkin.construction.sheet import Act, Board, Rate, Scales
+from graphkin.construction.sheet import Board, Rate, Scales
 from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
-from graphkin.construction.strokes import Aid, Bar, Image, Mark, Stroke, Vector
+from graphkin.construction.steps import Step
+from graphkin.construction.strokes import Aid, Bar, Image, Mark, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.train_plan import Wheels
 from graphkin.errors import Problem, Unsolvable
@@ -211,10 +212,11 @@ class Polygons:
             self.place(order, ref)
         return self.ends[order][ref]
 
-    def record(self, order: Order, vector: Vector, act: Act, equation: int | None, *more: Stroke) -> None:
-        """Put a vector into a polygon, with the step that drew it."""
-        self.drawn[order][vector.symbol] = vector
-        self.board.do(order, act, self.shown(vector), *more, equation=equation)
+    def record(self, vector: Vector, step: Step) -> None:
+        """Put a vector into a polygon, with the step that drew it and its further strokes."""
+        if step.diagram in ORDERS:
+            self.drawn[step.diagram][vector.symbol] = vector
+        self.board.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
     def shown(self, vector: Vector) -> Vector | Aid:
         """A vector as it is drawn: one of a trial polygon or to a special point only leads on."""
@@ -239,9 +241,10 @@ class Polygons:
         symbol = Symbol(letter(order), self.label(ref))
         if symbol in self.drawn[order]:
             if not self.board.pricked(order, mark):
-                self.board.do(order, Named(mark.ref), mark, equation=equation)
+                self.board.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
             return
-        self.record(order, Vector(symbol, 0j, at, "resultant"), Resultant(symbol), equation, mark)
+        step = Step("join", "pole to end", order, (mark,), equation, symbol=symbol)
+        self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def complete(self, order: Order, name: str) -> None:
         """All points of a link, and the points of it under sliding pins and at contacts."""
@@ -265,11 +268,12 @@ class Polygons:
         here = self.places[ref.point]
         refs = [r for r in ends if self.on(r, name)]
         if name in self.still:
-            self._reach_by(order, ref, ends[refs[0]], Translated(name))
+            self._reach_by(ref, ends[refs[0]], Step("image", "translation", order, link=name))
             return
         same = [r for r in refs if abs(self.places[r.point] - here) <= self.tiny]
         if same:
-            self._reach_by(order, ref, ends[same[0]], SamePlace(self.label(ref), self.label(same[0])))
+            step = Step("image", "same place", order, refs=(self.label(same[0]),))
+            self._reach_by(ref, ends[same[0]], step)
             return
         # a special point may lie far away: it serves where the link has no other two
         near = [r for r in refs if r.point not in self.special]
@@ -282,7 +286,7 @@ class Polygons:
         if abs(bar) <= self.tiny or (order, name) in self.believed:
             start = refs[0]  # a fixed point, if the link has one
             at = self._by_rates(order, ends[start], (start.point, ref.point), name)
-            self._reach_by(order, ref, at, ByRate(self.label(ref), self.label(start), name))
+            self._reach_by(ref, at, Step("image", "rates", order, refs=(self.label(start),), link=name))
             return
         own = self.links[name].points
         if {a.point, b.point, ref.point} <= own.keys():  # the shape of the link is given
@@ -293,15 +297,19 @@ class Polygons:
         on_line = abs(ratio.imag) < 1e-9
         lined = on_line or bool({a.point, b.point} & self.special)
         stroke = Bar(ends[a], at, name) if lined else Image(name, (ends[a], ends[b], at))
-        act = ByImage(self.label(ref), (self.label(a), self.label(b)), name, on_line)
-        self._reach_by(order, ref, at, act, stroke)
+        reason: Literal["division", "similar"] = "division" if on_line else "similar"
+        step = Step("image", reason, order, (stroke,), refs=(self.label(a), self.label(b)), link=name)
+        self._reach_by(ref, at, step)
 
-    def _reach_by(self, order: Order, ref: PointRef, at: complex, act: Act, *strokes: Stroke) -> None:
-        symbol = Symbol(letter(order), self.label(ref))
+    def _reach_by(self, ref: PointRef, at: complex, step: Step) -> None:
+        """An end point that follows from others of its link."""
+        order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
+        label = self.label(ref)
+        symbol = Symbol(letter(order), label)
         at = self.slip.found(symbol, 0j, at)
         self.ends[order][ref] = at
-        mark = Mark(self.label(ref), at)
-        self.record(order, Vector(symbol, 0j, at, "resultant"), act, None, mark, *strokes)
+        step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))
+        self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:
         """Whether a node is a point of a link."""

@@ -9,16 +9,8 @@ from typing import Protocol
 from graphkin.construction.dyads import Meeting, Story, assemble, drive, meet, refuse
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
-from graphkin.construction.mechanism_acts import (
-    ArcOnPath,
-    CompassArcs,
-    FixedPoints,
-    LaidOffAngle,
-    LinkPoints,
-    PathsCross,
-)
-from graphkin.construction.remarks import SharpCrossing, ShortArm
-from graphkin.construction.sheet import Board, Cause, Placing
+from graphkin.construction.sheet import Board, Remark
+from graphkin.construction.steps import FINDS_A_POINT, Cause, Step
 from graphkin.construction.strokes import Mark
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
@@ -82,7 +74,7 @@ def place(
     """
     paper = start_board(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
-    causes: list[tuple[int, Cause]] = [(instrument.acts, Placing((structure.scene.frame.name,)))]
+    causes: list[tuple[int, Cause]] = [(instrument.acts, _placing(structure.scene.frame.name))]
 
     def chosen(i: int, element: Dyad | Cluster) -> Poses:
         if isinstance(element, Cluster):
@@ -93,8 +85,14 @@ def place(
         return meeting.poses[branches.get(i, 0) % len(meeting.poses)]
 
     for element in assemble(paper, elements, chosen):
-        causes.append((instrument.acts, Placing((element.link,) if isinstance(element, Driven) else element.links)))
+        links = (element.link,) if isinstance(element, Driven) else element.links
+        causes.append((instrument.acts, _placing(*links)))
     return Position(paper, meetings, causes)
+
+
+def _placing(*links: str) -> Phrase:
+    """The pricking and placing of links, as a cause of what is uncertain."""
+    return Phrase("placing", (", ".join(links),))
 
 
 def draw_position(
@@ -109,7 +107,7 @@ def draw_position(
     paper = position.paper
     ground = structure.scene.frame
     fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
-    board.do("mechanism", FixedPoints(ground.name, tuple(ground.points)), *fixed)
+    board.do(Step("mark", "frame", strokes=fixed, link=ground.name, points=tuple(ground.points)))
     named = set(ground.points)
     assembly: dict[str, Phrase] = {}
     so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
@@ -120,7 +118,7 @@ def draw_position(
             story = (trials or {})[element].steps(paper, so_far)
         else:
             meeting = position.meetings[i]
-            board.notice("mechanism", SharpCrossing(_inner_name(element), meeting.sharpness))
+            board.notice("mechanism", Remark("sharp crossing", (_inner_name(element),), meeting.sharpness))
             _remark_arm(board, element, paper)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.tell(index)
@@ -133,14 +131,12 @@ def draw_position(
         def known(name: str, found: set[str] = found) -> int:
             return len(structure.links[name].points.keys() & (named | found))
 
-        for act, strokes in story:
-            if isinstance(act, LaidOffAngle) and act.to == ground.name:
-                act = replace(act, to="")
-            board.do("mechanism", act, *strokes)
-            if isinstance(act, CompassArcs | ArcOnPath | PathsCross):
-                found.add(act.point)
+        for step in story:
+            board.do(replace(step, base="") if step.base == ground.name else step)
+            if step.reason in FINDS_A_POINT:
+                found.add(step.point)
             if isinstance(element, Cluster):  # what the next lines start from
-                laid = act.link if isinstance(act, LaidOffAngle) else ""
+                laid = step.link if step.reason == "angle" else ""
                 for name in [n for n in left if n == laid or known(n) > 1]:
                     left.remove(name)
                     _mark_points(board, structure, paper, name, named)
@@ -160,7 +156,7 @@ def _mark_points(board: Board, structure: Structure, paper: PlacedLinks, name: s
     named.update(fresh)
     if fresh:
         marks = tuple(Mark(PointRef(p), paper.point(name, p)) for p in fresh)
-        board.do("mechanism", LinkPoints(name, fresh, len(points) > 2), *marks)
+        board.do(Step("mark", "whole link" if len(points) > 2 else "points", strokes=marks, link=name, points=fresh))
 
 
 def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
@@ -168,7 +164,7 @@ def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
     one, two = dyad.outer_first, dyad.outer_second
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-        board.notice("mechanism", ShortArm(dyad.links, (one.point, two.point), apart))
+        board.notice("mechanism", Remark("short arm", (", ".join(dyad.links), one.point, two.point), apart))
 
 
 def _inner_name(dyad: Dyad) -> str | Phrase:

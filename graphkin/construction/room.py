@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from graphkin.construction.polygon_acts import Asked
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import DIAGRAMS, DiagramName, Scales, Sheet
+from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.sizes import ORDERS, Order
+from graphkin.construction.steps import DIAGRAMS, DiagramName
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.scene.model import Mechanism
@@ -114,7 +114,7 @@ def leading_on(sheet: Sheet, order: Order) -> list[Aid]:
 def extents_of(sheet: Sheet) -> dict[DiagramName, Extent]:
     def vectors(order: Order) -> Iterator[Vector | Aid]:
         for step in sheet.steps:
-            if step.diagram == order and not isinstance(step.act, Asked):
+            if step.diagram == order and step.reason != "asked":
                 yield from (s for s in step.strokes if isinstance(s, Vector))
         yield from leading_on(sheet, order)
 

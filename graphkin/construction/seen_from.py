@@ -14,27 +14,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.polygon_acts import (
-    ByImage,
-    ByRate,
-    Carried,
-    DirectionLine,
-    FoundVector,
-    ImageSeen,
-    LaidOff,
-    MeasuredRate,
-    PutBack,
-    RateSeen,
-    Resultant,
-    SamePlace,
-    SeenByRate,
-    SeenFrom,
-    Translated,
-)
 from graphkin.construction.polygons import Polygons, letter
-from graphkin.construction.sheet import Act, DiagramName, Equation, Sheet, Step, Term
+from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
@@ -138,10 +121,10 @@ def copy_steps(plot: Polygons, order: Order, group: Cluster, held: str, steps: i
         sides = tuple(tuple(_term(term, held) for term in side) for side in one.sides)
         plot.board.equations.append(Equation(one.number + further, one.diagram, sides, group))
     for step in apart.board.steps[steps:]:
-        act = _act(apart, step, held)
-        if act is not None and step.diagram != "mechanism":
+        told = _step(apart, step, held) if step.diagram != "mechanism" else None
+        if told is not None:
             number = None if step.equation is None else step.equation + further
-            plot.board.do(order, act, *_strokes(step, held), equation=number)
+            plot.board.do(replace(told, diagram=order, equation=number))
 
 
 def seen(symbol: Symbol, held: str) -> Symbol:
@@ -155,8 +138,8 @@ def seen(symbol: Symbol, held: str) -> Symbol:
 
 def vectors_seen(sheet: Sheet, diagram: DiagramName) -> Iterator[Aid]:
     """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
-    held = {step.act.held for step in sheet.steps if isinstance(step.act, SeenFrom)}
-    special = {step.act.point for step in sheet.steps if isinstance(step.act, SpecialPoint)}
+    held = {step.held for step in sheet.steps if step.reason == "seen from"}
+    special = {step.point for step in sheet.steps if step.reason == "special point"}
     for step in sheet.steps if held else ():
         for stroke in step.strokes if step.diagram == diagram else ():
             if isinstance(stroke, Aid) and stroke.symbol.to is not None:
@@ -182,30 +165,26 @@ def _strokes(step: Step, held: str) -> Iterator[Stroke]:
             yield Aid(seen(stroke.symbol, held), stroke.tail, stroke.tip, 0)
         elif isinstance(stroke, Ray):
             yield replace(stroke, symbol=seen(stroke.symbol, held))
-        elif isinstance(stroke, Bar) and isinstance(step.act, Carried):
+        elif isinstance(stroke, Bar) and step.reason == "before its turn":
             yield stroke
 
 
-def _act(plot: Polygons, step: Step, held: str) -> Act | None:
-    """An act as it is said of what is seen from a link; None for end points that get a letter in the polygon itself."""
-    act, kind = step.act, letter("velocity" if step.diagram == "velocity" else "acceleration")
+def _step(plot: Polygons, step: Step, held: str) -> Step | None:
+    """A step as it is said of what is seen from a link; None for end points that get a letter in the polygon itself."""
+    kind, strokes = letter("velocity" if step.diagram == "velocity" else "acceleration"), tuple(_strokes(step, held))
 
     def to(ref: PointRef) -> Symbol | None:
         return None if plot.fixed(ref) else seen(Symbol(kind, ref), held)
 
-    match act:
-        case LaidOff():
-            return replace(act, symbol=seen(act.symbol, held), size=_size(act.size, held))
-        case FoundVector() | DirectionLine() | Carried() | PutBack() | Resultant():
-            return replace(act, symbol=seen(act.symbol, held))
-        case MeasuredRate(rate, link, vector, bar, value, mm):
-            return RateSeen(rate, link, held, seen(vector, held), bar, value, mm)
-        case ByImage(point, (one, other), link, on_line):
-            corners = one.point, other.point, point.point
-            return ImageSeen(seen(Symbol(kind, point), held), (to(one), to(other)), corners, link, on_line)
-        case ByRate(point, start, link):
-            return SeenByRate(seen(Symbol(kind, point), held), start, to(start), link, held)
-        case SamePlace() | Translated():
-            vectors = (s for s in step.strokes if isinstance(s, Vector | Aid))
-            return next((Resultant(seen(v.symbol, held)) for v in vectors), None)
-    return None
+    match step.reason:
+        case "same place" | "translation":
+            drawn = [v.symbol for v in strokes if isinstance(v, Aid)]
+            return Step("join", "pole to end", step.diagram, strokes, symbol=drawn[0]) if drawn else None
+        case "similar" | "division" | "rates":
+            symbol, begins = seen(Symbol(kind, step.ref), held), tuple(map(to, step.refs))
+            corners = tuple(ref.point for ref in (*step.refs, step.ref))
+            return replace(step, symbol=symbol, begins=begins, points=corners, held=held, strokes=strokes)
+    if not step.symbol.kind:
+        return None
+    told = replace(step, symbol=seen(step.symbol, held), size=_size(step.size, held), strokes=strokes)
+    return replace(told, held=held) if step.reason == "rate" else told

@@ -7,41 +7,20 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from graphkin.construction.instruments import EXACT_NAME
+from graphkin.construction.instruments import EXACT_NAME, Exact, Instrument
 from graphkin.construction.links_on_paper import Pose
-from graphkin.construction.mechanism_acts import (
-    ArcOnPath,
-    CompassArcs,
-    FixedPoints,
-    GuideThrough,
-    GuideTouching,
-    LaidOffAngle,
-    LaidOffTravel,
-    LinkPoints,
-    OnMechanism,
-    PathDrawn,
-    PathsCross,
-    SlidToMeet,
-    TrialPositions,
-    mechanism_phrase,
-)
-from graphkin.construction.polygon_acts import (
-    FoundVector,
-    InPolygon,
-    LaidOff,
-    MeasuredRate,
-    RateSeen,
-    Superposed,
-    polygon_phrase,
-)
-from graphkin.construction.remarks import Remark
 from graphkin.construction.sizes import Direction, Size
-from graphkin.construction.strokes import Aid, Stroke, Vector
+from graphkin.construction.steps import DIAGRAMS, Cause, DiagramName, Step
+from graphkin.construction.strokes import Aid, Mark, Vector
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure.model import Cluster, Element, Structure
@@ -49,90 +28,69 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.centre_lines import TrainPlan
-from collections.abc import Sequence
-from copy import copy
-
-from graphkin.construction.instruments import Exact, Instrument
-from graphkin.construction.remarks import OffTheSheet, SharpCrossing
-from graphkin.construction.strokes import Mark
-from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_lines
 
 __all__ = [
-    "DIAGRAMS", "Act", "Board", "Cause", "DiagramName", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Placing",
-    "Rate", "ReadOff", "Scales", "Sheet", "Step", "Term", "either_way", "links_drawn", "phrase_of", "scaled",
+    "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Scales", "Sheet", "Term",
+    "either_way",
 ]  # fmt: skip
 
-DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
-DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
-Act = OnMechanism | InPolygon
-"""What is done and to what; ``mm`` are lengths on paper, the only thing of an act that a scale changes (`scaled`)."""
 _Thing = TypeVar("_Thing")
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
+REACH = 2000.0  # mm to either side: how far a construction line is drawn
+SHARP = math.sin(math.radians(15.0))
+SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
+MAGNIFIED = 2.0  # times as much as was left open: from there on it is said
 
 
 @dataclass(frozen=True)
-class Placing:
-    """The pricking and placing of links."""
+class Remark:
+    """What may have to be said of a construction: whether it ``holds`` depends on the scale of the figure.
 
-    links: tuple[str, ...]
+    Parameters
+    ----------
+    key : its phrase.  "sharp crossing": two lines cross at so small an angle that the place is uncertain; "off the
+        sheet": they cross so far from where they start that rulers do not reach, and the place is computed; "zero
+        vector"; "short arm": the two points lie too near to each other that direct a guide; "magnified": what a trial
+        polygon leaves open and is read wrong moves end points by so many times as much; "parallel legs": two legs of a
+        link leave it free along one direction, their special point lies at infinity; "at contact", "at pitch curve":
+        a sliding contact is drawn at the contact itself, or as a pin on the pitch curve, not by what replaces it
+    of : what is found there, or what it is said of
+    size : the sine of the angle of a sharp crossing, by how much it is magnified, else a length on paper (mm)
+    """
 
+    key: Literal["sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs",
+                 "at contact", "at pitch curve"]  # fmt: skip
+    of: tuple[str | Symbol | Phrase, ...]
+    size: float = 0.0
 
-@dataclass(frozen=True)
-class ReadOff:
-    """The reading itself."""
+    @property
+    def holds(self) -> bool:
+        match self.key:
+            case "sharp crossing":
+                return self.size < SHARP
+            case "off the sheet":
+                return self.size > REACH
+            case "short arm":
+                return self.size < SHORT
+            case "magnified":
+                return self.size > MAGNIFIED
+        return self.size == 0.0
 
-    symbol: Symbol
+    @property
+    def phrase(self) -> Phrase:
+        match self.key:
+            case "sharp crossing":
+                return Phrase(self.key, (*self.of, f"{math.degrees(math.asin(self.size)):.2g}"))
+            case "magnified":
+                return Phrase(self.key, (*self.of, f"{self.size:.2g}"))
+            case "short arm":
+                links, one, other = self.of
+                return Phrase(self.key, (links, one, f"{self.size:.2g}", other))
+        return Phrase(self.key, self.of)
 
-
-Cause = Act | Placing | ReadOff
-
-
-_WITH_LENGTH = (LaidOffTravel, ArcOnPath, GuideTouching, LaidOff, FoundVector, MeasuredRate, RateSeen)
-_Scalable = TypeVar("_Scalable", bound=Act)
-
-
-def scaled(thing: _Scalable, times: float) -> _Scalable:
-    """The same act with its lengths so many times as large."""
-    if isinstance(thing, CompassArcs):
-        return replace(thing, radii=(thing.radii[0] * times, thing.radii[1] * times))
-    if isinstance(thing, TrialPositions):
-        return replace(thing, table=thing.table.scaled(times) if thing.table is not None else None)
-    if isinstance(thing, Superposed):
-        apart = tuple(tuple(mm * times for mm in row) for row in thing.apart)
-        less = tuple(tuple(replace(one, mm=one.mm * times) for one in row) for row in thing.less)
-        return replace(thing, apart=apart, less=less)
-    return replace(thing, mm=thing.mm * times) if isinstance(thing, _WITH_LENGTH) else thing
-
-
-def links_drawn(act: Act) -> tuple[str, ...]:
-    """The links that an act places or draws."""
-    match act:
-        case FixedPoints():
-            return (act.frame,)
-        case LaidOffAngle() | LinkPoints():
-            return (act.link,)
-        case LaidOffTravel() | PathDrawn() | GuideThrough() | GuideTouching():
-            pairs: tuple[str, ...] = (act.pair,)
-        case PathsCross():
-            pairs = act.pairs
-        case SlidToMeet():
-            pairs = act.along, act.until
-        case TrialPositions():
-            return act.links
-        case _:
-            pairs = ()
-    return tuple(name for pair in pairs for name in pair.split("/"))
-
-
-def phrase_of(thing: Cause) -> Phrase:
-    """An act, or another cause of uncertainty, as a sentence to be."""
-    match thing:
-        case Placing(links):
-            return Phrase("placing", (", ".join(links),))
-        case ReadOff(symbol):
-            return Phrase("reading", (symbol,))
-    return mechanism_phrase(thing) if isinstance(thing, OnMechanism) else polygon_phrase(thing)
+    def scaled(self, times: float) -> Remark:
+        """The same where lengths on paper are so many times as large."""
+        return self if self.key in ("sharp crossing", "magnified") else replace(self, size=self.size * times)
 
 
 @dataclass(frozen=True)
@@ -148,27 +106,6 @@ class Scales:
         return {
             "mechanism": self.length, "velocity": self.velocity, "acceleration": self.acceleration, "force": self.force,
         }[diagram]  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Step:
-    """One action on the board: what is done, and the strokes that it leaves."""
-
-    number: int
-    diagram: DiagramName
-    act: Act
-    strokes: tuple[Stroke, ...] = ()
-    equation: int | None = None
-
-    @property
-    def phrase(self) -> Phrase:
-        """The step as a sentence to be."""
-        return phrase_of(self.act)
-
-    def scaled(self, times: float) -> Step:
-        """The same step so many times as large."""
-        strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
-        return Step(self.number, self.diagram, scaled(self.act, times), strokes, self.equation)
 
 
 @dataclass(frozen=True)
@@ -393,6 +330,10 @@ class Sheet:
             s.symbol: s for step in self.steps if step.diagram == diagram for s in step.strokes if isinstance(s, Vector)
         }
 
+    def before(self, step: Step) -> tuple[Step, ...]:
+        """The steps before one of them."""
+        return self.steps[: step.number - 1]
+
     def trials(self, diagram: DiagramName) -> list[Aid]:
         """The vectors of trial polygons in a diagram."""
         strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
@@ -435,10 +376,11 @@ class Board:
         kept = {name: copy(value) for name, value in vars(self).items() if name != "instrument"}
         return Board(hand, **kept)
 
-    def do(self, diagram: DiagramName, act: Act, *strokes: Stroke, equation: int | None = None) -> None:
-        """Record one step."""
-        self.steps.append(Step(len(self.steps) + 1, diagram, act, tuple(strokes), equation))
-        self.causes.append((self.instrument.acts, act))
+    def do(self, step: Step) -> None:
+        """Record one step, by its number in the order."""
+        step = replace(step, number=len(self.steps) + 1)
+        self.steps.append(step)
+        self.causes.append((self.instrument.acts, step))
 
     def read_arm(self, between: Sequence[str], mm: float) -> float:
         """The distance of two points on paper (mm), read when it is first needed."""
@@ -488,8 +430,8 @@ class Board:
                     what, Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
                 ),
             )
-        self.notice(diagram, SharpCrossing(what, sine))
+        self.notice(diagram, Remark("sharp crossing", (what,), sine))
         at = cross_lines(p, d, q, e)
         assert at is not None
-        self.notice(diagram, OffTheSheet(what, max(abs(at - p), abs(at - q))))
+        self.notice(diagram, Remark("off the sheet", (what,), max(abs(at - p), abs(at - q))))
         return self.instrument.point(at)

@@ -17,10 +17,10 @@ import numpy as np
 
 from graphkin.construction.centre_lines import CentreLine, PlanLine, PlanScales, PlanTrial, Spot, TrainPlan
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.polygon_acts import OnPlan, PlanDrawn, PlanTravel, PlanTried
 from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sizes import Order
+from graphkin.construction.steps import Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import unit
 from graphkin.structure import Mesh, Structure, meshes_of
@@ -356,8 +356,8 @@ class Wheels:
             alike, grown = alike | more, bool(more)
         return alike
 
-    def acts(self, before: Wheels, order: Order) -> Iterator[OnPlan]:
-        """What was drawn since, as acts."""
+    def steps(self, before: Wheels, order: Order) -> Iterator[Step]:
+        """What was drawn since."""
         for key, plan in self.drawn.items():
             if key[0] != order or before.drawn.get(key) is plan:
                 continue
@@ -366,13 +366,17 @@ class Wheels:
             rate: Literal["omega", "alpha"] = "omega" if order == "velocity" else "alpha"
             named = self.structure.scene.by_name
             if plan.trial is not None:
-                yield PlanTried(rate, plan.trial.links, plan.trial.assumed, plan.trial.apart, plan.trial.found)
+                yield Step("divide", "plans", order, kind=rate, per_mm=plan.scales.rate, data=plan.trial)
             for one in plan.lines:
                 if (one.link, one.on) not in old and one.link in named:
-                    yield PlanDrawn(rate, one.link, one.by, one.rate_known, abs(one.foot), plan.scales.rate, one.rate)
+                    yield Step(
+                        "read", "given on plan" if one.rate_known else "plan", order, kind=rate, link=one.link,
+                        points=one.by, mm=abs(one.foot), per_mm=plan.scales.rate, value=one.rate,
+                    )  # fmt: skip
             new = {k: v for k, v in plan.travels.items() if had is None or k not in had.travels}
             for slide, (value, mm) in new.items():
-                yield PlanTravel(rate, slide, abs(mm), plan.scales.speed, value)
+                yield Step("read", "plan travel", order, pairs=(slide,), mm=abs(mm), per_mm=plan.scales.speed,
+                           value=value)  # fmt: skip
 
 
 def _leads(plan: TrainPlan, wanted: tuple[list[str], list[str]]) -> bool:

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from graphkin.construction.polygon_acts import AddedRate, FoundVector, LaidOff, MeasuredRate, RateSeen
-from graphkin.construction.remarks import SharpCrossing, ZeroVector
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import Act, DiagramName, Rate, Sheet, Step
+from graphkin.construction.sheet import Rate, Remark, Sheet
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Aid, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import greatest_before
+from graphkin.words import Phrase
 
 __all__ = ["MOST_LOST", "without_residues"]
 
@@ -38,7 +38,7 @@ def without_residues(sheet: Sheet) -> Sheet:
         omega=rates["omega"],
         alpha=rates["alpha"],
         noticed=tuple(
-            (name, replace(remark, mm=0.0) if isinstance(remark, ZeroVector) and remark.symbol in zero else remark)
+            (name, replace(remark, size=0.0) if remark.key == "zero vector" and remark.of[0] in zero else remark)
             for name, remark in sheet.noticed
         ),
     )
@@ -82,20 +82,21 @@ def _largest(sheet: Sheet, vectors: Mapping[Symbol, Vector | Aid]) -> Callable[[
 
 def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> Callable[[Symbol], float]:
     """What rounding may have cost of a vector, as a part of the largest that leads to it."""
-    sharp = [(_crossing(r), 1.0 / max(r.sine, 1e-9))
-             for name, r in sheet.noticed if name in diagrams and isinstance(r, SharpCrossing)]  # fmt: skip
+    sharp = [(_crossing(r), 1.0 / max(r.size, 1e-9))
+             for name, r in sheet.noticed if name in diagrams and r.key == "sharp crossing"]  # fmt: skip
     sharpest = greatest_before(sheet.structure, sharp)
     return lambda symbol: min(MOST_LOST, LOST * max(sharpest(symbol), 1.0) ** 2)
 
 
-def _crossing(remark: SharpCrossing) -> Symbol:
+def _crossing(remark: Remark) -> Symbol:
     """What a crossing finds, as a quantity: its own, or the velocity of a point or of links."""
-    if not isinstance(remark.of, str):
-        return Symbol("omega", link=str(remark.of.args[0]).split(", ")[0])
+    (of,) = remark.of
+    if isinstance(of, Phrase):
+        return Symbol("omega", link=str(of.args[0]).split(", ")[0])
     try:
-        return Symbol.parse(remark.of)
+        return Symbol.parse(str(of))
     except ValueError:
-        return Symbol("v", PointRef(remark.of))
+        return Symbol("v", PointRef(str(of)))
 
 
 def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
@@ -109,15 +110,14 @@ def _step(step: Step, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, 
     strokes: tuple[Stroke, ...] = tuple(
         replace(s, tip=s.tail) if isinstance(s, Vector | Aid) and s.symbol in zero else s for s in step.strokes
     )
-    return replace(step, act=_act(step.act, zero, rates), strokes=strokes)
-
-
-def _act(act: Act, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, Rate]]) -> Act:
-    if isinstance(act, AddedRate):
-        return replace(act, value=rates[act.rate][act.known].value)
-    if isinstance(act, LaidOff | FoundVector) and act.symbol in zero:
-        return replace(act, mm=0.0)
-    return replace(act, value=0.0) if isinstance(act, MeasuredRate | RateSeen) and act.vector in zero else act
+    step = replace(step, strokes=strokes)
+    if step.reason == "sum of rates":
+        return replace(step, value=rates[step.kind][step.links[0]].value)
+    if step.symbol not in zero:
+        return step
+    if step.reason == "rate":
+        return replace(step, value=0.0)
+    return replace(step, mm=0.0) if step.mm else step
 
 
 def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) -> dict[str, Rate]:

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 
 from graphkin.account.headings import drivers, facts, figure_title, punctuation, term, titles
 from graphkin.account.notation import Letters, letters_of, scale_statement
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, map_tree

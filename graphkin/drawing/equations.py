@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property, partial
 
+from graphkin.account.account import WrittenLine, rule_alone
 from graphkin.account.arithmetic import bound, carried_by, factors_of, substituted
 from graphkin.account.forces import SumTerm
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import Letters, rows_of
-from graphkin.account.written_lines import WrittenLine, rule_alone
-from graphkin.construction.polygon_acts import LaidOff
 from graphkin.construction.sheet import Equation, Sheet, Term
 from graphkin.construction.sizes import Given
 from graphkin.drawing.ink import strokes
@@ -194,7 +193,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
             parts.append(bound(substituted(only.size, factors)))
             said = written(product(*factors, carried=carried_by(sheet, only.size)))
     unit = sheet.scene.units.rates.length + ("/s" if equation.diagram == "velocity" else "/s²")
-    laid_off = (s.act.mm for s in sheet.steps if isinstance(s.act, LaidOff) and s.act.symbol == only.symbol)
+    laid_off = (s.mm for s in sheet.steps if s.verb == "lay off" and s.symbol == only.symbol)
     # what is given is not what a hand has made of it
     value = next(laid_off, abs(vector.span)) * sheet.scales.of(equation.diagram) / sheet.scene.units.rates.metres
     parts.append(f"{said or number(value, MOST)}\u00a0{unit}")

@@ -6,13 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
-from graphkin.account.tell import Account
 from graphkin.checking.report import Compared, Report
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction.centres import Centres
 from graphkin.construction.forces import ForceSheet, forces_on
-from graphkin.construction.sheet import DiagramName, Equation, Sheet, Step
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.drawing.text import Atom, parsed
 from graphkin.scene.symbol import Symbol
 

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from graphkin.account.headings import FIGURE_WORDS, describe, punctuation, term
 from graphkin.account.notation import Letters, pole, rows_of, scale_statement
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.sheet import DiagramName, Equation, Sheet
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import without_titles
 from graphkin.drawing.equations import write_equation
@@ -129,7 +129,7 @@ def scale_foot(
 def mechanism_picture(sheet: Sheet, layers: Layers, letters: Letters, language: str) -> Drawing:
     """The mechanism as a problem shows it: nothing that was found, no arcs."""
     found = {"answers", "construction"}
-    special = {s.act.point for s in sheet.steps if isinstance(s.act, SpecialPoint)}
+    special = {s.point for s in sheet.steps if s.reason == "special point"}
     aids = {f"{part}-{point}" for point in special for part in ("special", "point", "label-point")}
     kept = [_without_results(layer, aids) for layer in layers if layer.id not in found]
     return cropped(kept, term("mechanism", language), describe_bare(sheet, language), language,

@@ -10,7 +10,8 @@ from graphkin.account.given_loads import given_loads
 from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
 from graphkin.account.notation import pole
 from graphkin.account.voice import whole_sentence
-from graphkin.construction.sheet import DiagramName, Equation
+from graphkin.construction.sheet import Equation
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth

@@ -19,9 +19,9 @@ from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.voice import capital
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import Plan, execute
-from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, OnPlan, PlanDrawn
 from graphkin.construction.scales import next_of_series
-from graphkin.construction.sheet import DiagramName, Scales, Sheet, Step
+from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
@@ -267,7 +267,7 @@ def _plans(lesson: Lesson) -> Iterator[Figure]:
     sheet, language = lesson.sheet, lesson.language
     figure = train_figure(sheet, language=language, convention=lesson.convention)
     for plan, page in zip(moving_plans(sheet), (figure, *figure.further) if figure else (), strict=True):
-        last = [step.number for step in sheet.steps if step.diagram == plan.order and isinstance(step.act, OnPlan)][-1:]
+        last = [step.number for step in sheet.steps if step.diagram == plan.order and step.per_mm][-1:]
         bare = bare_picture(page)
         drawn = replace(bare, children=(Group(bare.children, classes=(f"step-{last[0]}",)),)) if last else bare
         told = said("plan" if plan.order == "velocity" else "plan accelerations", language)
@@ -335,12 +335,12 @@ def _find(lesson: Lesson, symbol: Symbol, name: str, value: complex | float) -> 
 
 def _found(lesson: Lesson, step: Step) -> dict[str, Json]:
     """What a step of the motion finds: the rate that it measures, or its last vector."""
-    sheet, act = lesson.sheet, step.act
-    if isinstance(act, MeasuredRate | AddedRate) or (isinstance(act, PlanDrawn) and not act.known):
-        omega = act.rate == "omega"
-        rate = (sheet.omega if omega else sheet.alpha).get(act.link)
-        name = f"{'ω' if omega else 'α'}_{{{act.link}}}"
-        return {} if rate is None else _find(lesson, Symbol(act.rate, link=act.link), name, rate.value)
+    sheet = lesson.sheet
+    if step.finds_rate:
+        omega = step.kind == "omega"
+        rate = (sheet.omega if omega else sheet.alpha).get(step.link)
+        name = f"{'ω' if omega else 'α'}_{{{step.link}}}"
+        return {} if rate is None else _find(lesson, Symbol(step.kind, link=step.link), name, rate.value)
     vectors = [s for s in step.strokes if isinstance(s, Vector) and s.span]
     if not vectors:
         return {}

@@ -8,7 +8,6 @@ from dataclasses import replace
 from graphkin.account.headings import FIGURE_WORDS, drivers, written
 from graphkin.account.notation import scale_statement
 from graphkin.checking.report import exact, measured
-from graphkin.construction.polygon_acts import DirectionLine, OnPlan
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures.forces import group_equation, group_picture
 from graphkin.drawing.figures.lever import lever_figure
@@ -79,7 +78,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
             count += 1
             yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first, count)))
             first = None
-        if stage.diagram in plans and any(isinstance(step.act, OnPlan) for step in stage.steps):
+        if stage.diagram in plans and any(step.per_mm for step in stage.steps):
             count += 1
             yield Together(tuple(_plan_blocks(lesson, stage.diagram, plans.pop(stage.diagram), count)))
     for order, plan in plans.items():
@@ -90,7 +89,7 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
 
 def _on_plan(stage: Stage) -> bool:
     """Whether nothing of a stage is drawn but on the plan of a train."""
-    return stage.equation is None and all(isinstance(step.act, OnPlan) for step in stage.steps)
+    return stage.equation is None and all(step.per_mm for step in stage.steps)
 
 
 def _plans(lesson: Lesson) -> dict[str, Drawing]:
@@ -198,7 +197,7 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
     """Whether the next figure shows the steps of a stage as well: a driver's few vectors, all known."""
     if stage.equation is None or after is None or after.equation is None or after.diagram != stage.diagram:
         return False
-    return not any(isinstance(step.act, DirectionLine) for step in stage.steps)
+    return not any(step.reason == "direction" for step in stage.steps)
 
 
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:

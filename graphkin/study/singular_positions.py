@@ -26,7 +26,6 @@ from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
 from graphkin.construction.centres import by_centres, find_centres, speeds
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.remarks import SharpCrossing, ShortArm
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
@@ -192,14 +191,14 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
         if sheet is None:
             return Answer((math.nan,))
         off = abs(sheet.omega[follower].value / right[e].rates[0] - 1)
-        return Answer((float(off),), any(isinstance(r, SharpCrossing) for r in sheet.remarks))
+        return Answer((float(off),), any(r.key == "sharp crossing" for r in sheet.remarks))
 
     def by_pencil(e: float) -> Answer:
         what, symbol = plan(beside(e)), Symbol("omega", link=follower)
         sheet = execute(what, EXACT)
         deviation = predict(what, "pencil", scene.sheet.tools, together=False)[symbol].deviation
         part = deviation / abs(sheet.omega[follower].value)
-        warns = any(isinstance(r, SharpCrossing) for r in sheet.remarks)
+        warns = any(r.key == "sharp crossing" for r in sheet.remarks)
         return Answer((part if math.isfinite(part) else math.nan,), warns)
 
     computed = [ErrorLaw(f"{what} closed form", theory=slope, window=NEARBY)
@@ -586,7 +585,7 @@ def flip(mp: MPContext, samples: int = 4) -> Singularity:
         sheet = _exactly_drawn(_turned(scene, -math.pi / 2 + e))
         if sheet is None:
             return Answer((math.nan,))
-        return Answer((abs(sheet.alpha["3"].value) / rate**2,), any(isinstance(r, ShortArm) for r in sheet.remarks))
+        return Answer((abs(sheet.alpha["3"].value) / rate**2,), any(r.key == "short arm" for r in sheet.remarks))
 
     x = grid(0.5, 1e-9, samples)
     few = x[::samples]

@@ -13,35 +13,27 @@ import numpy as np
 import pytest
 
 from graphkin import draw, read
+from graphkin.account.account import written_lines
 from graphkin.account.arithmetic import (
     divisions,
     factors_of,
     laid_sum,
+    lengths_measured,
     parts_by_rates,
     plan_sum,
     rate_sum,
     rule_sum,
+    scale_of,
     trials_of,
 )
-from graphkin.account.measured_lengths import lengths_measured, scale_of
 from graphkin.account.notation import letters_of
-from graphkin.account.written_lines import written_lines
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.polygon_acts import (
-    ByRate,
-    FoundVector,
-    LaidOff,
-    MeasuredRate,
-    PlanDrawn,
-    SeenByRate,
-    Superposed,
-    TrialDrawn,
-)
 from graphkin.construction.sheet import Board
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
+from graphkin.construction.steps import RateTrial, Step, Superposed
 from graphkin.construction.strokes import Aid
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
@@ -76,10 +68,10 @@ def test_the_sheet_tells_the_rate_in_numbers_once():
 @pytest.mark.parametrize("name", ["contour-four-bars", "double-butterfly"])
 def test_trial_rates_are_divided_as_it_is_written(name):
     sheet, _ = drawn(name)
-    steps = [step for step in sheet.steps if isinstance(step.act, Superposed)]
+    steps = [step for step in sheet.steps if isinstance(step.data, Superposed)]
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
-        for (_, rate), one in zip(step.act.found, divisions(sheet, step, step.act), strict=True):
+        for (_, rate), one in zip(step.data.found, divisions(sheet, step, step.data), strict=True):
             value = eval(one.terms.replace("×", "*").replace("−", "-"))
             told = one.value.split(" ")[0].replace("−", "-")
             assert value == pytest.approx(float(told), abs=0.5000001 * 10.0 ** -len(told.partition(".")[2]))
@@ -97,10 +89,10 @@ def test_the_sheet_tells_how_trials_are_divided():
 def test_every_sum_is_true_as_it_is_written(name):
     sheet, _ = drawn(name)
     for step in sheet.steps:
-        if isinstance(step.act, MeasuredRate):
-            text = rate_sum(sheet, step.act, units=False)
-        elif isinstance(step.act, LaidOff) and not step.act.is_zero:
-            text = rule_sum(sheet, step.act.size, step.diagram)
+        if step.reason == "rate" and not step.held:
+            text = rate_sum(sheet, step, units=False)
+        elif step.verb == "lay off" and step.mm:
+            text = rule_sum(sheet, step.size, step.diagram)
         else:
             continue
         if not text or "$" in text:
@@ -134,8 +126,7 @@ def test_no_length_of_nothing_is_among_the_given_ones():
 @pytest.mark.parametrize("instrument", [EXACT, pencil(Tools(), 1)])
 def test_a_rate_read_off_the_plan_of_a_train_is_the_product_of_what_it_shows(instrument):
     sheet = draft(mechanism_of("gears-epicyclic"), instrument=instrument)
-    sums = [plan_sum(step.act).split(" ") for step in sheet.steps if isinstance(step.act, PlanDrawn)
-            and not step.act.known]
+    sums = [plan_sum(step).split(" ") for step in sheet.steps if step.reason == "plan"]
     assert sums
     for length, _, _, scale, _, _, value, *_ in sums:
         assert Decimal(value) == Decimal(length) * Decimal(scale)
@@ -144,7 +135,7 @@ def test_a_rate_read_off_the_plan_of_a_train_is_the_product_of_what_it_shows(ins
 @pytest.mark.parametrize(("name", "seed"), [("gears-epicyclic", 1), ("geared-five-bar", 2), ("gears-epicyclic", 5)])
 def test_the_sentence_of_a_rate_read_off_a_plan_says_the_product_of_its_numbers(name, seed):
     sheet = draft(mechanism_of(name), instrument=pencil(Tools(), seed))
-    said = " ".join(say(step.phrase) for step in sheet.steps if isinstance(step.act, PlanDrawn))
+    said = " ".join(say(step.phrase) for step in sheet.steps if step.reason in ("plan", "given on plan"))
     sums = re.findall(r"= ([\d.]+) × ([\d.]+) = ([\d.]+)", said)
     assert sums
     assert [Decimal(value) for _, _, value in sums] == [Decimal(one) * Decimal(other) for one, other, _ in sums]
@@ -180,10 +171,9 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
         for p, z in link.points.items()
         for q, w in link.points.items()
     }
-    acts = [step.act for step in sheet.steps]
-    arms = [(act.bar, rate_sum(sheet, act, units=False).split(" = ")[0].split(" / ")[-1])
-            for act in acts if isinstance(act, MeasuredRate)]  # fmt: skip
-    sizes = [act.size for act in acts if isinstance(act, LaidOff) and isinstance(act.size, RateTimes)]
+    arms = [(step.points, rate_sum(sheet, step, units=False).split(" = ")[0].split(" / ")[-1])
+            for step in sheet.steps if step.reason == "rate" and not step.held]  # fmt: skip
+    sizes = [step.size for step in sheet.steps if isinstance(step.size, RateTimes)]
     arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
@@ -206,7 +196,7 @@ BY_RATE = {  # link 2 turns on a block of 3, as seen from 4, at the driver's rat
 
 def seen_from_a_held_link():
     sheet = draft(mechanism_of(BY_RATE))
-    return sheet, [step for step in sheet.steps if isinstance(step.act, SeenByRate)]
+    return sheet, [step for step in sheet.steps if step.reason == "rates" and step.held]
 
 
 def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_are():
@@ -214,9 +204,9 @@ def test_what_a_held_link_shows_is_laid_off_by_the_rates_as_the_other_vectors_ar
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
         drawn_ = {s.symbol: s for s in step.strokes if isinstance(s, Aid)}
-        (start,) = (s.tip for t in sheet.steps for s in t.strokes if isinstance(s, Aid) and s.symbol == step.act.start)
-        parts = parts_by_rates(sheet, step.diagram, step.act)
-        assert drawn_[step.act.vector].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
+        (start,) = (s.tip for t in sheet.steps for s in t.strokes if isinstance(s, Aid) and s.symbol == step.begins[0])
+        parts = parts_by_rates(sheet, step)
+        assert drawn_[step.symbol].tip - start == pytest.approx(sum(part.span for part in parts), abs=1e-9)
 
 
 def test_sizes_relative_to_a_held_link_stand_in_numbers():
@@ -245,10 +235,9 @@ def test_what_a_cylinder_is_pushed_to_is_given_and_not_measured():
 @pytest.mark.parametrize("name", ["whitworth", "four-bar-coupler-point", "shaper-scheme-2"])
 def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(name):
     sheet = draft(mechanism_of(name), instrument=pencil(Tools(), 3))
-    acts = [step.act for step in sheet.steps]
-    said = {act.link: rate_sum(sheet, act).rsplit(" = ", 1)[-1].split()[0] for act in acts
-            if isinstance(act, MeasuredRate) and act.rate == "omega"}  # fmt: skip
-    sizes = [act.size for act in acts if isinstance(act, LaidOff) and isinstance(act.size, RateTimes)]
+    said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
+            if step.reason == "rate" and step.kind == "omega"}  # fmt: skip
+    sizes = [step.size for step in sheet.steps if isinstance(step.size, RateTimes)]
     used = [(said[sheet.omega[size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
             for size in sizes if size.rate == "omega" and sheet.omega[size.links[0]].vector]  # fmt: skip
     assert used
@@ -257,7 +246,7 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
 
 def test_with_a_pencil_a_product_carries_the_figures_of_what_was_measured():
     sheet = draft(mechanism_of("whitworth"), instrument=pencil(Tools(), 0), room=sheet_room(mechanism_of("whitworth")))
-    sizes = {str(a.symbol): a.size for a in (s.act for s in sheet.steps) if isinstance(a, LaidOff)}
+    sizes = {str(s.symbol): s.size for s in sheet.steps if s.verb == "lay off"}
     assert "4.543² × 156.4 = 3228 mm/s²" == rule_sum(sheet, sizes["an_A@4/O4"], "acceleration")
 
 
@@ -285,17 +274,17 @@ def test_with_a_pencil_each_product_and_quotient_follows_from_what_it_shows(name
 @pytest.mark.parametrize("name", library())
 def test_with_a_pencil_what_is_read_once_is_the_same_number_wherever_it_stands(name):
     sheet, table = drawn_by_hand(name)
-    for act in (step.act for step in sheet.steps):
-        if isinstance(act, FoundVector) and act.symbol in table:
-            assert table[act.symbol].on_paper == pytest.approx(act.mm, abs=1e-12)
-        if not isinstance(act, MeasuredRate) or not (told := rate_sum(sheet, act, units=False)):
+    for step in sheet.steps:
+        if step.reason == "vector" and step.symbol in table:
+            assert table[step.symbol].on_paper == pytest.approx(step.mm, abs=1e-12)
+        if step.reason != "rate" or step.held or not (told := rate_sum(sheet, step, units=False)):
             continue
-        rate = table[Symbol(act.rate, link=act.link)]
+        rate = table[Symbol(step.kind, link=step.link)]
         shown = measured(rate, sheet.scales, sheet.scene.units)
         assert told.split(" = ")[1].split()[0] == shown.lstrip("-")
-        if act.vector in table:
-            per = amount(scale_of(sheet, "velocity" if act.rate == "omega" else "acceleration"), 12)
-            assert told.split(" / ")[0] == product(on_paper(table[act.vector].on_paper), per)
+        if step.symbol in table:
+            per = amount(scale_of(sheet, step.diagram), 12)
+            assert told.split(" / ")[0] == product(on_paper(table[step.symbol].on_paper), per)
 
 
 def test_a_vector_that_an_equation_says_to_be_another_is_read_with_it():
@@ -327,20 +316,19 @@ def superposed_twice():
     apart = tuple(tuple((slopes @ (row - right)).tolist()) for row in tried)
     found = tuple(zip(names, right.tolist(), strict=True))
     way, ref = Direction("along", ("A", "B")), PointRef("A")
-    act = Superposed(found, ("3", "4"), apart, (way, way), ((ref, ref),) * 2, ((), ()))
+    divided = Superposed(found, ("3", "4"), apart, (way, way), ((ref, ref),) * 2, ((), ()))
     # others before them, of the same polygon and of the other
-    trials = [TrialDrawn(1, tuple((name, 9.0) for name in names))] * 2
-    trials += [TrialDrawn(i, tuple(zip(names, row, strict=True))) for i, row in enumerate(tried.tolist(), 1)]
-    last = SimpleNamespace(number=9, diagram="velocity", act=act)
-    steps = [SimpleNamespace(number=i, diagram="velocity", act=one) for i, one in enumerate(trials)]
-    later = SimpleNamespace(number=10, diagram="velocity", act=trials[0])
-    return SimpleNamespace(steps=[*steps, last, later], instrument=EXACT.name), last, right, tried
+    trials = [RateTrial(1, tuple((name, 9.0) for name in names))] * 2
+    trials += [RateTrial(i, tuple(zip(names, row, strict=True))) for i, row in enumerate(tried.tolist(), 1)]
+    last = Step("divide", "open ends", "velocity", number=9, data=divided)
+    before = tuple(Step("trial", "polygon", "velocity", number=i, data=one) for i, one in enumerate(trials))
+    return SimpleNamespace(before=lambda step: before[: step.number], instrument=EXACT.name), last, right, tried
 
 
 def test_several_trial_rates_are_divided_each_by_its_part_of_its_step():
     sheet, step, right, tried = superposed_twice()
-    assert tried.tolist() == [[value for _, value in act.assumed] for act in trials_of(sheet, step, step.act)]
-    for i, one in enumerate(divisions(sheet, step, step.act)):
+    assert tried.tolist() == [[value for _, value in act.assumed] for act in trials_of(sheet, step, step.data)]
+    for i, one in enumerate(divisions(sheet, step, step.data)):
         share = (right[i] - tried[0][i]) / (tried[i + 1][i] - tried[0][i])
         assert share == pytest.approx(float(one.part.replace("−", "-")), abs=0.00005)
         assert right[i] == pytest.approx(eval(one.terms.replace("×", "*").replace("−", "-")), abs=0.0005)
@@ -348,8 +336,8 @@ def test_several_trial_rates_are_divided_each_by_its_part_of_its_step():
 
 def test_trials_that_differ_by_less_than_a_ruler_shows_are_divided_by_what_they_do():
     sheet, _ = drawn("contour-four-bars")
-    step = next(step for step in sheet.steps if isinstance(step.act, Superposed))
-    (one,) = divisions(sheet, step, replace(step.act, apart=((10.001,), (10.002,))))
+    step = next(step for step in sheet.steps if isinstance(step.data, Superposed))
+    (one,) = divisions(sheet, step, replace(step.data, apart=((10.001,), (10.002,))))
     assert "/ 0.001 ×" in one.terms
 
 
@@ -359,18 +347,18 @@ def test_a_hand_writes_no_more_than_its_ruler_shows():
     measured = [told.split(" = ")[-1] for _, told in lengths_measured(sheet, letters_of(sheet, "chinese"))]
     assert [] == [told for told in measured if "(" in told]
     sheet = draft(mechanism_of("contour-four-bars"), instrument=hand)
-    steps = [step for step in sheet.steps if isinstance(step.act, Superposed)]
-    assert [] == [one for step in steps for one in divisions(sheet, step, step.act) if "(" in one.value]
+    steps = [step for step in sheet.steps if isinstance(step.data, Superposed)]
+    assert [] == [one for step in steps for one in divisions(sheet, step, step.data) if "(" in one.value]
 
 
 @pytest.mark.parametrize(("mm", "carried"), [(0.06, 1), (0.5, 2), (9.87, 3), (12.34, 4), (123.45, 4)])
 def test_a_rate_has_as_many_figures_as_the_line_that_it_is_read_from(mm, carried):
     sheet, _ = drawn("sixbar-guide-40deg")
-    act = next(step.act for step in sheet.steps if isinstance(step.act, MeasuredRate))
-    rate = sheet.omega[act.link]
+    step = next(step for step in sheet.steps if step.reason == "rate" and not step.held)
+    rate = sheet.omega[step.link]
     value = mm * sheet.scales.velocity / (rate.arm_mm * sheet.scales.length)
-    short = replace(sheet, omega={**sheet.omega, act.link: replace(rate, value=value, mm=mm)})
-    told = rate_sum(short, act, units=False).split(" = ")[1].split(" ")[0]
+    short = replace(sheet, omega={**sheet.omega, step.link: replace(rate, value=value, mm=mm)})
+    told = rate_sum(short, step, units=False).split(" = ")[1].split(" ")[0]
     assert value == pytest.approx(float(told), rel=0.6 * 10.0 ** (1 - carried))
     assert len(told.replace(".", "").lstrip("0")) <= carried
 
@@ -396,23 +384,23 @@ def test_by_rates_that_are_nought_or_unknown_nothing_is_laid_off():
     sheet, _ = drawn("sixbar-guide-40deg")
     link = next(link for link in sheet.scene.links if len(link.points) > 1 and link.name in sheet.alpha)
     start, end = map(PointRef, link.bar[:2])
-    act = ByRate(end, start, link.name)
-    (velocity,) = parts_by_rates(sheet, "velocity", act)
+    step = Step("image", "rates", "velocity", ref=end, refs=(start,), link=link.name)
+    (velocity,) = parts_by_rates(sheet, step)
     arm = (sheet.points[end] - sheet.points[start]) * sheet.scales.length / sheet.scales.velocity
     assert 1j * sheet.omega[link.name].value * arm == pytest.approx(velocity.span)
-    assert [] == parts_by_rates(turning(sheet, **{link.name: 0.0}), "velocity", act)
-    assert [] == parts_by_rates(replace(sheet, alpha={}), "acceleration", act)
+    assert [] == parts_by_rates(turning(sheet, **{link.name: 0.0}), step)
+    assert [] == parts_by_rates(replace(sheet, alpha={}), replace(step, diagram="acceleration"))
 
 
 def test_quotients_come_to_what_was_measured_and_what_is_laid_off_to_its_length():
     sheet, _ = drawn("sixbar-guide-40deg")
-    act = next(step.act for step in sheet.steps if isinstance(step.act, MeasuredRate) and step.act.rate == "omega")
-    rate, rng = sheet.omega[act.link], np.random.default_rng(5)
+    step = next(step for step in sheet.steps if step.reason == "rate" and not step.held and step.kind == "omega")
+    rate, rng = sheet.omega[step.link], np.random.default_rng(5)
     carried = []
     for mm, arm in rng.uniform((10.0, 30.0), (180.0, 200.0), (60, 2)).tolist():
         value = mm * sheet.scales.velocity / (arm * sheet.scales.length)
-        other = replace(sheet, omega={**sheet.omega, act.link: replace(rate, value=value, mm=mm, arm_mm=arm)})
-        quotient, told = rate_sum(other, replace(act, bar=("?", "!")), units=False).split(" = ")
+        other = replace(sheet, omega={**sheet.omega, step.link: replace(rate, value=value, mm=mm, arm_mm=arm)})
+        quotient, told = rate_sum(other, replace(step, points=("?", "!")), units=False).split(" = ")
         over, under = quotient.split(" / ")
         assert float(f"{value:.4g}") == float(told.split(" ")[0])
         assert float(f"{float(over) / float(under):.4g}") == float(told.split(" ")[0])
@@ -444,8 +432,8 @@ def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, n
 @pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-420rpm", "double-butterfly"])
 def test_a_step_tells_a_measured_rate_as_its_quotient_gives_it(name):
     sheet, _ = drawn(name)
-    told = {(s.act.rate, s.act.link): s.phrase.args[3] for s in sheet.steps if isinstance(s.act, MeasuredRate)}
-    rates = [s.act for s in sheet.steps if isinstance(s.act, MeasuredRate) and rate_sum(sheet, s.act)]
-    quotients = {(a.rate, a.link): re.search(r"= ([\d.e⁻−-]+) rad", rate_sum(sheet, a))[1] for a in rates}
+    told = {(s.kind, s.link): s.phrase.args[3] for s in sheet.steps if s.reason == "rate" and not s.held}
+    rates = [s for s in sheet.steps if s.reason == "rate" and not s.held and rate_sum(sheet, s)]
+    quotients = {(s.kind, s.link): re.search(r"= ([\d.e⁻−-]+) rad", rate_sum(sheet, s))[1] for s in rates}
     assert quotients
     assert quotients == {key: told[key] for key in quotients}

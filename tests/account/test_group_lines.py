@@ -8,14 +8,12 @@ from itertools import combinations
 import pytest
 
 from graphkin import draw
+from graphkin.account.account import Account, written_lines
 from graphkin.account.end_letters import EndLetters
 from graphkin.account.notation import letters_of
-from graphkin.account.tell import Account
-from graphkin.account.written_lines import written_lines
 from graphkin.construction import draft
-from graphkin.construction.mechanism_acts import TrialPositions
-from graphkin.construction.polygon_acts import AddedRate
 from graphkin.construction.sheet import Equation
+from graphkin.construction.steps import TrialPositions
 from graphkin.drawing.parts.polygon import extent
 from graphkin.drawing.sheet_plan import sheet_plan, with_less_mechanism, with_less_polygons
 from graphkin.drawing.text import runs_width, wrapped
@@ -52,7 +50,7 @@ def test_a_point_on_a_guide_is_told_with_the_name_of_the_guide():
 def test_every_point_of_a_group_placed_by_trial_is_told(name, language):
     sheet, _ = drafted(name)
     line = next(line for line in told(name, language) if "trial" in line or "试凑" in line)
-    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     known = (link for name, link in sheet.structure.links.items() if name not in act.links)
     before = {p for link in (sheet.scene.frame, *known) for p in link.points}
     points = {p for link in act.links for p in sheet.structure.links[link].points} - before
@@ -126,16 +124,16 @@ def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
 @pytest.mark.parametrize("scene", [BARE, UNBARRED, HELD, WELDED], ids=["bare", "unbarred", "held", "welded"])
 def test_what_a_driver_between_links_of_a_group_adds_is_told_and_true(scene):
     sheet = draft(mechanism_of(scene))
-    steps = [step for step in sheet.steps if isinstance(step.act, AddedRate)]
-    assert {"omega", "alpha"} == {step.act.rate for step in steps}
+    steps = [step for step in sheet.steps if step.reason == "sum of rates"]
+    assert {"omega", "alpha"} == {step.kind for step in steps}
     account = Account(sheet, letters_of(sheet, "chinese"))
     for step in steps:
-        act, (line,) = step.act, account.told(step).lines("en")
+        (line,) = account.lines(step, "en")
         line = line.replace("\u00a0", " ")
         terms, value = re.fullmatch(r".*\$ = ([^=$]+) = (\S+)(?: \(\S+\))? rad/s²?", line).groups()
         value = float(value.replace("−", "-"))
-        rates = sheet.omega if act.rate == "omega" else sheet.alpha
-        assert rates[act.link].value == pytest.approx(value, abs=1e-4 * max(abs(act.value), abs(act.apart)))
+        rates = sheet.omega if step.kind == "omega" else sheet.alpha
+        assert rates[step.link].value == pytest.approx(value, abs=1e-4 * max(abs(step.value), abs(step.other)))
         assert eval(terms.replace("−", "-")) == pytest.approx(value, abs=1e-12)
 
 

@@ -8,12 +8,12 @@ from typing import get_args
 import pytest
 
 from graphkin import read
+from graphkin.account import in_groups, in_polygon, in_position
+from graphkin.account.account import Account
 from graphkin.account.notation import letters_of
-from graphkin.account.tell import Account, groups, polygon, position
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
-from graphkin.construction.polygon_acts import LaidOff, MeasuredRate
-from graphkin.construction.sheet import Act
+from graphkin.construction.steps import Reason
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.papers.screen import motion_data
 from graphkin.scene import library, mechanism_of
@@ -65,8 +65,8 @@ def test_what_is_laid_off_is_the_quotient_of_the_numbers_before_it(name, at):
 def test_a_rate_comes_to_the_same_in_its_sentence_and_in_its_quotient():
     sheet = _at("sixbar-420rpm", 60)
     speaker = Account(sheet, letters_of(sheet, "chinese"))
-    rates = (s for s in sheet.steps if isinstance(s.act, MeasuredRate))
-    step = next(s for s in rates if (s.act.rate, s.act.link) == ("alpha", "4"))
+    rates = (s for s in sheet.steps if s.reason == "rate" and not s.held)
+    step = next(s for s in rates if (s.kind, s.link) == ("alpha", "4"))
     assert "106.1 rad/s²" in speaker.sentence(step.phrase, "en")
     assert speaker.work(step)[0].endswith("= 106.1 rad/s²")
 
@@ -92,8 +92,8 @@ def test_the_guide_bar_on_paper_divides_its_image_as_it_is_written():
 def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_twice():
     sheet = _at("sixbar-420rpm", 60)
     account = Account(sheet, letters_of(sheet, "chinese"))
-    tiny = next(s for s in sheet.steps if isinstance(s.act, LaidOff) and str(s.act.symbol) == "an_F/E")
-    assert "lay off from" == account.told(tiny).sentence.key
+    tiny = next(s for s in sheet.steps if s.verb == "lay off" and str(s.symbol) == "an_F/E")
+    assert "lay off from" == in_polygon.SENTENCES[tiny.reason](account, tiny).key
 
 
 @pytest.mark.parametrize(("convention", "expected"), [("chinese", ["b", "c", "p_2"]), ("us", ["V_B", "V_C", "V_P"])])
@@ -252,7 +252,8 @@ def test_a_page_of_one_position_says_one():
     assert "drawn for one position of the driver" in page
 
 
-def test_what_is_told_in_a_way_of_its_own_is_told_of_acts_of_the_board():
-    told = [*position.TOLD, *polygon.TOLD, *groups.TOLD]
-    assert [] == [act.__name__ for act in told if act not in get_args(Act)]
+def test_what_is_told_in_a_way_of_its_own_is_told_of_steps_of_the_board():
+    told = [*in_position.SENTENCES, *in_polygon.SENTENCES, *in_groups.SENTENCES]
+    reasons = {reason for verb in get_args(Reason) for reason in get_args(verb) or (verb,)}
+    assert set() == {*told, *in_polygon.SUMS, *in_polygon.LINES, *in_groups.LINES} - reasons
     assert len(set(told)) == len(told)

@@ -15,15 +15,6 @@ from graphkin.checking.readings import read_off
 from graphkin.construction import execute, larger_groups, plan
 from graphkin.construction.instruments import EXACT, nudged
 from graphkin.construction.plan import Redrawn, draw, positioned
-from graphkin.construction.polygon_acts import (
-    Carried,
-    DirectionLine,
-    FoundVector,
-    ImageSeen,
-    LaidOff,
-    RateSeen,
-    SeenFrom,
-)
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.sheet import Tools
@@ -108,7 +99,7 @@ def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
             larger_groups, "_rests_on", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
         )
         result = graphkin.check(SCENES[name])
-        assert {link} == {step.act.held for step in result.sheet.steps if isinstance(step.act, SeenFrom)}
+        assert {link} == {step.held for step in result.sheet.steps if step.reason == "seen from"}
         assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 
@@ -122,8 +113,8 @@ def test_steps_name_the_equation_in_which_their_vector_stands(name: str) -> None
     for step in told:
         diagram, symbols = equations[step.equation or 0]
         assert diagram == step.diagram
-        if isinstance(step.act, LaidOff | FoundVector | DirectionLine | Carried):
-            assert step.act.symbol in symbols
+        if step.verb in ("lay off", "line") or step.reason in ("vector", "before its turn"):
+            assert step.symbol in symbols
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -137,16 +128,16 @@ def test_no_step_has_blanks_or_takes_accelerations_for_velocities(name: str, lan
 
 def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_coriolis() -> None:
     sheet = graphkin.check(FOUR_BAR).sheet
-    acts = [step.act for step in sheet.steps]
-    assert [("2", "velocity"), ("2", "acceleration")] == [(a.held, a.order) for a in acts if isinstance(a, SeenFrom)]
+    seen = [(step.held, step.diagram) for step in sheet.steps if step.reason == "seen from"]
+    assert [("2", "velocity"), ("2", "acceleration")] == seen
     exact = {row.symbol: row.exact for row in graphkin.check(FOUR_BAR).report.rows}
-    turned = {(a.rate, a.link): a.value for a in acts if isinstance(a, RateSeen)}
+    turned = {(s.kind, s.link): s.value for s in sheet.steps if s.reason == "rate" and s.held}
     for rate in ("omega", "alpha"):
         for link in "34":
             more = exact[Symbol(rate, link=link)] - exact[Symbol(rate, link="2")]
             assert turned[rate, link] == pytest.approx(more.real, rel=1e-9)
     # what the driver gives is laid off by its rule first
-    assert ["v_D/D@2"] == [str(act.symbol) for act in acts if isinstance(act, LaidOff)][:1]
+    assert ["v_D/D@2"] == [str(s.symbol) for s in sheet.steps if s.verb == "lay off" and s.diagram != "mechanism"][:1]
     assert {"v_F@3/F@2", "ak_F@3/F@2", "ar_F@3/F@2"} <= {str(symbol) for symbol in exact}
 
 
@@ -154,12 +145,12 @@ def test_what_is_seen_from_the_held_link_is_told_and_laid_off_with_the_term_of_c
 def test_images_seen_from_a_held_link_name_their_corners_in_order_and_what_rests_by_no_vector(name: str) -> None:
     sheet = graphkin.check(SCENES[name]).sheet
     links = {link.name: link for link in (sheet.scene.frame, *sheet.scene.links)}
-    for act in (step.act for step in sheet.steps if isinstance(step.act, ImageSeen)):
-        held = (act.vector.to or PointRef("")).link
-        for vector, corner in zip(act.between, act.points, strict=False):
+    for step in (step for step in sheet.steps if step.held and step.reason in ("similar", "division")):
+        held = (step.symbol.to or PointRef("")).link
+        for vector, corner in zip(step.begins, step.points, strict=False):
             assert (vector is None) == (corner in links[held].points)
             assert vector is None or (vector.of or PointRef("")).point == corner
-        assert (act.vector.of or PointRef("")).point == act.points[2]
+        assert (step.symbol.of or PointRef("")).point == step.points[2]
 
 
 def test_any_two_links_of_a_group_have_terms_of_coriolis_on_the_board_as_in_the_solver() -> None:
@@ -183,7 +174,7 @@ def test_without_a_sliding_pair_none_is_offered() -> None:
 
 def test_a_rate_seen_from_a_held_link_bears_the_name_of_that_last() -> None:
     steps = graphkin.check(FOUR_BAR).sheet.steps
-    (told,) = (say(step.phrase) for step in steps if str(getattr(step.act, "symbol", "")) == "v_D/D@2")
+    (told,) = (say(step.phrase) for step in steps if str(step.symbol) == "v_D/D@2")
     assert "ω_{52}·ED" in told
 
 

@@ -14,9 +14,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Room, Slip, draft, execute, plan
 from graphkin.construction.instruments import pencil
-from graphkin.construction.mechanism_acts import LaidOffAngle, SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import Superposed, TrialDrawn
-from graphkin.construction.remarks import ParallelLegs
+from graphkin.construction.steps import RateTrial, Superposed, TrialPositions
 from graphkin.construction.strokes import Aid, TrialCurve
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
@@ -276,7 +274,7 @@ def test_a_cylinder_that_joins_two_plates_moves_their_special_points_apart() -> 
     scene = {**CONTOUR, "links": links, "driver": [CONTOUR["driver"], pushed]}
     result = graphkin.check(scene)
     assert "special points" == result.data["construction"]
-    assert [True] == [step.act.driven for step in result.sheet.steps if isinstance(step.act, SpecialPoint)]
+    assert [True] == [step.kind == "driven" for step in result.sheet.steps if step.reason == "special point"]
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
@@ -304,12 +302,12 @@ def test_a_trial_rate_divided_wrongly_shows() -> None:
 
 def test_the_special_point_lies_on_the_lines_of_both_legs() -> None:
     sheet = draft(mechanism_of("sixbar-1A-last-link"))
-    acts = [step for step in sheet.steps if isinstance(step.act, SpecialPoint)]
+    acts = [step for step in sheet.steps if step.reason == "special point"]
     points = {str(ref): z for ref, z in sheet.points.items()}
     (step,) = acts
-    at = points[step.act.point]  # type: ignore[union-attr]
+    at = points[step.point]
     legs = {"C": "D", "B": "A", "E": "F"}
-    for joint in step.act.joints:  # type: ignore[union-attr]
+    for joint in step.points:
         leg = points[legs[joint]] - points[joint]
         assert 0 == pytest.approx(((at - points[joint]) / leg).imag * abs(leg), abs=1e-9)
 
@@ -318,8 +316,8 @@ def test_trial_polygons_are_drawn_and_divided() -> None:
     sheet = draft(mechanism_of("contour-four-bars"))
     trials = {s.trial for step in sheet.steps for s in step.strokes if isinstance(s, Aid) and s.trial}
     assert {1, 2} == trials
-    (velocity, _) = (step.act for step in sheet.steps if isinstance(step.act, Superposed))
-    one, two = (row[0] for row in velocity.apart)  # type: ignore[union-attr]
+    (velocity, _) = (step.data for step in sheet.steps if isinstance(step.data, Superposed))
+    one, two = (row[0] for row in velocity.apart)
     assert one * two < 0
 
 
@@ -344,9 +342,9 @@ def _reach(ends: list[complex]) -> tuple[float, float]:
 
 def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    for act in (step.act for step in sheet.steps if isinstance(step.act, Superposed)):
+    for act in (step.data for step in sheet.steps if isinstance(step.data, Superposed)):
         ((_, true),) = act.found
-        assumed = [s.act.assumed[0] for s in sheet.steps if isinstance(s.act, TrialDrawn)]
+        assumed = [s.data.assumed[0] for s in sheet.steps if isinstance(s.data, RateTrial)]
         low, high = (value for symbol, value in assumed if symbol == act.found[0][0])
         assert 0.0 > (low - true) * (high - true)
         assert [float(f"{value:.2g}") for value in (low, high)] == [low, high]
@@ -355,7 +353,7 @@ def test_trial_rates_lie_on_either_side_of_the_true_one_in_few_figures() -> None
 def test_the_sheet_says_along_which_direction_a_trial_is_left_open() -> None:
     result = graphkin.check("double-butterfly")
     at = {str(ref): z for ref, z in result.sheet.points.items()}
-    divided = next(step.act for step in result.sheet.steps if isinstance(step.act, Superposed))
+    divided = next(step.data for step in result.sheet.steps if isinstance(step.data, Superposed))
     assert ("8",) == divided.closing
     assert ["∥KD"] == [str(way) for way in divided.ways]
     drawn = [s for step in result.sheet.steps if step.diagram == "velocity" for s in step.strokes if isinstance(s, Aid)]
@@ -378,7 +376,7 @@ def test_the_trial_curve_passes_the_place_found_between_its_trials() -> None:
 def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_other_end(name: str) -> None:
     sheet = draft(mechanism_of(name))
     ((curve, arc, table),) = (
-        (*step.strokes, step.act.table) for step in sheet.steps if isinstance(step.act, TrialPositions)
+        (*step.strokes, step.data.table) for step in sheet.steps if isinstance(step.data, TrialPositions)
     )
     at = {str(ref): z for ref, z in sheet.points.items()}
     assert table is not None
@@ -391,7 +389,7 @@ def test_the_arc_that_the_trial_curve_meets_has_the_bar_for_radius_about_its_oth
 @pytest.mark.parametrize(("name", "bar"), [("triad-slider", "BC"), ("double-butterfly", "DK")])
 def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing_is(name: str, bar: str) -> None:
     sheet = draft(mechanism_of(name))
-    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     table = act.table
     assert table is not None
     (missed,), (moved,) = table.missed, table.moved
@@ -409,7 +407,7 @@ def test_what_is_missed_in_trial_positions_is_divided_to_the_place_where_nothing
 @pytest.mark.parametrize("scene", [BARE, UNBARRED], ids=["BARE", "UNBARRED"])
 def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(scene: dict[str, Any]) -> None:
     sheet = draft(mechanism_of(scene))
-    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     table = act.table
     assert table is not None
     (a, one), (b, two), (c, three) = table.trials
@@ -423,15 +421,14 @@ def test_what_two_trial_drivers_miss_is_divided_to_the_place_where_nothing_is(sc
     misses = [max(map(abs, row)) for _, row in table.trials]
     assert table.instead[0] == 1 + misses.index(max(misses))  # what misses most gives way
     assert "" == table.moved[0].base
-    acts = [step.act for step in sheet.steps]
-    laid = next(a for a in acts if isinstance(a, LaidOffAngle) and a.link == table.moved[0].name)
-    assert math.degrees(laid.angle) == pytest.approx(last[0][0], abs=0.01)
+    laid = next(s for s in sheet.steps if s.reason == "angle" and s.link == table.moved[0].name)
+    assert math.degrees(laid.value) == pytest.approx(last[0][0], abs=0.01)
 
 
 def test_why_trial_polygons_are_drawn_is_known() -> None:
     def why(name: str) -> list[tuple[str, ...] | None]:
-        acts = [step.act for step in draft(mechanism_of(name)).steps]
-        return [act.far and act.far.links for act in acts if isinstance(act, TrialDrawn) and act.number == 1]
+        trials = [step.data for step in draft(mechanism_of(name)).steps if isinstance(step.data, RateTrial)]
+        return [trial.far and trial.far.links for trial in trials if trial.number == 1]
 
     assert [("4", "5")] * 2 == why("contour-four-bars")
     assert [None] * 2 == why("double-butterfly")
@@ -439,7 +436,7 @@ def test_why_trial_polygons_are_drawn_is_known() -> None:
 
 def test_what_is_known_of_the_end_left_open_is_taken_off_in_the_sense_in_which_it_is_measured() -> None:
     sheet = draft(mechanism_of("double-butterfly"))
-    act = [step.act for step in sheet.steps if isinstance(step.act, Superposed)][1]
+    act = [step.data for step in sheet.steps if isinstance(step.data, Superposed)][1]
     ((taken,),) = act.less
     at = {str(ref): z for ref, z in sheet.points.items()}
     normal = -(sheet.omega["8"].value ** 2) * (at["D"] - at["K"]) * sheet.scales.length / sheet.scales.acceleration
@@ -474,7 +471,7 @@ def parallel_legs(moving: bool) -> dict[str, Any]:
 @pytest.mark.parametrize("moving", [False, True])
 def test_between_parallel_legs_the_direction_gives_the_rate_and_all_points_follow_by_image(moving: bool) -> None:
     result = graphkin.check(parallel_legs(moving))
-    assert [ParallelLegs] == [type(r) for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)]
+    assert ["parallel legs"] == [r.key for _, r in result.sheet.noticed if r.key == "parallel legs"]
     assert {"v_E", "v_K", "a_E", "a_K", "omega_3", "alpha_3"} <= {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
     assert moving == (abs(result["omega_3"].exact) > 1)
@@ -510,7 +507,7 @@ def two_plates(moving: bool) -> dict[str, Any]:
 @pytest.mark.parametrize("moving", [False, True])
 def test_where_a_plate_has_no_legs_but_parallel_ones_these_give_its_rate(moving: bool) -> None:
     result = graphkin.check(two_plates(moving))
-    assert {("C", "D")} <= {r.joints for _, r in result.sheet.noticed if isinstance(r, ParallelLegs)}
+    assert {("C", "D")} <= {r.of for _, r in result.sheet.noticed if r.key == "parallel legs"}
     assert set() == everything(two_plates(moving)) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if not row.ok]
     # along the legs both joints have what the legs' other ends have

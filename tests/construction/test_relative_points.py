@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.construction.mechanism_acts import SpecialPoint
-from graphkin.construction.polygon_acts import TrialDrawn
+from graphkin.construction.steps import RateTrial, Step
 from tests.construction.test_groups import CONTOUR, everything
 
 IN_PARTS: dict[str, Any] = {  # one plate of three parts, the other of two, their hinges driven; two bars join them
@@ -47,8 +46,8 @@ def bent_leg(off: float) -> dict[str, Any]:
     return {**CONTOUR, "links": {**CONTOUR["links"], **halves}, "driver": [CONTOUR["driver"], turned], "sketch": sketch}
 
 
-def special(result: graphkin.Checked) -> list[SpecialPoint]:
-    return [step.act for step in result.sheet.steps if isinstance(step.act, SpecialPoint)]
+def special(result: graphkin.Checked) -> list[Step]:
+    return [step for step in result.sheet.steps if step.reason == "special point"]
 
 
 def off(result: graphkin.Checked) -> list[str]:
@@ -68,7 +67,7 @@ def test_of_two_links_with_a_special_point_those_are_taken_that_have_their_joint
     lies = at[act.point]
     near, far = ((at[p] + at[q]) / 2 for p, q in (("E", "F"), ("C", "D")))
     assert abs(lies - near) < abs(lies - far)
-    assert {"E", "F"} == set(act.joints)
+    assert {"E", "F"} == set(act.points)
 
 
 @pytest.mark.parametrize(("turned", "way"), [(0.0, "special points"), (0.2, "superposition"), (5.0, "superposition")])
@@ -93,5 +92,5 @@ def test_in_a_parallelogram_lies_no_special_point_that_could_be_told_of(way: flo
     scene = {**CONTOUR, "links": links, "sketch": {p: [at[p].real, at[p].imag] for p in "CDEF"}}
     result = graphkin.check(scene)
     assert ("superposition", []) == (result.data["construction"], off(result))
-    acts = [step.act for step in result.sheet.steps]
-    assert [None, None] == [act.far for act in acts if isinstance(act, TrialDrawn) and act.number == 1]
+    trials = [step.data for step in result.sheet.steps if isinstance(step.data, RateTrial)]
+    assert [None, None] == [trial.far for trial in trials if trial.number == 1]

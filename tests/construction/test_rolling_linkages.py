@@ -8,8 +8,8 @@ import pytest
 
 from graphkin import check, solve
 from graphkin.construction import draft
-from graphkin.construction.mechanism_acts import RollingStarts, TrialPositions
 from graphkin.construction.plan import plan
+from graphkin.construction.steps import TrialPositions
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from tests.rolling_linkages import ROLLING_LINKAGES, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
@@ -28,9 +28,10 @@ def test_every_reading_agrees_with_the_solver(made, further):
 
 def test_the_start_is_laid_off_as_given_and_other_positions_are_found_by_trial():
     scene = mechanism_of(wheel_at_its_rim())
-    acts = [[step.act for step in draft(scene, at).steps] for at in (None, {"1": 1.5})]
-    assert [True, False] == [any(isinstance(a, RollingStarts) for a in told) for told in acts]
-    assert [(), ("K",)] == [next((a.rolling for a in told if isinstance(a, TrialPositions)), ()) for told in acts]
+    drawn = [draft(scene, at).steps for at in (None, {"1": 1.5})]
+    assert [True, False] == [any(s.reason == "rolling" for s in steps) for steps in drawn]
+    trials = [[s.data for s in steps if isinstance(s.data, TrialPositions)] for steps in drawn]
+    assert [(), ("K",)] == [next((trial.rolling for trial in tried), ()) for tried in trials]
 
 
 def test_a_wheel_on_a_rail_is_drawn_as_turning_about_where_it_touches():

@@ -13,8 +13,8 @@ from graphkin import solver
 from graphkin.construction import assembly
 from graphkin.construction.centres import work
 from graphkin.construction.centres.find import Worked
-from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.reduced_mechanism import reduced_mechanisms
+from graphkin.construction.steps import TrialPositions
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.structure import analyse
@@ -93,7 +93,7 @@ def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
 
 def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> None:
     sheet = graphkin.check(HELD).sheet
-    (act,) = (step.act for step in sheet.steps if isinstance(step.act, TrialPositions))
+    (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
     driven = [d for d in sheet.scene.drivers if d.turns]
     assert act.instead
     for block, link, turned in act.instead:

@@ -14,9 +14,9 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Slip, draft, execute, plan, reduced_mechanism
 from graphkin.construction.links_on_paper import Poses
-from graphkin.construction.mechanism_acts import TrialPositions
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.reduced_mechanism import RemovedConstraint
+from graphkin.construction.steps import TrialPositions
 from graphkin.construction.strokes import Ray
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import PlacedLink
@@ -102,7 +102,7 @@ def test_check_fails_where_the_arc_that_trial_positions_meet_lies_a_tenth_of_a_d
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     steps = draft(mechanism_of(name)).steps
-    (arc,) = (step.act.table.missed[0] for step in steps if isinstance(step.act, TrialPositions) and step.act.table)
+    (arc,) = (step.data.table.missed[0] for step in steps if isinstance(step.data, TrialPositions) and step.data.table)
     assert "bar" == arc.kind
     place = reduced_mechanism._place
 

@@ -8,11 +8,10 @@ import re
 
 import pytest
 
+from graphkin.account.account import Account
 from graphkin.account.notation import letters_of
-from graphkin.account.tell import Account
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
-from graphkin.construction.polygon_acts import ByRate
 from graphkin.papers.lesson import plain_words, stages
 from graphkin.scene import library, mechanism_of
 
@@ -50,7 +49,7 @@ def test_every_term_that_an_equation_draws_has_a_reason(name):
 
 def test_a_point_laid_off_by_rates_is_where_its_printed_lengths_and_angles_lead():
     lesson = handout("contour-four-bars", formats=("html",), positions=1).lesson
-    steps = [step for step in lesson.sheet.steps if isinstance(step.act, ByRate)]
+    steps = [step for step in lesson.sheet.steps if step.reason == "rates" and not step.held]
     assert ["velocity", "acceleration"] == [step.diagram for step in steps]
     for step in steps:
         told = re.findall(r"= ([\d.]+) mm,  (−?[\d.]+)°", " ".join(lesson.account.work(step)))

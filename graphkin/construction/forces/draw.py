@@ -34,7 +34,8 @@ from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.construction.touching import Touch, Touching
 from graphkin.plane import added_up, cross, unit
 from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink

@@ -12,7 +12,8 @@ from functools import partial
 
 from graphkin.account.headings import FIGURE_WORDS, describe, dimensions_in, figure_title, remarks
 from graphkin.account.notation import letters_of
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, FigurePage, column, prose
 from graphkin.drawing.figures import Figure

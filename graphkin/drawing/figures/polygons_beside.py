@@ -17,7 +17,8 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
 from graphkin.construction.room import scales_for
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, framed, line, panel, prose, row
 from graphkin.drawing.figures import Figure

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from itertools import islice, product
 
+from graphkin.account.account import written_lines
 from graphkin.account.headings import (
     FIGURE_WORDS,
     describe,
@@ -22,9 +23,9 @@ from graphkin.account.headings import (
     titles,
 )
 from graphkin.account.notation import Letters, letters_of, scale_statement
-from graphkin.account.written_lines import written_lines
 from graphkin.checking.report import Compared, Report
-from graphkin.construction.sheet import DiagramName, Sheet
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN
 from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page, line_to_set

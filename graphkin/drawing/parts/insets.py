@@ -20,8 +20,9 @@ from graphkin.account.headings import term
 from graphkin.account.notation import Letters
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
-from graphkin.construction.sheet import DiagramName, Scales, Sheet
+from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.sizes import RateTimes, Size
+from graphkin.construction.steps import DiagramName
 from graphkin.construction.strokes import Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes

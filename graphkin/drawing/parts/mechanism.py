@@ -15,8 +15,6 @@ import numpy as np
 
 from graphkin.account.end_letters import SAME
 from graphkin.account.notation import Letters
-from graphkin.construction.mechanism_acts import SpecialPoint, TrialPositions
-from graphkin.construction.polygon_acts import AddedRate, MeasuredRate, PlanDrawn
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Bar, CompassArc, TrialCurve
 from graphkin.drawing.box import Box
@@ -404,7 +402,7 @@ def bare_mechanism(sheet: Sheet, letters: Letters) -> Piece:
     """Frame, links and points of the mechanism with their names, about the world's origin: no lengths, no senses, no
     special points, which serve its polygons alone."""
     here = MechanismOnPaper(sheet, letters)
-    special = {step.act.point for step in sheet.steps if isinstance(step.act, SpecialPoint)}
+    special = {step.point for step in sheet.steps if step.reason == "special point"}
     return joined((links(here), _springs(here), joints(here, special), link_names(here), _marks(here)))
 
 
@@ -560,10 +558,8 @@ def _slide_arrow(here: MechanismOnPaper, driver: Driver) -> Piece:
 def found_rates(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
     """Angular velocities and accelerations measured on the drawing."""
     pieces = [Piece({"answers": ()})]
-    acts = [(step.number, step.act) for step in here.sheet.steps]
-    found: dict[tuple[str, str], int] = {
-        (act.rate, act.link): n for n, act in acts if isinstance(act, MeasuredRate | AddedRate | PlanDrawn)
-    }  # fmt: skip
+    drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
+    found = {(step.kind, step.link): step.number for step in drawn}
     named = (here.scene.instead_of or here.scene).by_name  # not of bars that stand for cams
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
         for link, rate in own.items():
@@ -663,12 +659,12 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
     for step in sheet.steps:
         if step.diagram != "mechanism":
             continue
-        if isinstance(step.act, SpecialPoint):
+        if step.reason == "special point":
             lines = tuple(
                 Line(on_page(s.a), on_page(s.b), strokes.DIRECTION)
                 for s in step.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
             )  # fmt: skip
-            over.append(Group(lines, id=f"special-{step.act.point}", classes=("special",), step=step.number))
+            over.append(Group(lines, id=f"special-{step.point}", classes=("special",), step=step.number))
         for curve in (s for s in step.strokes if isinstance(s, TrialCurve)):
             curves += 1
             parts: list[Primitive] = [Polyline(tuple(map(on_page, curve.curve)), strokes.TRIAL_CURVE)]
@@ -680,7 +676,7 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
                 labels.append(Label(text, on_page(z), rank=4))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
-        if isinstance(step.act, TrialPositions):
+        if step.reason == "positions":
             goals = [s for s in step.strokes if isinstance(s, Bar)]
             ways = [Line(on_page(s.a), on_page(s.b), strokes.DIRECTION) for s in goals]
             drawn += [Group((way,), classes=("trial",), step=step.number) for way in ways]

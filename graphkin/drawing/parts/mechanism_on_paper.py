@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphkin.account.notation import Letters
-from graphkin.construction.sheet import Sheet, links_drawn
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Mark
 from graphkin.construction.touching import outlines_on_paper, station
 from graphkin.drawing.ink import symbols
@@ -111,7 +111,7 @@ def link_since(sheet: Sheet, link: str) -> int | None:
     if link not in sheet.scene.by_name:
         return last
     found = points_since(sheet)
-    drawn = next((step.number for step in steps if link in links_drawn(step.act)), 0)
+    drawn = next((step.number for step in steps if link in step.links_drawn), 0)
     return max([drawn, *(found.get(point, last) for point in sheet.scene.by_name[link].points)]) or last
 
 

@@ -18,12 +18,12 @@ import numpy as np
 
 from graphkin.account.end_letters import SAME, Foot, Place, PolygonPoints
 from graphkin.account.headings import spoken_ref, spoken_vector
+from graphkin.account.in_groups import numeral
 from graphkin.account.notation import Letters, pole
-from graphkin.account.tell.groups import numeral
-from graphkin.construction.polygon_acts import Carried, SeenFrom
 from graphkin.construction.scales import SERIES
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.sheet import DiagramName, Sheet, Step
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Aid, Bar, Image, Mark, Ray, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
@@ -391,9 +391,9 @@ def _bars(here: PolygonOnPage) -> Iterator[Piece]:
                 continue
             parts: list[Primitive] = [Line(*clipped, strokes.CONSTRUCTION)]
             names: list[Label] = []
-            if isinstance(step.act, Carried):
+            if step.reason == "before its turn":
                 parts += _head(clipped, here.at(bar.b))
-                names += _carried(here, step.act.symbol, clipped)
+                names += _carried(here, step.symbol, clipped)
             drawn = Group(tuple(parts), classes=("construction",), step=step.number)
             yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
 
@@ -563,7 +563,7 @@ def _by_name(name: Box | None, half: complex) -> tuple[complex, ...]:
 
 def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
     """Trial polygons, each in its own kind of line and with its number at its letters; vectors to special points."""
-    held = {step.act.held for step in here.steps if isinstance(step.act, SeenFrom)}
+    held = {step.held for step in here.steps if step.reason == "seen from"}
     for step in here.steps:
         aids = [s for s in step.strokes if isinstance(s, Aid) and abs(s.tip - s.tail) > SAME]
         if not aids:

@@ -1,0 +1,272 @@
+"""The account of a construction: for each step its sentence, what is computed in it and what is written of it, and for
+each equation why it is so, in one school of notation and any language.
+
+What a step tells is a function of its reason, in the tables of `in_position`, `in_polygon` and `in_groups`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from graphkin.account import in_groups, in_polygon, in_position
+from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
+from graphkin.account.in_polygon import alike, measured, rate_name
+from graphkin.account.notation import Letters
+from graphkin.account.voice import Voice
+from graphkin.construction.sheet import Equation, Sheet, Term
+from graphkin.construction.steps import Reason, Step
+from graphkin.construction.strokes import Aid, Vector
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Pair
+from graphkin.words import Phrase, languages, word
+from graphkin.words.written import pointing
+
+__all__ = ["Account", "WrittenLine", "reasons", "rule_alone", "written_lines"]
+
+SENTENCES = {**in_position.SENTENCES, **in_polygon.SENTENCES, **in_groups.SENTENCES}
+LINES = {**in_polygon.LINES, **in_groups.LINES}
+
+
+@dataclass(frozen=True)
+class Account(Voice):
+    """Tells the construction of one sheet in the letters of one convention."""
+
+    def step(self, step: Step, language: str) -> str:
+        """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
+        lettered = SENTENCES.get(step.reason)
+        return self.sentence((lettered and lettered(self, step)) or step.phrase, language)
+
+    def work(self, step: Step) -> tuple[str, ...]:
+        """What is computed in a step, as lines of symbols and numbers."""
+        return tuple(in_polygon.SUMS.get(step.reason, measured)(self, step))
+
+    def lines(self, step: Step, language: str) -> Iterable[str]:
+        """What is written of a step to repeat it, as lines of words and symbols."""
+        written = LINES.get(step.reason)
+        return written(self, step, language) if written else ()
+
+    def why(self, equation: Equation, language: str) -> str:
+        """Why an equation is as it is written, in sentences; "" where there is nothing to say."""
+        told = (self.sentence(phrase, language) for phrase in reasons(self.sheet, equation))
+        return word("between sentences", language).join(told)
+
+
+# -- what is written to repeat it --------------------------------------------------------------------------------------
+
+SHARE_A_LINE: Collection[Reason] = ("similar", "division")
+"""Reasons of steps that are written on in the line of the step before, where that is one of them."""
+TAKEN_FROM_THE_MECHANISM: Collection[Reason] = ("special point", "pitch point")
+WrittenLine = Equation | str
+"""A vector equation, or a rule on one line as words with symbols."""
+
+
+def written_lines(sheet: Sheet, letters: Letters, language: str) -> list[WrittenLine]:
+    """Everything that is written to repeat a construction, in its order: what is measured on the mechanism, each vector
+    equation with its products in numbers, the angular rates where they are known, and what each step tells."""
+    account = Account(sheet, letters)
+    lines: list[WrittenLine] = []
+    written: set[int] = set()
+    lengths = [*lengths_measured(sheet, letters)]
+    to_come = {s.point for s in sheet.steps if s.reason in TAKEN_FROM_THE_MECHANISM}
+    shared = False  # whether the next step may go on in the line of the one before
+    for step in sheet.steps:
+        if step.diagram != "mechanism":  # what is measured from the mechanism stands there by now
+            ready = [one for one in lengths if to_come.isdisjoint(one[0])]
+            lines += [bound(line) for _, line in ready]
+            lengths = [one for one in lengths if one not in ready]
+        elif step.reason in TAKEN_FROM_THE_MECHANISM:
+            to_come.discard(step.point)
+        if step.equation is not None and step.equation not in written:
+            written.add(step.equation)
+            equation = sheet.equations[step.equation - 1]
+            if step.diagram not in {one.diagram for one in lines if isinstance(one, Equation)}:
+                lines += _shared_with_drivers(sheet, equation)
+            if step.reason == "seen from":  # what the mark of vectors means that are seen from a held link
+                lines.append(account.say(Phrase("written seen", (step.held,)), languages(language)[0]))
+            lines.append(equation)
+            lines += _products(sheet, equation, letters)
+        for line in account.lines(step, language):
+            before = lines[-1] if lines else None
+            if shared and step.reason in SHARE_A_LINE and isinstance(before, str):
+                lines[-1] = f"{before};  {line}"
+            else:
+                lines.append(line)
+        shared = step.reason in SHARE_A_LINE
+    return lines
+
+
+def _products(sheet: Sheet, equation: Equation, letters: Letters) -> list[str]:
+    """``a^n_CB = 0.7396² × 383.14 = 209.58 mm/s²``: the sizes in an equation that follow from rates, in numbers, each
+    once; that of an equation which is only a rule stands in it."""
+    if rule_alone(sheet, equation):
+        return []
+    own = [s for s in sheet.steps if s.equation == equation.number]
+    laid_off = {s.symbol for s in own if s.reason == "before its turn" or (s.verb == "lay off" and s.mm)}
+    sums = {
+        one.symbol: rule_sum(sheet, one.size, equation.diagram)
+        for side in equation.sides
+        for one in side
+        if one.symbol in laid_off and "0" not in factors_of(sheet, one.size)
+    }
+    said = [f"${letters.vector(symbol)}$ =\u00a0{bound(text)}" for symbol, text in sums.items() if text]
+    return [";  ".join(said)] if said else []
+
+
+def _shared_with_drivers(sheet: Sheet, equation: Equation) -> Iterator[str]:
+    """``ω_2 = ω_1``: links that slide on a driven one turn as it does."""
+    kind = "omega" if equation.diagram == "velocity" else "alpha"
+    rates = sheet.omega if kind == "omega" else sheet.alpha
+    for rate in rates.values():
+        if rate.vector is None and not rate.same_as and rate.value != 0.0:
+            others = alike(rates.values(), rate)
+            if others:
+                yield " = ".join(rate_name(kind, name) for name in (*others[::-1], rate.link))
+
+
+def rule_alone(sheet: Sheet, equation: Equation) -> bool:
+    """Whether an equation is nothing but the rule of one vector."""
+    last = equation.sides[-1]
+    known = len(last) == 1 and last[0].size_known and len(equation.sides) <= 2
+    return known and last[0].symbol in sheet.vectors(equation.diagram)
+
+
+# -- why an equation is as it is written -------------------------------------------------------------------------------
+
+
+def reasons(sheet: Sheet, equation: Equation) -> list[Phrase]:
+    """The reasons of one equation, each once."""
+    terms = [term for side in equation.sides for term in side]
+    found = dict.fromkeys(phrase for term in terms for phrase in _why(sheet, equation, term))
+    found |= dict.fromkeys(phrase for term in terms if term.symbol.kind == "ak" for phrase in _coriolis(sheet, term))
+    return list(found)
+
+
+def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
+    """What ties the point of a term to what it is meant relative to; of a term found before, in which step."""
+    symbol = term.symbol
+    of, to = symbol.of, symbol.to
+    if of is None or (symbol.kind in ("ak", "ar") and to is None):
+        return
+    for ref in (of, to):
+        if ref is not None and (links := _rolling_at(sheet).get(ref.point)):
+            yield Phrase(f"why rolling {equation.diagram}", (ref.point, *links))
+    step = _found_before(sheet, equation, term)
+    if step:
+        yield Phrase("why known", (symbol, step))
+    elif to is None:
+        yield from _of_a_point(sheet, symbol)
+    elif to.point == of.point:
+        slides = sheet.structure.slides
+        guide = next((s for s in slides if s.pin == of.point and {of.link or s.a, to.link or s.b} & {s.a, s.b}),
+                     next((s for s in slides if {of.link, to.link} == {s.a, s.b}), None))  # fmt: skip
+        if guide is not None and symbol.kind in ("v", "ar"):
+            yield _coincident(of, to, guide)
+        elif symbol.kind == "an":
+            yield Phrase("why curved", (of, to))
+    elif symbol.kind in ("v", "an"):
+        link = _shared(sheet, of, to)
+        fixed = symbol.kind == "an" and to.point in sheet.scene.frame.points
+        alone = not any(t.symbol == Symbol("at", of, to) for side in equation.sides for t in side)
+        turning = "why turning evenly" if alone else "why turning parts"
+        key = turning if fixed else "why rigid" if symbol.kind == "v" else "why rigid parts"
+        yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
+
+
+def _rolling_at(sheet: Sheet) -> Mapping[str, tuple[str, str]]:
+    """The points at which links of a group roll on each other, with the links."""
+    scene = sheet.scene
+    coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
+    found = {c.name: c.links for c in scene.contacts if c.name in coupled}
+    return found | {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
+
+
+def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
+    """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
+    of, to = term.symbol.of, term.symbol.to
+    apart = of is not None and to is not None and of.point == to.point and (
+        _is_special(sheet, of) or _is_seen(sheet, to.link)
+    )
+    if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
+        return 0
+    earlier = (
+        s for s in sheet.steps
+        if s.diagram == equation.diagram and s.equation != equation.number and s.reason != "polygon"
+    )  # fmt: skip
+    return next(
+        (s.number for s in earlier for v in s.strokes if isinstance(v, Vector | Aid) and v.symbol == term.symbol), 0
+    )
+
+
+def _is_special(sheet: Sheet, ref: PointRef) -> bool:
+    return any(s.reason == "special point" and s.point == ref.point for s in sheet.steps)
+
+
+def _is_seen(sheet: Sheet, held: str) -> bool:
+    """Whether a link is held still, and others are seen from it."""
+    return any(s.reason == "seen from" and s.held == held for s in sheet.steps)
+
+
+def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:
+    """Two points that coincide under a sliding pair, or under a pin in a slot, of which no link slides."""
+    if slide.slot and slide.pin is not None:
+        return Phrase("why in slot", (of, to, PointRef(slide.pin), slide.b))
+    return Phrase("why coincident", (of, to, slide.a, slide.b))
+
+
+def _of_a_point(sheet: Sheet, symbol: Symbol) -> Iterator[Phrase]:
+    """A point that a guide of the frame, or a fixed pivot, holds to its path."""
+    of = symbol.of
+    assert of is not None
+    frame = sheet.scene.frame
+    for slide in sheet.structure.slides:
+        holder, body = (sheet.structure.links.get(name) for name in (slide.a, of.link))
+        held = not of.link or of.link == slide.a or (body is not None and of.point in body.points)
+        own = of.link == slide.a or (holder is not None and of.point in (slide.pin, *holder.points))
+        if slide.b == frame.name and holder is not None and held and own:
+            yield Phrase("why runs", (of,)) if slide.slot else Phrase("why guided", (of, slide.a))
+            return
+    for link in sheet.scene.links:
+        pivot = next((p for p in link.points if p in frame.points), None)
+        own = of.link == link.name or (not of.link and of.point in link.points)
+        if own and pivot is not None and pivot != of.point and symbol.kind == "v":
+            yield Phrase("why turning", (of, pivot, link.name))
+            return
+    under = next((s for s in sheet.structure.slides if s.pin == of.point and of.link in (s.a, s.b)), None)
+    if under is not None and of.point in frame.points:
+        other = PointRef(of.point, under.b if of.link == under.a else under.a)
+        yield _coincident(of, other, under)
+
+
+def _shared(sheet: Sheet, of: PointRef, to: PointRef) -> str:
+    """The link that has both points; a special point belongs to the link that it was found for."""
+    special = {s.point: s.link for s in sheet.steps if s.reason == "special point"}
+    for ref in (of, to):
+        if ref.point in special:
+            return ref.link or special[ref.point]
+    for link in sheet.scene.links:
+        if all(ref.link == link.name or (not ref.link and ref.point in link.points) for ref in (of, to)):
+            return link.name
+    return next((ref.link for ref in (of, to) if ref.link), "")
+
+
+def _coriolis(sheet: Sheet, term: Term) -> Iterator[Phrase]:
+    """The rule, and its sense from the two arrows: the sliding velocity and the turning of the guide."""
+    symbol = term.symbol
+    moving = sheet.vectors("velocity")
+    slip = moving.get(Symbol("v", symbol.of, symbol.to))
+    if slip is None and symbol.to is not None and symbol.to.point in sheet.scene.frame.points:
+        slip = moving.get(Symbol("v", symbol.of))  # relative to a point at rest
+    drawn = sheet.vectors("acceleration").get(symbol)
+    guide = next((s for s in sheet.structure.slides if symbol.of is not None and s.pin == symbol.of.point
+                  and {symbol.of.link, symbol.to.link if symbol.to else ""} & {s.a, s.b}), None)  # fmt: skip
+    if slip is None or drawn is None or guide is None or not slip.span or not drawn.span:
+        return
+    rate = sheet.omega.get(guide.b)
+    if rate is None or not rate.value:
+        return
+    way = "counter-clockwise" if rate.value > 0 else "clockwise"
+    angles = [pointing(v.span) for v in (slip, drawn)]
+    first = next(s for s in sheet.vectors("acceleration") if s.kind == "ak")
+    key = f"coriolis {'rule' if first == symbol else 'sense'} {way}"
+    yield Phrase(key, (slip.symbol, guide.b, angles[0], angles[1], symbol))

@@ -1,0 +1,450 @@
+"""Steps of a polygon as they are told: each from a lettered point, in a sense, to a lettered point; rates with the
+quotients that give them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial, reduce
+from typing import get_args
+
+from graphkin.account.arithmetic import (
+    bound,
+    laid_sum,
+    parts_by_rates,
+    plan_sum,
+    rate_sum,
+    rule_sum,
+    scale_of,
+    times_scale,
+    unit_of,
+)
+from graphkin.account.end_letters import SAME
+from graphkin.account.headings import number, term, written
+from graphkin.account.voice import Voice
+from graphkin.construction.sheet import Rate, Sheet, Term
+from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size
+from graphkin.construction.steps import Reason, Step, end_of
+from graphkin.construction.strokes import Aid, Bar, Ray, Vector
+from graphkin.plane import dot
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Neutral, Phrase, languages
+from graphkin.words.rich_text import Markup
+from graphkin.words.written import MOST, amount, on_paper, pointing, quotient
+
+__all__ = ["LINES", "SENTENCES", "SUMS", "alike", "measured", "rate_name"]
+
+ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
+
+
+# -- the letters between which a step goes -----------------------------------------------------------------------------
+
+
+def _drawn(step: Step) -> Vector | Aid | None:
+    """The vector of a step; those of trial polygons bear no letters."""
+    return next((s for s in step.strokes if isinstance(s, Vector) or (isinstance(s, Aid) and not s.trial)), None)
+
+
+def _sides(sheet: Sheet, step: Step) -> tuple[tuple[Term, ...], ...]:
+    """The sides of the equation of a step."""
+    return sheet.equations[step.equation - 1].sides if step.equation is not None else ()
+
+
+def _between(voice: Voice, step: Step, vector: Vector | Aid) -> Markup | None:
+    """A vector by the letters of its ends: ``pb``; None where the convention has no letters, and where it is so small
+    that one letter stands for both."""
+    ends = voice.ends.at(step.diagram, vector.tail), voice.ends.at(step.diagram, vector.tip)
+    return None if None in ends or ends[0] == ends[1] else _joined(*ends)
+
+
+def _start(voice: Voice, step: Step, at: complex) -> Phrase | None:
+    """Where a vector begins: a letter, or the end of a vector."""
+    letter = voice.ends.at(step.diagram, at)
+    if letter is not None:
+        return Phrase("the pole" if abs(at) < SAME else "the point", (letter,))
+    before = _before(voice.sheet, step, None, at)
+    return Phrase("the end of", (before,)) if before else None
+
+
+def _before(sheet: Sheet, step: Step, symbol: Symbol | None, at: complex) -> Symbol | None:
+    """The vector that ends in a place: the one before it in the equation as written, else the one drawn last."""
+    drawn: dict[Symbol, complex] = {}
+    for one in sheet.before(step):
+        for stroke in one.strokes if one.diagram == step.diagram else ():
+            if isinstance(stroke, Bar) and one.reason == "before its turn":
+                drawn[one.symbol] = stroke.b
+            elif isinstance(stroke, Vector | Aid):
+                drawn[stroke.symbol] = stroke.tip
+    there = [s for s, tip in drawn.items() if abs(tip - at) < SAME]
+    for side in _sides(sheet, step) if symbol is not None else ():
+        terms = [term.symbol for term in side]
+        if symbol in terms[1:] and terms[terms.index(symbol) - 1] in there:
+            return terms[terms.index(symbol) - 1]
+    return there[-1] if there else None
+
+
+# -- vectors -----------------------------------------------------------------------------------------------------------
+
+
+def _laid_off(voice: Voice, step: Step) -> Phrase | None:
+    vector = _drawn(step)
+    if vector is None or step.mm == 0.0:
+        return None
+    told, why = _from_letter(voice, step, vector), _carried_over(voice.sheet, step)
+    return told if why is None else Phrase("in turn", (told or step.phrase, why))
+
+
+def _from_letter(voice: Voice, step: Step, vector: Vector | Aid) -> Phrase | None:
+    start = _start(voice, step, vector.tail)
+    if start is None:
+        return None
+    key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(step.reason, "as vector")
+    name, end = _between(voice, step, vector), voice.ends.at(step.diagram, vector.tip)
+    rule = Phrase(key, (_rule(step.symbol, step.size),))
+    what = rule, on_paper(step.mm), _pointing(step.direction, vector.span)
+    if name is None:
+        return Phrase("lay off from", (start, *what))
+    return Phrase("lay off lettered", (start, name, *what, end))
+
+
+def _carried_over(sheet: Sheet, step: Step) -> Phrase | None:
+    """From what seen from a held link a vector between points of two links follows, which is laid off as it was found;
+    an acceleration with the share of Coriolis that the turning of the other of them adds."""
+    of, to = step.symbol.of, step.symbol.to
+    if step.size is not None or step.mm == 0.0 or of is None or step.direction.names:
+        return None
+    before = sheet.before(step)
+    held = {s.held for s in before if s.reason == "seen from"}
+    kind = step.symbol.kind[0]
+    gives = (s.symbol for s in reversed(before) if s.reason in ("vector", "pole to end") or (s.held and s.begins))
+    seen = next((
+        one for one in gives if one.kind == kind and one.of is not None and one.to is not None and one.to.link in held
+        and one.of.point == one.to.point == of.point
+    ), None)  # fmt: skip
+    if seen is None or seen.to is None:
+        return None
+    against = of.link == seen.to.link
+    told = Phrase("against", (seen,)) if against else seen
+    if kind == "v" or to is None or not against:
+        return Phrase("written carried over", (step.symbol, told))
+    slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
+    size = RateTimes("omega", (seen.to.link, to.link), slip, twice=True)
+    turning = sheet.omega[seen.to.link].value - sheet.omega[to.link].value
+    key = "written carried over coriolis cw" if turning < 0.0 else "written carried over coriolis ccw"
+    rule = Phrase("rule of size", (size, bound(rule_sum(sheet, size, "acceleration"))))
+    return Phrase(key, (step.symbol, told, rule, slip))
+
+
+def _carried_over_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    told = _carried_over(voice.sheet, step)
+    if told is not None:
+        yield voice.say(told, languages(language)[0])
+
+
+def _laid_sums(voice: Voice, step: Step) -> Iterable[str]:
+    if step.mm == 0.0:
+        return measured(voice, step)
+    drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
+    return _laid(voice, step, step.size, abs(drawn.span))
+
+
+def _laid(voice: Voice, step: Step, size: Size | None, length: float) -> tuple[str, str]:
+    """The rule of a vector in numbers, and its length on paper."""
+    computed, on_scale = laid_sum(voice.sheet, step.diagram, size, length)
+    return f"{voice.symbol(step.symbol)} = {computed}", on_scale
+
+
+def measured(voice: Voice, step: Step) -> Iterator[str]:
+    """Each vector of a step as it is measured."""
+    for vector in (s for s in step.strokes if isinstance(s, Vector)):
+        size = abs(vector.span)
+        value = times_scale(voice.sheet, step.diagram, size) if size else "0"
+        yield f"{voice.symbol(vector.symbol)} = {value}"
+
+
+def _found(voice: Voice, step: Step) -> Phrase | None:
+    vector = _drawn(step)
+    name = _between(voice, step, vector) if vector is not None and step.mm else None
+    return Phrase("found lettered", (name, step.symbol, on_paper(step.mm))) if name else None
+
+
+def _line(voice: Voice, step: Step) -> Phrase | None:
+    ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
+    if ray is None:
+        return None
+    letter, what = voice.ends.at(step.diagram, ray.through), _unknown(voice.sheet, step)
+    if abs(ray.through) < SAME:
+        return Phrase("direction from pole", (what, step.direction, letter))
+    before = _before(voice.sheet, step, step.symbol, ray.through)
+    if letter is None:
+        return Phrase("direction from end", (what, step.direction, before)) if before else None
+    if before is None:
+        return Phrase("direction from point", (what, step.direction, letter))
+    return Phrase("direction from lettered end", (what, step.direction, before, letter))
+
+
+def _unknown(sheet: Sheet, step: Step) -> Symbol | Phrase:
+    """What lies on a line: a vector, or the sum of those of its side whose sizes are unknown along it."""
+    side = next((side for side in _sides(sheet, step) if any(term.symbol == step.symbol for term in side)), ())
+    along = next((term.direction for term in side if term.symbol == step.symbol), None)
+    return reduce(_sum, (t.symbol for t in side if not t.size_known and t.direction == along), None) or step.symbol
+
+
+def _end_point(key: str, voice: Voice, step: Step) -> Phrase | None:
+    letter = voice.ends.of(step.diagram, step.ref)
+    return Phrase(key, (letter, step.ref)) if letter else None
+
+
+def _join(key: str, voice: Voice, step: Step) -> Phrase | None:
+    """A vector drawn from letter to letter."""
+    vector = _drawn(step)
+    name = _between(voice, step, vector) if vector is not None else None
+    if vector is None or name is None:
+        return None
+    ends = voice.ends.at(step.diagram, vector.tail), voice.ends.at(step.diagram, vector.tip)
+    return Phrase(key, (*ends, name, step.symbol))
+
+
+def _carried(voice: Voice, step: Step) -> Phrase | None:
+    """A known term behind the unknown one, laid off before it."""
+    bar = next((s for s in step.strokes if isinstance(s, Bar)), None)
+    start = _start(voice, step, bar.a) if bar else None
+    term = next((term for side in _sides(voice.sheet, step) for term in side if term.symbol == step.symbol), None)
+    if bar is None or start is None or term is None or term.direction is None:
+        return None
+    if abs(bar.b - bar.a) < SAME:
+        return Phrase("zero vector", (step.symbol,))
+    rule = _rule(step.symbol, term.size)
+    what = (rule, on_paper(abs(bar.b - bar.a)), _pointing(term.direction, bar.b - bar.a))
+    ends = voice.ends.at(step.diagram, bar.a), voice.ends.at(step.diagram, bar.b)
+    if None in ends or ends[0] == ends[1]:
+        return Phrase("carry from", (start, *what))
+    return Phrase("carry lettered", (start, _joined(*ends), *what, ends[1]))
+
+
+def _carried_sums(voice: Voice, step: Step) -> Iterable[str]:
+    if step.equation is None:
+        return measured(voice, step)
+    size = next((t.size for side in _sides(voice.sheet, step) for t in side if t.symbol == step.symbol), None)
+    bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
+    return _laid(voice, step, size, abs(bar.b - bar.a)) if bar and size else ()
+
+
+# -- images ------------------------------------------------------------------------------------------------------------
+
+
+def _image(voice: Voice, step: Step) -> Phrase | None:
+    """The division of a line, with its ratio, or the similar triangle."""
+    if step.held:
+        return None
+    refs = (step.ref, *step.refs)
+    places = [voice.sheet.points.get(PointRef(ref.point)) for ref in refs]
+    ends = [voice.ends.of(step.diagram, ref) for ref in refs]
+    bars = [voice.letters.point(ref.point) for ref in refs]
+    if step.reason == "similar":
+        return None if None in ends else _triangle(step, places, ends, bars)
+    at, a, b = places
+    if at is None or a is None or b is None or abs(b - a) < SAME:
+        return None
+    along = dot(at - a, b - a) / abs(b - a) ** 2
+    if abs(along) < ON_THE_POINT:
+        return None
+    where = "before" if along < 0.0 else "within" if along <= 1.0 else "beyond"
+    unit = voice.sheet.scales.length / voice.sheet.scene.units.metres
+    part, bar = (amount(abs(z - a) * unit, 4) for z in (at, b))
+    numbers = (written(one) for one in (part, bar, quotient(part, bar, 4)))  # the ratio of what stands there
+    whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *numbers)
+    if None in ends or voice.ends.at(step.diagram, voice.ends.place(step.diagram, step.ref)) is None:
+        return Phrase(f"division {where}", (*refs, step.link, *whole))
+    names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])
+    return Phrase(f"division lettered {where}", (*names, step.link, *whole))
+
+
+def _triangle(
+    step: Step, places: Sequence[complex | None], ends: Sequence[Markup | None], bars: Sequence[str]
+) -> Phrase:
+    """The similar triangle, with the ratios by which a compass finds its third corner."""
+    names = (ends[0], _joined(*ends[1:], ends[0]), Markup("".join((*bars[1:], bars[0]))), step.link)
+    at, a, b = places
+    if at is None or a is None or b is None or abs(b - a) < SAME:
+        return Phrase("image lettered", names)
+    ratios = [number(abs(at - z) / abs(b - a), 4) for z in (a, b)]
+    sides = _joined(ends[1], ends[0]), _joined(ends[2], ends[0]), _joined(*ends[1:])
+    return Phrase("image with sides", (*names, *sides, *ratios))
+
+
+def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points the
+    vector with what is similar on the link, nothing for one that is not drawn."""
+    spoken, on_line = languages(language)[0], step.reason == "division"
+    if step.held:
+        yield voice.say(Phrase("written image seen", (step.symbol, step.link)), spoken)
+        return
+    refs = (*step.refs, step.ref)
+    ends = [voice.ends.of(step.diagram, ref) for ref in refs]
+    one, two, three = (voice.letters.point(ref.point) for ref in refs)
+    if None in ends:
+        vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
+        if voice.letters.convention == "us" and vector in voice.sheet.vectors(step.diagram):
+            similar = f"${one}{three}$ : ${one}{two}$" if on_line else f"△${one}{two}{three}$"
+            yield bound(voice.say(Phrase("written image named", (vector, step.link, Neutral(similar))), spoken))
+        return
+    a, b, c = (str(end) for end in ends)
+    if on_line:
+        yield bound(f"${a}{c}$ : ${a}{b}$ = ${one}{three}$ : ${one}{two}$")
+    else:
+        yield bound(f"△${a}{b}{c}$ ∽ △${one}{two}{three}$")
+
+
+def _by_rates(voice: Voice, step: Step) -> Phrase | None:
+    """An end point from another of its link: what the rates give, laid off one behind the other."""
+    letters = [voice.ends.of(step.diagram, ref) for ref in (*step.refs, step.ref)]
+    if not step.held and None in letters:
+        return None
+    start = end_of(step.begins[0]) if step.held else Phrase("the point", (letters[0],))
+    laid = list[Phrase]()
+    for part in parts_by_rates(voice.sheet, step):
+        rule = Phrase("as normal" if part.rule.square else "as vector", (_rule(part.symbol, part.rule),))
+        way = part.direction if part.rule.square else Phrase("pointing", (part.direction, pointing(part.span)))
+        laid.append(Phrase("lay off from", (start, rule, on_paper(abs(part.span)), way)))
+        start = Phrase("the end of", (part.symbol,))
+    if not laid:
+        return None
+    told = reduce(lambda one, other: Phrase("in turn", (one, other)), laid)
+    return Phrase("ends seen", (told, step.symbol)) if step.held else Phrase("ends in", (told, letters[1]))
+
+
+def _by_rates_sums(voice: Voice, step: Step) -> Iterator[str]:
+    """The parts of a relative vector that follow from the rates of a link, each with its length and direction."""
+    per, unit = scale_of(voice.sheet, step.diagram), unit_of(voice.sheet, step.diagram)
+    parts = parts_by_rates(voice.sheet, step)
+    for said, part in zip(_by_rates_lines(voice, step, "en"), parts, strict=True):
+        yield said
+        yield f"÷ {number(per)} ({unit})/mm = {written(on_paper(abs(part.span)))} mm,  {pointing(part.span)}°"
+    yield from measured(voice, step)
+
+
+def _by_rates_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``v_CB = ω_3 l_CB = 1.4737 × 151.21 = 222.84 mm/s,  ⊥CB``."""
+    letters = voice.letters
+    for part in parts_by_rates(voice.sheet, step):
+        way = letters.direction(part.direction, voice.sheet.scene.frame.name)
+        rule = f"${letters.size(part.rule)}$ =\u00a0{bound(rule_sum(voice.sheet, part.rule, step.diagram))}"
+        yield f"{voice.symbol(part.symbol)} =\u00a0{rule},  ${way}$"
+
+
+# -- rates -------------------------------------------------------------------------------------------------------------
+
+
+def _rates(sheet: Sheet, step: Step) -> Mapping[str, Rate]:
+    return sheet.omega if step.kind == "omega" else sheet.alpha
+
+
+def _per_second(step: Step) -> str:
+    return "rad/s" if step.kind == "omega" else "rad/s²"
+
+
+def _turning_links(sheet: Sheet, step: Step) -> tuple[str, ...]:
+    """The links that turn as a rate says, as indices of it."""
+    if step.held:
+        return (step.link + step.held,)
+    rates = _rates(sheet, step)
+    return (step.link, *alike(rates.values(), rates[step.link]))
+
+
+def _rate_sums(voice: Voice, step: Step) -> Iterable[str]:
+    value = rate_sum(voice.sheet, step) or f"{number(abs(step.value), MOST)} {_per_second(step)}"
+    return (f"{rate_name(step.kind, _turning_links(voice.sheet, step)[0])} = {value}",)
+
+
+def _rate_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
+    value = step.value if step.held else _rates(voice.sheet, step)[step.link].value
+    rule = f"{voice.symbol(step.symbol)} / ${voice.letters.length(step.points)}$"
+    shown = bound(rate_sum(voice.sheet, step, units=False)) or f"{number(abs(value), 5)} {_per_second(step)}"
+    names = (rate_name(step.kind, name) for name in _turning_links(voice.sheet, step))
+    yield " =\u00a0".join((*names, rule, shown)) + _turning(value, language)
+
+
+def _added_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: a link whose turning relative to another is known, as
+    soon as that one turns at a known rate."""
+    yield bound(voice.say(step.phrase, languages(language)[0]))
+
+
+def _held_still_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
+    if step.kind in ("omega", "alpha"):
+        value = f"{number(abs(step.value), 5)} {_per_second(step)}{_turning(step.value, language)}"
+        yield f"{rate_name(step.kind, step.link + step.held)} = {value},  {term('held still', language)}"
+
+
+def _plan_sums(voice: Voice, step: Step) -> Iterable[str]:
+    return (f"{rate_name(step.kind, step.link)} = {plan_sum(step)}",)
+
+
+def _plan_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """``ω_3 = 30.00 mm × 0.25 (rad/s)/mm = 7.5 rad/s, clockwise``: read off the plan of a train."""
+    value = f"{bound(plan_sum(step))}{_turning(step.value, language)}" if step.value else "0"
+    yield f"{rate_name(step.kind, step.link)} = {value}"
+
+
+def rate_name(kind: str, link: str) -> str:
+    """The letter of an angular rate with its link."""
+    return f"${'ω' if kind == 'omega' else 'α'}_{{{link}}}$"
+
+
+def alike(rates: Iterable[Rate], rate: Rate) -> list[str]:
+    """Links that turn as another, blocks of pins left out."""
+    return [
+        other.link for other in rates if other.same_as == rate.link and other.value == rate.value
+        and "/" not in other.link
+    ]  # fmt: skip
+
+
+def _turning(value: float, language: str) -> str:
+    return "" if value == 0.0 else f",  {term('clockwise' if value < 0 else 'counter-clockwise', language)}"
+
+
+# -- words -------------------------------------------------------------------------------------------------------------
+
+
+def _rule(symbol: Symbol, size: Size | None) -> Symbol | Phrase:
+    """A vector with the rule of its size, where that is not just given."""
+    return symbol if size is None or isinstance(size, Given) else Phrase("rule of size", (symbol, size))
+
+
+def _sum(before: Symbol | Phrase | None, symbol: Symbol) -> Symbol | Phrase:
+    return symbol if before is None else Phrase("sum", (before, symbol))
+
+
+def _pointing(direction: Direction, span: complex) -> Direction | Phrase:
+    """A direction with its sense, where that does not lie in its name."""
+    if direction.relation == "towards":
+        return direction
+    angle = pointing(span)
+    return Phrase("pointing", (direction, angle)) if direction.names else Phrase("pointing only", (angle,))
+
+
+def _joined(*letters: Markup | None) -> Markup:
+    return Markup("".join(letter for letter in letters if letter))
+
+
+ROLES: tuple[Role, ...] = get_args(Role)
+SENTENCES: Mapping[Reason, Callable[[Voice, Step], Phrase | None]] = {
+    **dict.fromkeys(ROLES, _laid_off), "vector": _found, "direction": _line, "lines": partial(_end_point, "meet in"),
+    "letter": partial(_end_point, "name letter"), "pole to end": partial(_join, "join"),
+    "asked": partial(_join, "asked lettered"), "before its turn": _carried, "similar": _image, "division": _image,
+    "rates": _by_rates,
+}  # fmt: skip
+"""The step as it is said with the letters of its points, by its reason; None where it has none."""
+SUMS: Mapping[Reason, Callable[[Voice, Step], Iterable[str]]] = {
+    **dict.fromkeys(ROLES, _laid_sums), "before its turn": _carried_sums, "rates": _by_rates_sums,
+    "rate": _rate_sums, "plan": _plan_sums,
+}  # fmt: skip
+"""What is computed in a step, where that is more than its vectors as they are `measured`."""
+LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str]]] = {
+    **dict.fromkeys(ROLES, _carried_over_lines), "similar": _image_lines, "division": _image_lines,
+    "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _added_lines, "held still": _held_still_lines,
+    "plan": _plan_lines,
+}  # fmt: skip
+"""What is written of a step to repeat it, in a language."""

@@ -1,0 +1,434 @@
+"""A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on the paper.
+
+Ten verbs draw mechanisms, polygons and groups alike; the ``reason`` says which of the things is done that the verb
+stands for, and with it how the step is told (`SENTENCES`) and which arguments it has.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
+
+from graphkin.construction.centre_lines import PlanTrial
+from graphkin.construction.sizes import Direction, Role, Size
+from graphkin.construction.strokes import Stroke
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, listed
+from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
+
+__all__ = [
+    "DIAGRAMS", "FINDS_A_POINT", "SENTENCES", "Cause", "DiagramName", "FarPoint", "Missed", "Moved", "RateTrial",
+    "Reason", "Step", "Superposed", "TakenOff", "TrialPositions", "TrialRow", "TrialTable", "Verb", "end_of",
+    "phrase_of",
+]  # fmt: skip
+
+DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
+DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")
+Verb = Literal["mark", "lay off", "line", "cross", "image", "read", "join", "carry over", "trial", "divide"]
+Reason = Role | Literal[
+    "frame", "points", "whole link", "pitch point", "letter",  # mark
+    "angle", "travel", "rolling",  # lay off; and vectors, by their part in the equation
+    "path", "guide", "tangent", "direction",  # line
+    "arcs", "arc on path", "paths", "guide to point", "special point", "lines",  # cross
+    "similar", "division", "same place", "translation", "rates",  # image
+    "vector", "rate", "sum of rates", "given on plan", "plan", "plan travel",  # read
+    "pole to end", "asked", "put back",  # join
+    "before its turn", "held still", "seen from",  # carry over
+    "positions", "polygon",  # trial
+    "open ends", "plans",  # divide
+]  # fmt: skip
+FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
+"""Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
+NO_SYMBOL, NO_POINT, NO_DIRECTION = Symbol(""), PointRef(""), Direction("found", ())
+
+
+@dataclass(frozen=True)
+class Step:
+    """One action on the board; an argument that its verb does not have is left empty.
+
+    Parameters
+    ----------
+    number : its place in the order, from 1; 0 as long as it stands on no board
+    equation : the number of the equation that it helps to draw
+    symbol : the vector that it draws, finds or measures by
+    ref, refs : the end point that it finds, and those from which
+    begins : of a vector seen from a held link, the vectors at whose ends it begins; None where that is the pole
+    point, points : the point of the mechanism that it finds, and those from which, or a bar; or the points it marks
+    link, links : the link that it places, turns or takes; and others
+    base : the link relative to which something is meant; "" for the x axis, or the frame
+    pairs : sliding pairs, by key
+    kind : the quantity that is given or read; "driven" of a special point through whose leg a driver goes
+    held : the link from which it is seen, with that held still; "" for the frame
+    value, other : what is given or read (rad, m, rad/s, ...), and the value that is added to it
+    per_mm : the scale of a plan of its own, whose lengths stay; 0 of the diagram's
+    mm, radii : lengths on paper; a scale changes these, and what ``data`` has of them
+    """
+
+    verb: Verb
+    reason: Reason
+    diagram: DiagramName = "mechanism"
+    strokes: tuple[Stroke, ...] = ()
+    equation: int | None = None
+    number: int = 0
+    symbol: Symbol = NO_SYMBOL
+    ref: PointRef = NO_POINT
+    refs: tuple[PointRef, ...] = ()
+    begins: tuple[Symbol | None, ...] = ()
+    point: str = ""
+    points: tuple[str, ...] = ()
+    link: str = ""
+    links: tuple[str, ...] = ()
+    base: str = ""
+    pairs: tuple[str, ...] = ()
+    kind: str = ""
+    held: str = ""
+    size: Size | None = None
+    direction: Direction = NO_DIRECTION
+    value: float = 0.0
+    other: float = 0.0
+    per_mm: float = 0.0
+    mm: float = 0.0
+    radii: tuple[float, ...] = ()
+    data: TrialPositions | RateTrial | Superposed | PlanTrial | None = None
+
+    @property
+    def phrase(self) -> Phrase:
+        """The step as a sentence to be."""
+        match self.verb, self.reason:
+            case "lay off", _ if self.symbol.kind:
+                return _laid_off(self)
+            case "read", "vector":
+                return Phrase("found" if self.mm else "zero vector", self.gaps("symbol mm" if self.mm else "symbol"))
+            case "read", "rate" | "sum of rates" | "plan" | "given on plan":
+                return _rate_read(self)
+            case "trial" | "divide", _:
+                return _tried(self)
+        key, gaps = SENTENCES[self.reason]
+        if self.held and self.reason in ("similar", "division", "rates"):
+            return _image_seen(self)
+        if self.reason == "held still":
+            key = f"{key} {self.kind}"
+        elif self.reason == "seen from":
+            key = f"{key} {self.diagram}"
+        elif self.reason == "special point" and self.base:
+            key = "relative special point driven" if self.kind == "driven" else "relative special point"
+            gaps = "point base link points"
+        elif self.reason == "angle" and self.base:
+            key = "lay off angle to"
+        elif self.reason == "rolling":
+            key, gaps = (f"{key} angle", "link degrees") if self.link else (f"{key} travel", "pairs mm")
+        return Phrase(key, self.gaps(gaps))
+
+    def gaps(self, names: str) -> tuple[object, ...]:
+        """Arguments as they stand in a sentence: several one after the other, ``listed`` points and links as one."""
+        return tuple(part for name in names.split() for part in self._gap(name))
+
+    def _gap(self, name: str) -> tuple[object, ...]:
+        match name:
+            case "mm" | "radii":
+                lengths = self.radii if name == "radii" else (self.mm,)
+                return tuple(map(on_paper, lengths))
+            case "degrees":
+                return (f"{math.degrees(self.value):.6g}",)
+            case "amount":
+                return (f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}",)
+            case "listed":
+                return (", ".join(self.points),)
+            case "linked":
+                return (listed(self.links),)
+        value = getattr(self, name)
+        return value if isinstance(value, tuple) and not isinstance(value, PointRef) else (value,)
+
+    @property
+    def finds_rate(self) -> bool:
+        """Whether it finds how a link turns, as seen from the frame."""
+        return self.reason in ("rate", "sum of rates", "plan") and not self.held
+
+    def scaled(self, times: float) -> Step:
+        """The same step with all its lengths on paper so many times as large."""
+        strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
+        data = self.data.scaled(times) if isinstance(self.data, TrialPositions | Superposed) else self.data
+        told = replace(self, strokes=strokes, data=data)
+        if self.per_mm:
+            return told
+        return replace(told, mm=self.mm * times, radii=tuple(radius * times for radius in self.radii))
+
+    @property
+    def links_drawn(self) -> tuple[str, ...]:
+        """The links of the mechanism that it places or draws."""
+        if self.diagram != "mechanism":
+            return ()
+        if isinstance(self.data, TrialPositions):
+            return self.data.links
+        if self.reason in ("frame", "points", "whole link") or (self.verb == "lay off" and self.reason == "angle"):
+            return (self.link,)
+        placed = self.verb in ("lay off", "line", "cross") and self.reason != "rolling"
+        return tuple(name for pair in self.pairs for name in pair.split("/")) if placed else ()
+
+
+Cause: TypeAlias = Step | Phrase
+"""What brings an error into the drawing: a step, or the placing of links and the reading itself, in words."""
+
+
+def phrase_of(cause: Cause) -> Phrase:
+    """A step, or another cause of uncertainty, as a sentence to be."""
+    return cause if isinstance(cause, Phrase) else cause.phrase
+
+
+# -- trials ------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Moved:
+    """What is moved in trial positions: a link ``name`` that is turned, by degrees from the link ``base`` ("" for the x
+    axis), or the pair whose travel is changed (``turned`` false; mm on paper)."""
+
+    name: str
+    base: str
+    turned: bool
+
+
+@dataclass(frozen=True)
+class Missed:
+    """What is measured of what was left out, with the ``names`` that it lies between and the ``length`` of a bar (mm on
+    paper): degrees where it is an ``angle``, else mm."""
+
+    kind: Literal["bar", "guide", "turn", "travel", "guides", "rolled"]
+    names: tuple[str, ...]
+    length: float
+    angle: bool
+
+
+TrialRow: TypeAlias = tuple[tuple[float, ...], tuple[float, ...]]
+"""The values of what is moved in a trial position, and what is missed there."""
+
+
+@dataclass(frozen=True)
+class TrialTable:
+    """What is measured in the trial positions of a group, and divided.
+
+    ``divided`` are positions that proportional division gives, one after the other, the last one where nothing is
+    missed.  Where one thing is moved the first lies between the trial number ``before`` (from 1) and the next; where
+    several are, each further trial differs from the first in one of them, ``parts`` of these steps together make the
+    first that is divided, and each that is divided takes the place of the trial number ``instead`` (from 1).
+    """
+
+    moved: tuple[Moved, ...]
+    missed: tuple[Missed, ...]
+    trials: tuple[TrialRow, ...]
+    divided: tuple[TrialRow, ...]
+    before: int = 0
+    parts: tuple[float, ...] = ()
+    instead: tuple[int, ...] = ()
+
+    def scaled(self, times: float) -> TrialTable:
+        """The same with its lengths so many times as large."""
+        x = [1.0 if one.turned else times for one in self.moved]
+        y = [1.0 if one.angle else times for one in self.missed]
+
+        def rows(old: tuple[TrialRow, ...]) -> tuple[TrialRow, ...]:
+            return tuple((_each_times(values, x), _each_times(misses, y)) for values, misses in old)
+
+        missed = tuple(replace(one, length=one.length * times) for one in self.missed)
+        return replace(self, missed=missed, trials=rows(self.trials), divided=rows(self.divided))
+
+
+def _each_times(values: tuple[float, ...], by: list[float]) -> tuple[float, ...]:
+    return tuple(v * k for v, k in zip(values, by, strict=True))
+
+
+@dataclass(frozen=True)
+class TrialPositions:
+    """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
+    fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
+    ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions, ``table`` what is
+    measured in them.  ``instead`` are driven blocks left out, each with the link that is driven in its stead and by how
+    much the block is turned from it (rad)."""
+
+    links: tuple[str, ...]
+    driven: tuple[str, ...]
+    left_out: tuple[str, ...]
+    point: str
+    count: int
+    rolling: tuple[str, ...] = ()
+    table: TrialTable | None = None
+    instead: tuple[tuple[str, str, float], ...] = ()
+
+    def scaled(self, times: float) -> TrialPositions:
+        """The same with the lengths of its table so many times as large."""
+        return replace(self, table=self.table.scaled(times) if self.table is not None else None)
+
+
+@dataclass(frozen=True)
+class FarPoint:
+    """Two links whose special point cannot be used: how far from the joints (m; in a net as its places), and at which
+    angle (rad) the lines of the legs cross."""
+
+    links: tuple[str, str]
+    away: float
+    crossing: float
+
+
+@dataclass(frozen=True)
+class RateTrial:
+    """A trial polygon by its number, with what was assumed (rad/s, or the scene's units); ``far`` is the special point
+    for want of which."""
+
+    number: int
+    assumed: tuple[tuple[Symbol, float], ...]
+    far: FarPoint | None = None
+
+
+@dataclass(frozen=True)
+class TakenOff:
+    """A known vector with the rule of its size, and how long it is (mm) in the direction in which something is open."""
+
+    symbol: Symbol
+    size: Size | None
+    mm: float
+
+
+@dataclass(frozen=True)
+class Superposed:
+    """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
+    ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
+    ``less``."""
+
+    found: tuple[tuple[Symbol, float], ...]
+    closing: tuple[str, ...]
+    apart: tuple[tuple[float, ...], ...]
+    ways: tuple[Direction, ...]
+    between: tuple[tuple[PointRef, PointRef], ...]
+    less: tuple[tuple[TakenOff, ...], ...]
+
+    def scaled(self, times: float) -> Superposed:
+        """The same with its lengths so many times as large."""
+        apart = tuple(tuple(mm * times for mm in row) for row in self.apart)
+        less = tuple(tuple(replace(one, mm=one.mm * times) for one in row) for row in self.less)
+        return replace(self, apart=apart, less=less)
+
+
+# -- in words ----------------------------------------------------------------------------------------------------------
+
+SENTENCES: Mapping[Reason, tuple[str, str]] = {
+    "frame": ("frame", "link listed"),
+    "points": ("points", "link listed"),
+    "whole link": ("transfer", "link listed"),
+    "pitch point": ("pitch point", "point links"),
+    "letter": ("name", "ref"),
+    "angle": ("lay off angle", "link degrees point base"),
+    "travel": ("lay off travel", "pairs mm"),
+    "rolling": ("rolling starts at", ""),
+    "path": ("path", "point pairs"),
+    "guide": ("line of guide", "points pairs"),
+    "tangent": ("tangent", "points mm pairs"),
+    "direction": ("direction", "symbol direction"),
+    "arcs": ("arcs", "points point radii"),
+    "arc on path": ("arc on path", "points point mm"),
+    "paths": ("paths", "point pairs"),
+    "guide to point": ("slide to meet", "point pairs"),
+    "special point": ("special point", "point link points"),
+    "lines": ("meet", "ref"),
+    "similar": ("image", "ref refs link"),
+    "division": ("division", "ref refs link"),
+    "same place": ("same place", "ref refs"),
+    "translation": ("translates", "link"),
+    "rates": ("by rate", "ref refs link"),
+    "pole to end": ("resultant", "symbol"),
+    "asked": ("asked", "symbol"),
+    "put back": ("put back", "symbol"),
+    "before its turn": ("carry", "symbol"),
+    "held still": ("held still", "held link pairs amount"),
+    "seen from": ("seen from", "held linked"),
+    "plan travel": ("plan travel", "pairs mm"),
+}
+"""The key in the table of words of steps that are told in one way, and the arguments in its gaps (`Step.gaps`)."""
+
+
+def end_of(vector: Symbol | None) -> Phrase:
+    """Where a vector from the pole ends; None: it has no length."""
+    return Phrase("the pole itself") if vector is None else Phrase("the end of", (vector,))
+
+
+def _laid_off(step: Step) -> Phrase:
+    if step.mm == 0.0:
+        return Phrase("zero vector", step.gaps("symbol"))
+    if not step.direction.names:  # it was found before
+        return Phrase(*(("lay off so long", step.gaps("symbol size mm")) if step.size else (
+            "lay off as found", step.gaps("symbol mm")
+        )))  # fmt: skip
+    key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(step.reason, "lay off")
+    return Phrase(key, (step.symbol, step.size or "", on_paper(step.mm), step.direction))
+
+
+def _image_seen(step: Step) -> Phrase:
+    starts = tuple(map(end_of, step.begins))
+    if step.reason == "rates":
+        key = "by rate seen" if step.symbol.kind == "v" else "by rates seen"
+        return Phrase(key, (step.symbol, *starts, f"{step.link}{step.held}"))
+    key = "division seen" if step.reason == "division" else "image seen"
+    return Phrase(key, (step.symbol, *starts, step.link, "".join(step.points)))
+
+
+def _rate_read(step: Step) -> Phrase:
+    turning = "cw" if step.value < 0.0 else "ccw" if step.value > 0.0 else "zero"
+    match step.reason:
+        case "sum of rates":
+            known, of = step.links
+            own = step.link == of
+            signed = ("+", step.link + known) if own else ("−", known + step.link)
+            told = increase(step.value, step.other if own else -step.other)
+            return Phrase(f"added {step.kind}", (step.link, known, *signed, told))
+        case "given on plan":
+            told = true_minus(amount(step.value, 4))
+            mm = "−" * (step.value < 0.0) + on_paper(step.mm)
+            return Phrase(f"plan line {step.kind}", (step.link, step.points[0], told, mm))
+        case "plan":
+            read = on_paper(step.mm), amount(step.per_mm, 6)
+            return Phrase(f"plan line {step.kind} {turning}", (step.link, *step.points, *read, product(*read)))
+    carried = min(MOST - 1, figures(on_paper(step.mm))) if step.mm else MOST - 1
+    told = computed(abs(step.value), carried)
+    return Phrase(f"{step.kind} {turning}", (step.link + step.held, step.symbol, "".join(step.points), told))
+
+
+def _tried(step: Step) -> Phrase:
+    match step.data:
+        case TrialPositions():
+            return _positions(step.data)
+        case RateTrial(number, assumed, _):
+            if not any(value for _, value in assumed):
+                return Phrase("trial polygon at rest", (number, assumed[0][0]))
+            return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
+        case Superposed(found, closing, apart, ways, _, _):
+            open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
+            return Phrase("superposed", (open_at, _rows(apart), *_assumed(found)))
+        case PlanTrial(links, _, apart, found_rates):
+            names = [f"{'ω' if step.kind == 'omega' else 'α'}_{{{link}}}" for link in links]
+            rates = ", ".join(f"{name} = {amount(v, 5)}" for name, v in zip(names, found_rates, strict=True))
+            return Phrase("plan tried", (", ".join(names), _rows(apart), true_minus(rates)))
+    raise AssertionError(step.reason)
+
+
+def _positions(trial: TrialPositions) -> Phrase:
+    key = "trial positions" if trial.point else "trial positions without curve"
+    if trial.rolling:
+        key = "trial positions rolling and others" if trial.left_out else "trial positions rolling"
+    names = (", ".join(names) for names in (trial.links, trial.driven, trial.left_out))
+    told = Phrase(key, (*names, trial.point, trial.count, ", ".join(trial.rolling)))
+    for block, link, turned in trial.instead:
+        told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
+    return told
+
+
+def _rows(apart: Sequence[Sequence[float]]) -> str:
+    return true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart))
+
+
+def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
+    """The first of some rates as a symbol, and its value with those that follow."""
+    (first, value), *rest = rates
+    units = {"omega": " rad/s", "alpha": " rad/s²"}
+    more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)
+    return first, true_minus(f"{amount(value, 5)}{units.get(first.kind, '')}{more}")
