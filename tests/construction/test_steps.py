@@ -1,0 +1,53 @@
+"""Steps of a construction: their arguments, what a scale changes of them, and that each is told."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import get_args
+
+import pytest
+
+from graphkin.construction import draft
+from graphkin.construction.steps import SENTENCES, Reason, Step
+from graphkin.construction.strokes import CompassArc
+from graphkin.scene import library, mechanism_of
+
+pytestmark = pytest.mark.quick
+NO_LENGTHS = {"value", "other", "per_mm", "number", "equation"}
+
+
+def reasons() -> set[str]:
+    return {reason for group in get_args(Reason) for reason in get_args(group) or (group,)}
+
+
+def test_a_number_of_a_step_is_a_length_on_paper_that_a_scale_changes_or_is_known_to_be_none() -> None:
+    numbers = {f.name: f.type for f in fields(Step) if "float" in str(f.type) or "int" in str(f.type).split()}
+    filled = {name: (1.5, 2.5) if "tuple" in str(kind) else 1.5 for name, kind in numbers.items()}
+    step = Step("cross", "arcs", **{**filled, "per_mm": 0.0})  # type: ignore[arg-type]
+    larger = step.scaled(2.0)
+    assert {"mm", "radii"} == numbers.keys() - NO_LENGTHS
+    assert {"mm", "radii"} == {name for name in numbers if getattr(larger, name) != getattr(step, name)}
+    assert (3.0, (3.0, 5.0)) == (larger.mm, larger.radii)
+
+
+def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> None:
+    arc = CompassArc(1j, 2.0, 3j)
+    assert [CompassArc(2j, 4.0, 6j)] == [*Step("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
+    assert 7.0 == Step("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
+
+
+@pytest.mark.parametrize("name", library()[::6])
+def test_a_reason_belongs_to_one_verb_and_every_step_of_the_library_is_told(name: str) -> None:
+    steps = draft(mechanism_of(name)).steps
+    verbs: dict[str, set[str]] = {}
+    for step in steps:
+        verbs.setdefault(step.reason, set()).add(step.verb)
+        assert str(step.phrase)
+    assert [] == [reason for reason, of in verbs.items() if len(of) > 1]
+    assert [*range(1, len(steps) + 1)] == [step.number for step in steps]
+
+
+def test_the_table_of_sentences_tells_reasons_by_arguments_that_steps_have() -> None:
+    assert set() == SENTENCES.keys() - reasons()
+    known = {*(f.name for f in fields(Step)), "listed", "linked", "degrees", "amount"}
+    assert set() == {gap for _, gaps in SENTENCES.values() for gap in gaps.split()} - known
