@@ -1,6 +1,314 @@
-"""Speed against accuracy: all methods and other programs on the same work.  Nothing but ``graphkin study`` needs it."""
+"""Speed against accuracy: all methods and other programs on the same work, in one run; as a table, as data for
+programs, and as a chart: cost of a position against the largest error, velocity and acceleration side by side.  Nothing
+but ``graphkin study`` needs it."""
 
-from graphkin.races.run import Race, race, race_page, race_table, to_json
-from graphkin.races.timing import Entry
+from __future__ import annotations
 
-__all__ = ["Entry", "Race", "race", "race_page", "race_table", "to_json"]
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from graphkin.construction import plan
+from graphkin.drawing import Box, Stroke, Text
+from graphkin.drawing.chart import ChartPage, Shape, add_labels, add_panel, add_words, count_powers, look, marker
+from graphkin.drawing.text import rich, wrapped
+from graphkin.files import Json
+from graphkin.races.methods import METHODS, acts, copy_time, one_by_one
+from graphkin.races.work import Entry, Machine, Skipped, Work, this_machine, work_of
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.study.reference import context
+from graphkin.table import Table
+from graphkin.words import Phrase, say, word
+from graphkin.words.written import in_markup
+
+if TYPE_CHECKING:
+    from mpmath import MPContext
+
+    from graphkin.drawing.chart import Figure
+
+__all__ = ["COUNT", "Entry", "Race", "race", "race_page", "race_table", "to_json"]
+
+COUNT = 100_800
+PEERS = "pylinkage", "scipy"
+"""Other programs, by the names in `graphkin.races.peers`."""
+
+
+@dataclass(frozen=True)
+class Race:
+    """What every method costs and how far it is off.
+
+    copying : cost of copying the velocities of a position, and with the accelerations (s)
+    acts : acts of the hand in one drawing
+    skipped : peers left out, with the reason
+    asked : what the limited runs were asked for
+    """
+
+    scene: Mechanism
+    entries: tuple[Entry, ...]
+    copying: tuple[float, float]
+    acts: int
+    repeats: int
+    count: int
+    places: int
+    machine: Machine
+    skipped: tuple[tuple[str, Phrase], ...]
+    asked: tuple[Symbol, ...]
+
+    def of(self, key: str, tag: str = "") -> Entry:
+        return next(e for e in self.entries if e.key == key and e.tag == tag)
+
+
+def race(scene: Mechanism, repeats: int, count: int = COUNT) -> Race:
+    """Let all methods run.
+
+    Parameters
+    ----------
+    repeats : runs of each, of which the fastest counts
+    count : positions of which the time is taken, for the methods that compute many at once
+
+    Raises
+    ------
+    CallError : mpmath is not installed, a group larger than a dyad, nothing that moves
+    Unsolvable : as for ``solver.solve``
+    """
+    mp: MPContext = context()
+    work = work_of(scene, mp, count)
+    entries: list[Entry] = [entry for method in METHODS for entry in method(work, repeats)]
+    entries.append(one_by_one(work.only(work.asked_outputs()), repeats, "asked"))
+    skipped = []
+    for name in PEERS:
+        try:
+            entries += _peer(name, work, repeats)
+        except Skipped as why:
+            skipped.append((name, why.why))
+    by_hand = acts(plan(scene, work.at(0), ()), "acceleration")
+    return Race(
+        scene, tuple(entries), copy_time(work, repeats), by_hand, repeats, work.count, len(work.values),
+        this_machine(), tuple(skipped), work.asked,
+    )  # fmt: skip
+
+
+def _peer(name: str, work: Work, repeats: int) -> list[Entry]:
+    """Another program on the work.  Raises Skipped where it cannot do it, or is not raced from here."""
+    try:
+        from graphkin.races import peers
+    except ImportError:  # a wheel has none
+        raise Skipped("wheel") from None
+    return list(peers.PEERS[name](work, repeats))
+
+
+def race_table(race: Race) -> Table:
+    """One row for each method; first the floor."""
+    numbers = ("velocity_cost_s", "velocity_error", "acceleration_cost_s", "acceleration_error")
+    rows: list[tuple[object, ...]] = [("copying", "", "floor", race.copying[0], None, race.copying[1], None)]
+    rows += [
+        (e.key, e.tag, e.family, e.velocity_cost, e.velocity_error, e.acceleration_cost, e.acceleration_error)
+        for e in race.entries
+    ]
+    return Table.of(("method", "tag", "family", *numbers), rows, ("", "", "", *(".3g" for _ in numbers)))
+
+
+def to_json(race: Race, language: str = "en") -> dict[str, Json]:
+    """Costs in s for a position, errors in parts of the largest value, and what it was measured on."""
+    return {
+        "scene": race.scene.name,
+        "machine": {
+            "cores": race.machine.cores, "processor": race.machine.processor, "versions": dict(race.machine.versions)
+        },
+        "repeats": race.repeats,
+        "positions": race.count,
+        "places": race.places,
+        "copying_s": list(race.copying),
+        "asked": [str(s) for s in race.asked],
+        "methods": [
+            {
+                "method": e.key,
+                "tag": e.tag,
+                "family": e.family,
+                "says": word("differences of" if e.key == "differences" else e.key, language),
+                "velocity": {"cost_s": e.velocity_cost, "error": e.velocity_error},
+                "acceleration": {"cost_s": e.acceleration_cost, "error": e.acceleration_error},
+            }
+            for e in race.entries
+        ],
+        "left_out": [{"peer": name, "why": say(why, language)} for name, why in race.skipped],
+    }  # fmt: skip
+
+
+WIDTH, HEIGHT = 297.0, 210.0
+LEFT, RIGHT, GAP = 22.0, 8.0, 18.0
+TOP, BOTTOM = 40.0, 50.0
+LETTERS = 2.5
+LETTERS_TRIED = (2.5, 2.3, 2.1, 2.0)
+"""Letters of the labels, mm: where machine and methods crowd the points, smaller ones."""
+LOWEST = 1e-19
+HIGHEST = 10.0
+
+SHAPES: dict[str, Shape] = {
+    "closed": "disc",
+    "newton": "circle",
+    "differences": "diamond",
+    "complex step": "square",
+    "drawn": "cross",
+    "by hand": "down",
+    "peer": "up",
+}
+LINES = {
+    "newton": Stroke(0.25, (3.0, 1.2)),
+    "differences": Stroke(0.25, (0.9, 0.9)),
+    "pencil": Stroke(0.25),
+    "by hand": Stroke(0.25),
+}
+FLOOR = Stroke(0.35, (4.0, 1.0, 0.9, 1.0))
+SAVED = Stroke(0.18)
+NUMBERED = {"newton": ("1", "2", "3", "4"), "differences": ("1e-1", "1e-4", "1e-6", "1e-8")}
+"""Which points of a curve bear their number."""
+
+
+def race_page(race: Race, language: str = "en") -> ChartPage:
+    """One page for both."""
+    title = word("speed title", language)
+    name = race.scene.title_in(language)
+    versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
+    facts = say(
+        Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,
+                               race.places)), language)  # fmt: skip
+    wide = WIDTH - LEFT - RIGHT
+    half = (wide - GAP) / 2
+
+    def paint(figure: Figure) -> None:
+        add_words(
+            figure,
+            Text(complex(LEFT - 12, 13.0), rich(title, 5.0, bold=True)),
+            Text(complex(LEFT - 12, 19.0), rich(in_markup(name), 3.5)),
+            *_lines([in_markup(facts)], 24.0, LETTERS, 3.3),
+            *_lines(_lessons(race, language), HEIGHT - BOTTOM + 16.0, 2.8, 3.8),
+        )
+        for kind, left in (("velocity", LEFT), ("acceleration", LEFT + half + GAP)):
+            _draw(figure, race, kind, Box(left, TOP, left + half, HEIGHT - BOTTOM), language)
+
+    return ChartPage(
+        WIDTH, HEIGHT, paint, title=f"{title}: {name}", desc=facts, lang=language,
+        metadata={"study": "speed-accuracy", "scene": race.scene.name},
+    )  # fmt: skip
+
+
+def lessons(race: Race) -> tuple[Phrase, ...]:
+    """What the entries say of drawing and computing accelerations: every number is one of theirs, or a quotient."""
+
+    def error(entry: Entry) -> str:
+        off = max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0)
+        return f"{off:.1g}"
+
+    def times(entry: Entry, of: Entry) -> str:
+        return f"{entry.acceleration_cost / of.acceleration_cost:.3g}"
+
+    def percent(entry: Entry) -> str:
+        return f"{100 * max(entry.velocity_error or 0.0, entry.acceleration_error or 0.0):.2g}"
+
+    hands = sorted((e for e in race.entries if e.key == "by hand"), key=lambda e: float(e.tag))
+    drawn, closed = race.of("exact drawing"), race.of("closed arrays")
+    told = []
+    if hands:
+        usual, large = next((e for e in hands if e.tag == "1"), hands[0]), hands[-1]
+        told.append(Phrase("speed lesson draw", (
+            f"{usual.acceleration_cost / 60:.2g}", percent(usual), usual.tag, percent(large), large.tag,
+            f"{1e3 * drawn.acceleration_cost:.2g}", error(drawn),
+        )))  # fmt: skip
+    told.append(Phrase("speed lesson compute", (times(closed, drawn), error(closed))))
+    steps = [e for e in race.entries if e.key == "differences"]
+    newton = min((e for e in race.entries if e.key == "Newton"), key=lambda e: float(error(e)), default=None)
+    if steps and newton is not None:
+        single = race.of("closed single")
+        best = [min(getattr(e, kind) for e in steps if getattr(e, kind) is not None)
+                for kind in ("velocity_error", "acceleration_error")]  # fmt: skip
+        told.append(Phrase("speed lesson lose", (
+            times(steps[0], closed), *(f"{off:.1g}" for off in best), times(single, closed), error(single),
+            times(newton, closed), error(newton),
+        )))  # fmt: skip
+    return tuple(told)
+
+
+def _lessons(race: Race, language: str) -> list[str]:
+    lines = [say(lesson, language) for lesson in lessons(race)]
+    lines.append(say(Phrase("speed hand", (race.acts,)), language))
+    if race.skipped:
+        told = "; ".join(f"{peer} {say(why, language)}" for peer, why in race.skipped)
+        lines.append(say(Phrase("skipped", (told,)), language))
+    return lines
+
+
+def _lines(paragraphs: Sequence[str], y: float, letters: float, step: float) -> list[Text]:
+    """Paragraphs (markup) over the width of the page, from a baseline down."""
+    lines = [runs for markup in paragraphs for runs in wrapped(markup, letters, WIDTH - LEFT - RIGHT + 12)]
+    return [Text(complex(LEFT - 12, y + k * step), runs) for k, runs in enumerate(lines)]
+
+
+def _points(entries: Sequence[Entry], kind: str) -> list[tuple[Entry, float, float]]:
+    """Entries that give something, with cost and error."""
+    found = []
+    for e in entries:
+        cost, error = (
+            (e.velocity_cost, e.velocity_error) if kind == "velocity" else (e.acceleration_cost, e.acceleration_error)
+        )
+        if error is not None and math.isfinite(error):
+            found.append((e, cost, max(error, LOWEST * 1.5)))
+    return found
+
+
+def _draw(figure: Figure, race: Race, kind: str, box: Box, language: str) -> None:
+    points = _points(race.entries, kind)
+    costs = [c for _, c, _ in points]
+    floor = race.copying[kind == "acceleration"]
+    title = f"{word(f'speed of {kind}', language)}: {word('largest error', language)}"
+    axes = add_panel(figure, box, f"speed-{kind}", title, word("cost of a position", language))
+    count_powers(axes, "x", min(floor, *costs) / 1.5, max(costs) * 1.5, most=14)
+    count_powers(axes, "y", LOWEST, HIGHEST)
+    points = [p for p in points if p[2] <= HIGHEST]
+    axes.plot([floor] * 2, [LOWEST, HIGHEST], **look(FLOOR))
+    for name, stroke in LINES.items():
+        own = [p for p in points if p[0].family == name or (name == "pencil" and p[0].key == "pencil")]
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **look(stroke))
+    for e, cost, error in points:  # lines from each whole run to the one that is limited to what is asked
+        whole = next((p for p in points if p[0].key == e.key and not p[0].tag and e.tag == "asked"), None)
+        if whole is not None:
+            axes.plot([whole[1], cost], [whole[2], error], **look(SAVED))
+    for family, shape in SHAPES.items():
+        own = [p for p in points if p[0].family == family]
+        axes.plot([c for _, c, _ in own], [e for _, _, e in own], **marker(shape))
+    named = [(_words(race, e, points, language), (cost, error)) for e, cost, error in points]
+    stretch = (floor, HIGHEST / 20), (floor, HIGHEST / 2e4)
+    add_labels(axes, [*((w, at) for w, at in named if w), (word("copying", language), stretch)], LETTERS_TRIED)
+
+
+def _words(race: Race, entry: Entry, points: Sequence[tuple[Entry, float, float]], language: str) -> str:
+    """The name of a method at its point; of a curve's points the first bears the name, some their numbers."""
+    if entry.tag == "asked":
+        return say(Phrase("only asked", (word(entry.key, language), _written(race.asked[0]))), language)
+    if not entry.tag:
+        return word(entry.key, language)
+    name = word("differences of" if entry.key == "differences" else entry.key, language)
+    first = next(p[0] for p in points if p[0].key == entry.key)
+    number = _number(entry.tag)
+    if entry is first:
+        return f"{name} {number}"
+    if entry.family in NUMBERED:
+        return number if entry.tag in NUMBERED[entry.family] else ""
+    last = [p[0] for p in points if p[0].key == entry.key][-1]
+    return number if entry is last else ""
+
+
+def _written(symbol: Symbol) -> str:
+    """A symbol as it is set: v_B@3 with B3 as its index."""
+    if symbol.link:
+        return f"${'ω' if symbol.kind == 'omega' else 'α'}_{{{symbol.link}}}$"
+    parts = [f"{ref.point}{ref.link}" for ref in (symbol.of, symbol.to) if ref is not None]
+    return f"${symbol.kind[0]}_{{{'/'.join(parts)}}}$"
+
+
+def _number(tag: str) -> str:
+    if "e-" in tag:
+        return f"$10^{{−{tag.partition('e-')[2]}}}$"
+    return {"0.25": "1/4", "0.5": "1/2"}.get(tag, tag)

@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphkin.races.computed import Numeric
-from graphkin.races.timing import Entry, Skipped, best_time
-from graphkin.races.work import FINE, Work
+from graphkin.races.methods import Numeric
+from graphkin.races.work import FINE, Entry, Skipped, Work, best_time
 from graphkin.scene.model import Driver
 from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad
@@ -243,22 +242,22 @@ def scipy_root(work: Work, repeats: int) -> Iterator[Entry]:
     _need("scipy")
     from scipy.optimize import root
 
-    own = Numeric(work)
+    numeric = Numeric(work)
 
     def one(k: int) -> Array:
-        values = [v[k : k + 1] for v in own.values]
+        values = [v[k : k + 1] for v in numeric.values]
 
         def gap(x: Array) -> Array:
-            return own.equations.open(x[:, None], values)[:, 0]
+            return numeric.equations.open(x[:, None], values)[:, 0]
 
-        return np.asarray(root(gap, own.before[:, k]).x)
+        return np.asarray(root(gap, numeric.before[:, k]).x)
 
     places = np.array([one(k) for k in range(len(work.values))]).T
-    found = own.equations.rates(places, own.values, own.first, own.second)
-    rates = best_time(lambda: own.equations.rates(places[:, :1], [v[:1] for v in own.values], own.first, own.second),
-                      repeats)
+    solution = numeric.equations.rates(places, numeric.values, numeric.first, numeric.second)
+    first = [v[:1] for v in numeric.values]
+    rates = best_time(lambda: numeric.equations.rates(places[:, :1], first, numeric.first, numeric.second), repeats)
     cost = best_time(lambda: one(0), repeats)
-    yield Entry("peer", "scipy root", "", cost + rates / 2, cost + rates, *work.errors(*own.points(found)))
+    yield Entry("peer", "scipy root", "", cost + rates / 2, cost + rates, *work.errors(*numeric.points(solution)))
 
 
 PEERS = {"pylinkage": pylinkage, "scipy": scipy_root}

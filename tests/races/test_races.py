@@ -17,10 +17,9 @@ import pytest
 import graphkin
 import graphkin.races
 from graphkin.api.studied import SpeedAccuracy
-from graphkin.races import Race, peers, race, race_page, race_table, timing, to_json
+from graphkin.races import Race, _peer, lessons, peers, race, race_page, race_table, to_json, work
 from graphkin.races.peers import pylinkage
-from graphkin.races.run import _peer, lessons
-from graphkin.races.timing import Skipped
+from graphkin.races.work import Skipped
 from graphkin.scene import mechanism_of
 from graphkin.words import say
 from tests.drawing.chart_words import off_the_page, overlapping
@@ -32,7 +31,7 @@ SEEDS = 12  # drawings of a pencil, whose mean error hangs less on one of them t
 
 @pytest.fixture(autouse=True)
 def quick(monkeypatch):
-    monkeypatch.setattr(timing, "ENOUGH", 0.0)
+    monkeypatch.setattr(work, "ENOUGH", 0.0)
 
 
 @cache
@@ -42,7 +41,7 @@ def raced(name: str = SIXBAR) -> Race:
     hidden = "" if name == SIXBAR else "numba"
     with (
         patch("importlib.util.find_spec", lambda package: None if package == hidden else find(package)),
-        patch("graphkin.races.run.SEEDS", SEEDS),
+        patch("graphkin.races.methods.SEEDS", SEEDS),
     ):
         return race(mechanism_of(name), repeats=1, count=480)
 
