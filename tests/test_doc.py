@@ -15,7 +15,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import schema
-from graphkin.scene.design_file import design_of
+from graphkin.scene.designs import design_of
 from tests import command
 
 ROOT = Path(__file__).parent.parent

@@ -16,7 +16,7 @@ import pytest
 import graphkin
 from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Problem
-from graphkin.scene.design_file import KINDS
+from graphkin.scene.designs import KINDS
 from graphkin.scene.files import library_text
 from graphkin.scene.form import clause_of
 from graphkin.scene.tables import FileTable, keys_of

@@ -18,18 +18,19 @@ from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction
-from graphkin.scene.design_file import DesignLike, design_of
-from graphkin.scene.scene import Scene
-from graphkin.scene.synthesis import (
+from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
     Design,
+    DesignLike,
     FunctionTask,
     GuideBarTask,
     LimitsTask,
     SliderCrankTask,
+    design_of,
     scene_table,
 )
+from graphkin.scene.scene import Scene
 from graphkin.words import LANGUAGES, Neutral, Phrase, say
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from graphkin.construction.cam_sheet import CamSheet, division_by_hand
 from graphkin.construction.design_sheet import DesignSheet
 from graphkin.construction.synthesis import construct
 from graphkin.errors import Unsolvable
+from graphkin.scene.designs import DesignTask
 from graphkin.scene.sheet import Tools
-from graphkin.scene.synthesis import DesignTask
 from graphkin.solver.cams import cam_at
 
 __all__ = ["CamPoints", "FoundLength", "compare_cam", "compare_lengths", "predict_cam", "predict_lengths"]

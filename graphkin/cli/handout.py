@@ -82,7 +82,7 @@ def handout(
 ) -> None:
     """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
     from graphkin.api.handouts import handout as handing
-    from graphkin.scene.design_file import is_design
+    from graphkin.scene.designs import is_design
 
     wanted = split_words(formats)
     if text != "glyphs":

@@ -65,7 +65,7 @@ def scenes(
 
 def _begin(kind: str, given: list[str], file: Path | None) -> None:
     """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
-    from graphkin.scene.new_scene import NEW, new_scene
+    from graphkin.scene.files import NEW, new_scene
 
     values: dict[str, float] = {}
     for text in given:
@@ -78,7 +78,7 @@ def _begin(kind: str, given: list[str], file: Path | None) -> None:
             ) from None
     new_scene(kind, values)
     if sys.stdin is not None and sys.stdin.isatty():
-        for name, usual in NEW[kind].asks.items():
+        for name, usual in NEW[kind].items():
             if name not in values:
                 values[name] = typer.prompt(name, default=usual, type=float, err=True)
     made = new_scene(kind, values)

@@ -10,7 +10,7 @@ from graphkin.construction.instruments import Instrument
 from graphkin.construction.sheet import PARALLEL
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_line_arc, cross_lines, unit
-from graphkin.scene.synthesis import DesignTask
+from graphkin.scene.designs import DesignTask
 from graphkin.words import Phrase
 
 __all__ = [

@@ -22,7 +22,7 @@ from graphkin.construction.design_sheet import (
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, direction, dot, unit
-from graphkin.scene.synthesis import (
+from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
     DesignTask,

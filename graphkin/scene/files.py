@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import tomllib
 from collections.abc import Mapping
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from string import Template
 
-from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.errors import CallError, Problem, SceneError, did_you_mean
 from graphkin.files import OwnTables, Tables, opened
 from graphkin.words import Phrase, Wording, from_others
 
-__all__ = ["LARGEST_FILE", "file_text", "files_named", "library", "library_text", "parsed", "toml_text"]
+__all__ = [
+    "LARGEST_FILE", "NEW", "file_text", "files_named", "library", "library_text", "new_scene", "parsed", "shelf",
+    "toml_text",
+]  # fmt: skip
 
 LARGEST_FILE = 1_000_000
 DEEPEST = 16
@@ -31,20 +36,21 @@ def files_named(folder: Traversable) -> tuple[str, ...]:
     return tuple(sorted(f.name.removesuffix(".toml") for f in folder.iterdir() if f.name.endswith(".toml")))
 
 
-def _shelf() -> Traversable:
+def shelf() -> Traversable:
+    """The folder of what comes along."""
     return files("graphkin.scene") / "library"
 
 
 def library() -> tuple[str, ...]:
     """Names of the scenes that come along, sorted."""
-    return files_named(_shelf())
+    return files_named(shelf())
 
 
 def library_text(name: str) -> str:
     """The text of a scene that comes along.  Raises SceneError for a name that is not there."""
     if name not in library():
         raise SceneError(_no_scene(name))
-    return (_shelf() / f"{name}.toml").read_text(encoding="utf-8")
+    return (shelf() / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def parsed(text: str) -> OwnTables:
@@ -204,3 +210,42 @@ def _is_table(value: object) -> bool:
     return isinstance(value, Mapping) or (
         isinstance(value, list) and bool(value) and all(isinstance(v, Mapping) for v in value)
     )
+
+
+# -- new scenes --------------------------------------------------------------------------------------------------------
+
+NEW: Mapping[str, Mapping[str, float]] = {
+    "four-bar": {"crank": 150, "coupler": 500, "rocker": 300, "frame": 400, "angle": 60, "rpm": 60},
+    "slider-crank": {"crank": 50, "rod": 200, "offset": 0, "angle": 60, "rpm": 60},
+    "guide-bar": {"crank": 100, "centres": 250, "angle": 60, "rpm": 60},
+    "swinging-block": {"crank": 100, "centres": 250, "angle": 60, "rpm": 60},
+}
+"""Kinds of mechanisms of which a commented file comes along, to go on from with one's own lengths: what each asks for,
+with a value that works (mm, degrees, rpm)."""
+
+
+def new_scene(kind: str, given: Mapping[str, float]) -> str:
+    """The text of a new scene file.
+
+    Parameters
+    ----------
+    given : lengths and driver by their names, as far as they are not to be the usual ones
+
+    Raises
+    ------
+    CallError : an unknown kind, an unknown name, a length that is not positive
+    """
+    if kind not in NEW:
+        raise CallError(Problem("--new", f'"{kind}"', did_you_mean(kind, NEW)))
+    asks = NEW[kind]
+    problems = [Problem(f"--new {kind}", Phrase("asks for no", number=name), did_you_mean(name, asks))
+                for name in given if name not in asks]  # fmt: skip
+    for name, value in given.items():
+        signed = name in ("offset", "angle", "rpm")
+        if not math.isfinite(value) or abs(value) > 1e9 or (not signed and value <= 0):
+            wanted = Phrase("a finite number") if signed else Phrase("a length is positive")
+            problems.append(Problem(name, Phrase("found value", value=f"{value:g}"), wanted))
+    if problems:
+        raise CallError(*problems)
+    text = (shelf() / "new" / f"{kind}.toml").read_text(encoding="utf-8")
+    return Template(text).substitute({name: f"{value:g}" for name, value in {**asks, **given}.items()})

@@ -70,8 +70,8 @@ class Form(Generic[AnyTable]):
             for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
                 loc: KeyPath = tuple(item["loc"])
                 path = _written_path(loc)
-                if item["type"] == "missing" and value_at(raw, path) is not None:
-                    continue  # it was there under a misspelt name
+                if item["type"] == "missing" and (value_at(raw, path) is not None or path in gone):
+                    continue  # it was there under a misspelt name, or with something wrong in it
                 if path not in problems:
                     problems[path] = Problem(path_name(path), *self._sentence(loc, path, dict(item)))
                 meant = self._meant(loc, raw) if item["type"] == UNKNOWN else None
@@ -164,7 +164,10 @@ class Form(Generic[AnyTable]):
         if kind in ("too_short", "too_long") and loc == ("links",):
             return Phrase("there is none"), Phrase("a scene has moving links links.1 and so")
         if kind in ("too_short", "too_long"):
-            return found, _SIZES.get(str(path[-1]), Phrase("a place is x y"))
+            if isinstance(value, list) and value and isinstance(value[0], dict | list):
+                found = Phrase("found of them", count=len(value))
+            within = f"{path[-2]}." if isinstance(path[-1], int) else str(path[-1])
+            return found, _SIZES.get(within, Phrase("a place is x y"))
         if kind == "string_too_long":
             limit = ctx["max_length"]
             return Phrase("is characters long", count=len(value)), Phrase("at most are possible", limit=limit)
@@ -274,7 +277,10 @@ def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
 # -- sentences ---------------------------------------------------------------------------------------------------------
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
-_NOUNS = {"count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation"}
+_NOUNS = {
+    "count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation",
+    "K": "number", "swing": "number",
+}  # fmt: skip
 """What must be positive, where it is no length."""
 _KINDS = {
     "string_type": Phrase("a text is wanted"),
@@ -293,8 +299,12 @@ _SIZES = {
     "driver": Phrase("two values of the driver are wanted"),
     "between": Phrase("two outlines or wheels are wanted 1.k 2.f"),
     "teeth": Phrase("two are wanted one for each wheel 20"),
+    "angles": Phrase("two angles in degrees are wanted 30 30"),
+    "pairs": Phrase("three of are wanted", wanted=Phrase("crank angle rocker angle")),
+    "pairs.": Phrase("two angles in degrees are wanted 30 60"),
+    "positions": Phrase("three of are wanted", wanted="{ B = [x, y], C = [x, y] }"),
 }
-"""How long the list of a key is."""
+"""How long the list of a key is, or with a point, one in it."""
 
 
 def shown(value: object) -> Wording:

@@ -15,7 +15,7 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, direction, unit
-from graphkin.scene.synthesis import (
+from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
     DesignTask,

@@ -16,7 +16,7 @@ from graphkin.construction.synthesis import construct
 from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import walk
 from graphkin.plane import direction
-from graphkin.scene.design_file import design_of, designs
+from graphkin.scene.designs import design_of, designs
 from graphkin.scene.sheet import Tools
 from graphkin.solver.synthesis import synthesise
 from graphkin.words.rich_text import as_plain, rich_text
@@ -159,12 +159,14 @@ def test_the_greatest_offset_is_just_not_reached():
     ("design", "said"),
     [
         ({"kind": "slider-crank", "stroke": 50}, "design.K: is missing"),
-        ({**SLIDER, "stroke": -5}, "design.stroke: found -5, a negative number"),
+        ({**SLIDER, "stroke": -5}, "design.stroke: found -5, a negative length"),
         ({**SLIDER, "strok": 5}, 'did you mean "stroke"'),
-        ({**SLIDER, "offset": -1}, "positive or 0"),
+        ({**SLIDER, "offset": -1}, "design.offset: found -1; no number of a scene may be below 0"),
         ({"kind": "slider"}, 'did you mean "slider-crank"? the kinds are slider-crank, crank-rocker, guide-bar'),
         ({"kind": "four-bar"}, "limits, three-positions, function"),
         ({"kind": "three-positions", "positions": [{"B": [0, 0], "C": [1, 0]}]}, "found 1 of them"),
+        ({"kind": "function", "pairs": [[1, 2], [3], [4, 5]]}, "design.pairs.2: found [3]; two angles in degrees"),
+        ({**SLIDER, "K": -1}, "design.K: found -1, a negative number"),
         ({**PLACES, "A": [0, 0]}, "design.D: is missing"),
         ({"kind": "limits", "A": [0], "D": [1, 1], "rocker": 1, "angles": [1, 2]}, "a place is"),
     ],

@@ -8,7 +8,7 @@ import pytest
 
 import graphkin
 from graphkin.api.task_papers import cam_papers, design_papers
-from graphkin.scene.design_file import designs, is_design
+from graphkin.scene.designs import designs, is_design
 from tests.command import run
 
 PAPERS = {"problem.html", "solution.html", "key.html"}

@@ -32,7 +32,7 @@ from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, cut_to, joined, moved_piece
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.scene.synthesis import BarPositionsTask, Design
+from graphkin.scene.designs import BarPositionsTask, Design
 from graphkin.version import __version__
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.rich_text import as_markup, as_plain, rich_text

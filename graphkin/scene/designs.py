@@ -1,0 +1,375 @@
+"""Design files: what a mechanism shall do, from which its lengths are to be found; found, read, every problem of a file
+told at once.
+
+Each kind of task is a table whose fields are the keys of ``[design]``.  A wish that no mechanism can meet is not asked
+here: a file may be right and its wish impossible.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from importlib.resources.abc import Traversable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
+
+from pydantic import AfterValidator
+from pydantic import Field as Rule
+
+from graphkin.errors import CallError, Problem, SceneError, did_you_mean
+from graphkin.files import Json, OwnTables, Tables
+from graphkin.plane import degrees, direction
+from graphkin.scene import files
+from graphkin.scene.form import Form, plain, shown
+from graphkin.scene.scene import safe_name
+from graphkin.scene.sheet import SheetWishes
+from graphkin.scene.tables import (
+    SMALLEST,
+    FileTable,
+    List,
+    Magnitude,
+    NotNegative,
+    Number,
+    Place,
+    Text,
+    Units,
+    key,
+    table,
+    table_by_name,
+    xy,
+)
+from graphkin.words import Phrase, Wording
+
+__all__ = [
+    "KINDS", "BarPlace", "BarPositionsTask", "CrankRockerTask", "Design", "DesignLike", "DesignTask", "FunctionTask",
+    "GuideBarTask", "LimitsTask", "SliderCrankTask", "design_of", "designs", "is_design", "scene_table",
+]  # fmt: skip
+
+SAME_BAR = 1e-3
+"""Of its length: so much a bar may differ between its places."""
+
+Pair = Annotated[List[Number], Rule(min_length=2, max_length=2)]
+if TYPE_CHECKING:
+    Point = complex
+    Bars = tuple["BarPlace", "BarPlace", "BarPlace"]
+else:
+    Point = Annotated[Place, AfterValidator(lambda place: complex(*place))]
+    Bars = Annotated[list["PlacedBar"], Rule(min_length=3, max_length=3)]
+
+
+@table_by_name
+class SliderCrankTask(FileTable):
+    """A slider-crank for a stroke, an offset of the slide's line from the crank's pivot, and K."""
+
+    kind: ClassVar = "slider-crank"
+    stroke: Magnitude = key("stroke of the slider")
+    offset: NotNegative = key("offset of its line from the pivot", default=0.0)
+    K: Magnitude = key("coefficient of travel-speed variation")
+
+
+@table_by_name
+class CrankRockerTask(FileTable):
+    """A crank-rocker for the swing of its rocker and K."""
+
+    kind: ClassVar = "crank-rocker"
+    swing: Magnitude = key("swing of the rocker in degrees")
+    rocker: Magnitude = key("length CD of the rocker")
+    K: Magnitude = key("coefficient of travel-speed variation")
+    frame: Magnitude = key("distance AD of the fixed pivots")
+
+
+@table_by_name
+class GuideBarTask(FileTable):
+    """A swinging guide bar that moves a ram by a rod, for the ram's stroke and K."""
+
+    kind: ClassVar = "guide-bar"
+    stroke: Magnitude = key("stroke of the ram")
+    centres: Magnitude = key("distance AC of the fixed pivots")
+    K: Magnitude = key("coefficient of travel-speed variation")
+    rod: Magnitude | None = key("length of the rod, as long as the stroke if left out", default=None)
+
+    @property
+    def rod_length(self) -> float:
+        return self.stroke if self.rod is None else self.rod
+
+
+@table_by_name
+class LimitsTask(FileTable):
+    """A crank-rocker whose rocker stands at two angles in its limit positions."""
+
+    kind: ClassVar = "limits"
+    A: Point = key("pivot of the crank, [x, y]")
+    D: Point = key("pivot of the rocker, [x, y]")
+    rocker: Magnitude = key("length CD of the rocker")
+    angles: Pair = key("two angles of DC in degrees")
+
+
+@dataclass(frozen=True)
+class BarPlace:
+    """Where a bar lies: two points of it."""
+
+    B: complex
+    C: complex
+
+    def moved(self, place: complex, to: BarPlace) -> complex:
+        """Where a place carried along with the bar lies when the bar lies ``to``."""
+        turn = (to.C - to.B) / (self.C - self.B)
+        return to.B + (place - self.B) * turn / abs(turn)
+
+
+@table
+class PlacedBar(FileTable):
+    """Where a bar lies, as a file has it."""
+
+    B: Point = key("the first point of the bar, [x, y]")
+    C: Point | None = key("The other point of the bar, [x, y].", default=None)
+    angle: Number | None = key("Instead of C: degrees of the bar.", default=None)
+
+
+@table_by_name
+class BarPositionsTask(FileTable):
+    """A four-bar whose coupler lies in three given places, by its moving pivots B and C, or by its fixed pivots."""
+
+    kind: ClassVar = "three-positions"
+    positions: Bars = key("three places of the bar")
+    BC: Magnitude | None = key("length of the bar, where its places are told by B and an angle", default=None)
+    A: Point | None = key("a fixed pivot, [x, y]", default=None)
+    D: Point | None = key("the other fixed pivot, [x, y]", default=None)
+    angles: tuple[float, ...] = field(default=(), metadata={"beside": True})  # as given, degrees
+
+
+@table_by_name
+class FunctionTask(FileTable):
+    """A four-bar whose rocker stands at given angles for three angles of its crank."""
+
+    kind: ClassVar = "function"
+    frame: Magnitude = key("distance AD of the fixed pivots", default=1.0)
+    pairs: Annotated[List[Pair], Rule(min_length=3, max_length=3)] = key(
+        "three of [crank angle, rocker angle] in degrees"
+    )
+
+
+DesignTask = SliderCrankTask | CrankRockerTask | GuideBarTask | LimitsTask | BarPositionsTask | FunctionTask
+KINDS: dict[str, type[DesignTask]] = {
+    kind.kind: kind
+    for kind in (SliderCrankTask, CrankRockerTask, GuideBarTask, LimitsTask, BarPositionsTask, FunctionTask)
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Design:
+    """A design file: a task with its units and the wishes for its sheet."""
+
+    task: DesignTask
+    name: str = "design"
+    title: str = ""
+    title_zh: str = ""
+    source: str = ""
+    units: Units = field(default_factory=Units)
+    sheet: SheetWishes = field(default_factory=SheetWishes)
+
+    def title_in(self, language: str) -> str:
+        """Title in a language, the other where there is none."""
+        return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
+
+
+@table
+class _DesignTables(FileTable):
+    """A design file but for its task."""
+
+    title: Text = ""
+    title_zh: Text = ""
+    source: Text = ""
+    design: dict[str, Any] = field(default_factory=dict)
+    units: Units = Units()
+    sheet: SheetWishes = SheetWishes()
+
+
+DESIGN = Form(_DesignTables, "graphkin design")
+
+# -- finding and reading -----------------------------------------------------------------------------------------------
+
+DesignLike = Design | str | os.PathLike[str] | Tables
+
+
+def _shelf() -> Traversable:
+    return files.shelf() / "designs"
+
+
+def designs() -> tuple[str, ...]:
+    """Names of the design files that come along, sorted."""
+    return files.files_named(_shelf())
+
+
+def is_design(source: object) -> bool:
+    """Whether this is a design file, the name of one that comes along, or a mapping of the same shape, and no scene."""
+    if isinstance(source, Mapping):
+        return "design" in source and "links" not in source
+    if not isinstance(source, str | os.PathLike):
+        return isinstance(source, Design)
+    text = os.fspath(source)
+    if os.path.isfile(text):
+        try:
+            raw = files.parsed(files.file_text(text))
+        except SceneError:
+            return False
+        return is_design(raw)
+    return text in designs() and text not in files.library()
+
+
+def design_of(source: DesignLike) -> Design:
+    """Read a design file.
+
+    Parameters
+    ----------
+    source : a path, the name of a design that comes along, or what a TOML parser makes of a design file
+
+    Raises
+    ------
+    SceneError : everything that is wrong with the file
+    """
+
+    if isinstance(source, Design):
+        return source
+    if isinstance(source, str) and source in designs() and not os.path.isfile(source):
+        raw, name = files.parsed((_shelf() / f"{source}.toml").read_text(encoding="utf-8")), source
+    elif isinstance(source, str | os.PathLike):
+        text = os.fspath(source)
+        if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):
+            missing = Phrase("there is no such file and no design")
+            raise SceneError(Problem(text[:200], missing, did_you_mean(text[:60], designs())))
+        raw, name = files.parsed(files.file_text(text)), Path(text).stem
+    else:
+        if not isinstance(source, Mapping):
+            wanted = Phrase("give a file the name of a design")
+            raise CallError(Problem("design", Phrase("found value", value=f'{source!r:.60}'), wanted))
+        raw, name = plain(source), "design"
+    return _read(raw, safe_name(name))
+
+
+def _read(raw: Tables, name: str) -> Design:
+    problems: list[Problem] = []
+    given = plain(raw)
+    if "links" in given:
+        found = Phrase("unknown table") if isinstance(given.pop("links"), dict) else Phrase("unknown key")
+        problems.append(Problem("links", found, Phrase("this is a scene a design file has")))
+    if given.get("design") is None:
+        problems.append(Problem("design", Phrase("is missing"), Phrase("a design file has a table design with")))
+    own, wrong, _ = DESIGN.checked(given)
+    task = _task(own.design, problems) if own.design else None
+    problems += wrong
+    if problems or task is None:
+        raise SceneError(*problems)
+    return Design(task=task, name=name, title=own.title, title_zh=own.title_zh, source=own.source, units=own.units,
+                  sheet=own.sheet)  # fmt: skip
+
+
+def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
+    """The task that a table says; None where something is wrong with it, which is added to ``problems``."""
+    kind = raw.pop("kind", None)
+    if kind is None:
+        problems.append(Problem("design.kind", Phrase("is missing"), Phrase("one of", names=", ".join(KINDS))))
+        return None
+    if not isinstance(kind, str) or kind not in KINDS:
+        problems.append(Problem("design.kind", Phrase("found value", value=shown(kind)), _kind_meant(str(kind))))
+        return None
+    wrong: tuple[Problem, ...] | list[Problem]
+    try:
+        task, wrong, _ = Form(KINDS[kind], kind).checked(raw)
+    except SceneError as error:
+        wrong = error.problems
+    problems += (replace(problem, where=f"design.{problem.where}") for problem in wrong)
+    if wrong:
+        return None
+    return _bar_positions(task, problems) if isinstance(task, BarPositionsTask) else task
+
+
+def _kind_meant(kind: str) -> Wording:
+    """The kinds that there are, the nearest first."""
+    hint, known = did_you_mean(kind, KINDS), Phrase("the kinds are", names=", ".join(KINDS))
+    return Phrase("one sentence and another", first=hint, second=known) if hint.key == "did you mean" else known
+
+
+def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositionsTask | None:
+    """The task with each place of the bar by two points; None where the places do not agree, which is noted."""
+    bars: list[PlacedBar] = list(task.positions)  # type: ignore[arg-type]  # as the file has them
+    length, before = task.BC or 0.0, len(problems)
+
+    def say(where: str, found: Wording, wanted: Wording) -> None:
+        problems.append(Problem(f"design.{where}", found, wanted))
+
+    for i, bar in enumerate(bars, 1):
+        if (bar.C is None) == (bar.angle is None):
+            found = Phrase("has neither c nor angle") if bar.C is None else Phrase("has both c and angle")
+            say(f"positions.{i}", found, Phrase("a bar lies where b and c lie"))
+    by_angle = any(bar.angle is not None for bar in bars)
+    if by_angle and not length:
+        say("BC", Phrase("is missing"), Phrase("length of the bar since its places are"))
+    if (task.A is None) != (task.D is None):
+        missing = "A" if task.A is None else "D"
+        say(missing, Phrase("is missing"), Phrase("both fixed pivots are given or none"))
+    if len(problems) > before:
+        return None
+    placed = [BarPlace(bar.B, bar.B + length * direction(bar.angle or 0.0) if bar.C is None else bar.C) for bar in bars]
+    own = abs(placed[0].C - placed[0].B)
+    if not by_angle and length and abs(own - length) > SAME_BAR * length:
+        wanted = Phrase("b and c of position 1 lie apart", value=f"{own:.6g}")
+        say("BC", Phrase("found value", value=f"{length:.6g}"), wanted)
+    for i, place in enumerate(placed, 1):
+        here = abs(place.C - place.B)
+        if here < SMALLEST:
+            say(f"positions.{i}", Phrase("b and c lie at one place"), Phrase("a bar has a length"))
+        elif abs(here - own) > SAME_BAR * own:
+            said = Phrase("the bar is long", value=f"{here:.6g}")
+            say(f"positions.{i}", said, Phrase("in position 1", name=f"{own:.6g}"))
+    first, second, third = placed
+    angles = tuple(degrees(place.C - place.B) for place in placed)
+    return None if len(problems) > before else replace(task, positions=(first, second, third), angles=angles)
+
+
+# -- the mechanism that was found --------------------------------------------------------------------------------------
+
+
+def scene_table(design: Design, lengths: Mapping[str, float], places: Mapping[str, complex]) -> dict[str, Json]:
+    """The scene of a mechanism that was found, as a mapping, in the position in which its points lie at ``places``.
+
+    Frame 0, crank 1, coupler or block 2, output 3 (slider, rocker, guide bar), of a guide bar rod 4 and ram 5.
+    """
+    task = design.task
+    fixed = [name for name in ("A", "C" if isinstance(task, GuideBarTask) else "D") if name in places]
+    frame: dict[str, Json] = {"name": "0", "points": {name: xy(places[name]) for name in fixed}}
+    links: dict[str, Json]
+    moving = "B"
+    if isinstance(task, SliderCrankTask):
+        frame["guides"] = {"h": {"through": [0.0, places["C"].imag], "angle": 0.0}}
+        links = {"1": _bar_link("A", "B", lengths), "2": _bar_link("B", "C", lengths),
+                 "3": {"points": ["C"], "on": "0.h"}}  # fmt: skip
+    elif isinstance(task, GuideBarTask):
+        frame["guides"] = {"h": {"through": [0.0, places["E"].imag], "angle": 0.0}}
+        links = {
+            "1": _bar_link("A", "B", lengths), "2": {"points": ["B"], "on": "3"}, "3": _bar_link("C", "D", lengths),
+            "4": {"points": ["D", "E"], "length": task.rod_length}, "5": {"points": ["E"], "on": "0.h"},
+        }  # fmt: skip
+    elif "M" in places:
+        moving = "M"
+        coupler = _bar_link("M", "N", lengths)
+        turn = (places["N"] - places["M"]).conjugate() / abs(places["N"] - places["M"])
+        coupler["at"] = {name: xy((places[name] - places["M"]) * turn) for name in ("B", "C")}
+        links = {"1": _bar_link("A", "M", lengths), "2": coupler, "3": _bar_link("D", "N", lengths)}
+    else:
+        links = {"1": _bar_link("A", "B", lengths), "2": _bar_link("B", "C", lengths),
+                 "3": {"points": ["D", "C"], "length": lengths["CD"]}}  # fmt: skip
+    angle = math.degrees(cmath.phase(places[moving] - places["A"]))
+    made = {key: text for key in ("title", "title_zh", "source") if (text := getattr(design, key))}
+    return {
+        **made, "units": {"length": design.units.length}, "frame": frame, "links": links,
+        "driver": {"link": "1", "angle": angle, "omega": 1.0},
+        "sketch": {name: xy(z) for name, z in places.items() if name not in fixed},
+    }  # fmt: skip
+
+
+def _bar_link(first: str, second: str, lengths: Mapping[str, float]) -> dict[str, Json]:
+    return {"points": [first, second], "length": lengths[first + second]}
