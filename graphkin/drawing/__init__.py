@@ -6,18 +6,6 @@ from graphkin.drawing.write.drawing import Drawing, save
 from graphkin.drawing.write.svg import svg_bytes
 
 __all__ = [
-    "Arc",
-    "Box",
-    "Circle",
-    "Drawing",
-    "Group",
-    "Line",
-    "Polygon",
-    "Polyline",
-    "Primitive",
-    "Run",
-    "Stroke",
-    "Text",
-    "save",
-    "svg_bytes",
-]
+    "Arc", "Box", "Circle", "Drawing", "Group", "Line", "Polygon", "Polyline", "Primitive", "Run", "Stroke", "Text",
+    "save", "svg_bytes",
+]  # fmt: skip

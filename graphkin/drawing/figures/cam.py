@@ -211,8 +211,8 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     for d in shown:
         part, end = _ray(sheet, d, far)
         lines += part
-        text = Text(0j, plain(str(d.number), SMALL), id=f"label-division-{d.number}", classes=("label",))
-        labels.append(Label(text, on_page(end), (cmath.phase(end),), rank=1))
+        labels.append(Label.of(plain(str(d.number), SMALL), on_page(end), f"label-division-{d.number}",
+                               toward=(cmath.phase(end),), rank=1))  # fmt: skip
     if cam.flat:
         half = 0.35 * sheet.base
         faces = [(d.at.point - half * 1j * d.at.way, d.at.point + half * 1j * d.at.way) for d in shown]
@@ -245,8 +245,7 @@ def _cam(scene: Mechanism, sheet: CamSheet, begun: bool = False) -> Block:
     if isinstance(cam.motion, SwingingFollower):
         named += [(cam.motion.pivot, start.line), (cam.motion.tip, start.point)]
     for name, z in named:
-        text = Text(0j, symbol(name), id=f"label-point-{name}", classes=("label",))
-        labels.append(Label(text, on_page(z)))
+        labels.append(Label.of(symbol(name), on_page(z), f"label-point-{name}"))
     turn = _sense(sheet)
     piece = Piece({
         "mechanism": (Group(() if begun else (profile,), id=f"cam-{cam.link}", classes=("cam",)),

@@ -201,8 +201,7 @@ def centrodes_figure(
     groups = tuple(Group(lines, id=id, classes=("centrode",)) for id, lines in drawn.items() if lines)
     names: tuple[Label, ...] = ()
     if here is not None and content.distance(here) == 0.0:
-        text = Text(0j, rich(f"${letters.centre(centre.pair)}$"), classes=("label", "centre"))
-        names = (Label(text, here),)
+        names = (Label.of(rich(f"${letters.centre(centre.pair)}$"), here, classes=("centre",)),)
         mark = Group(mark_of(centre, sheet.scene.frame.name, here), id="centre-" + "-".join(sorted(centre.pair)))
         groups = (*groups, mark)
     page = page.wide_enough(content.width + 2 * ROOM)

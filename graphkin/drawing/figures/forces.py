@@ -304,8 +304,7 @@ def _links(here: MechanismOnPaper, links: set[str]) -> tuple[list[Primitive], li
             size = JOINT_RADIUS * 0.85 if joint else JOINT_RADIUS * 0.5
             fill = strokes.WHITE if joint else strokes.BLACK
             parts.append(Circle(on_page(z), size, fill=fill, stroke=strokes.OUTLINE))
-            text = Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",))
-            labels.append(Label(text, on_page(z), rank=1))
+            labels.append(Label.of(symbol(here.letters.point(point), 3.0), on_page(z), rank=1))
     return parts, labels
 
 
@@ -339,8 +338,7 @@ def _arrows(
         group_id, step = f"acts-{tag}-{n}", stage.on_links(vector)
         drawn.append(Group(arrow(tail, tip, kind, colour), id=group_id, classes=("acting",), step=step))
         markup = letters_of_force(letters, vector)
-        label = Text(0j, symbol(markup, 3.0), "start", colour, f"label-{group_id}", ("label",), step)
-        labels.append(Label(label, (tail, tip), rank=0))
+        labels.append(Label.of(symbol(markup, 3.0), (tail, tip), f"label-{group_id}", colour=colour, step=step))
     turning = [(t.symbol, t.link, t.moment) for t in stage.state.turning]
     for one in group.couples:
         on = one.symbol.other or one.symbol.link
@@ -356,9 +354,8 @@ def _arrows(
         arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if moment > 0 else -1)
         group_id, step = f"acts-{tag}-{named.id}", stage.couples.get(named, stage.known)
         drawn.append(Group(arc, id=group_id, classes=("acting",), step=step))
-        text = Text(0j, symbol(force_letters(letters.convention, named), 3.0), "start", strokes.BLACK,
-                    f"label-{group_id}", ("label",), step)  # fmt: skip
-        labels.append(Label(text, on_page(at + radius * 0.7 * (1 + 1j)), rank=0))
+        labels.append(Label.of(symbol(force_letters(letters.convention, named), 3.0),
+                               on_page(at + radius * 0.7 * (1 + 1j)), f"label-{group_id}", step=step))  # fmt: skip
     return tuple(drawn), labels
 
 
@@ -372,8 +369,8 @@ def shifted_lines(forces: ForceSheet, links: set[str], times: float) -> Iterator
             continue
         line = Line(on_page(at - 5.0 * along), on_page(at + ARROW * along), strokes.DIRECTION)
         across = Line(on_page(centre), on_page(at), strokes.DIMENSION)
-        text = Text(0j, symbol(f"h_{{{link}}}", 2.8), "start", strokes.GREY, classes=("label",))
-        yield Group((line, across), classes=("shifted",)), Label(text, (on_page(centre), on_page(at)), rank=2)
+        yield Group((line, across), classes=("shifted",)), Label.of(symbol(f"h_{{{link}}}", 2.8),
+                (on_page(centre), on_page(at)), colour=strokes.GREY, rank=2)  # fmt: skip
 
 
 def colour_of_force(sheet: Sheet, vector: ForceVector) -> str:
@@ -478,13 +475,13 @@ def drawn_polygon(
         step = stage.in_polygon(whole, link)
         arrows.append(vector_group(name, step, *ends, RESULTANT, colour, classes=("force",)))
         markup, own = letters_of_force(letters, whole), f"label-{name}"
-        text = Text(0j, symbol(markup, 3.2), "start", colour, own, ("label",), step)
-        labels.append(Label(text, ends, rank=0, between=_between(stage, link, whole)))
+        labels.append(Label.of(symbol(markup, 3.2), ends, own, colour=colour, step=step,
+                               between=_between(stage, link, whole)))  # fmt: skip
     for letter, place, vector in corners(stage.group) if stage.group is not None and not link else ():
         names[f"corner-{letter}"] += 1
         own = f"label-corner-{letter}-{names[f'corner-{letter}']}{suffix}"
-        text = Text(0j, symbol(letter, 3.0), "start", classes=("label",), id=own, step=stage.in_polygon(vector, link))
-        labels.append(Label(text, on_page(place + shifts.get(_key(vector), 0j)), rank=1))
+        labels.append(Label.of(symbol(letter, 3.0), on_page(place + shifts.get(_key(vector), 0j)), own, rank=1,
+                               step=stage.in_polygon(vector, link)))  # fmt: skip
     zero = [v for v in vectors if abs(v.span) <= SHORT and not v.known]
     for vector in zero:
         thin.append(Circle(on_page(vector.tip), 0.4, fill=strokes.BLACK))

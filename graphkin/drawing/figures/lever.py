@@ -17,7 +17,7 @@ from graphkin.drawing.boxes import Block, FigurePage, column, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.force_stages import SHORT, lever_extent, lever_on_page
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -101,9 +101,8 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
         thin.append(Line(0j, on_page(end), strokes.RELATIVE))
         written_ = ", ".join(_end(letters, name) for name in names[:3])
         thin.append(Circle(on_page(end), 0.5, fill=strokes.BLACK))
-        labels.append(Label(Text(0j, symbol(written_), "start", classes=("label",)), on_page(end), rank=1))
-    mark = Text(0j, symbol(pole(letters.convention, "velocity")), "start", classes=("label",))
-    labels.append(Label(mark, 0j, rank=0))
+        labels.append(Label.of(symbol(written_), on_page(end), rank=1))
+    labels.append(Label.of(symbol(pole(letters.convention, "velocity")), 0j))
     taken: list[tuple[complex, complex]] = []
     balance = [(replace(lever.unknown, force=lever.unknown.force * (lever.value or 1.0)), True)]
     for row, found in [*((row, False) for row in lever.rows if row.force), *balance]:
@@ -120,8 +119,7 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             markup = force_letters(letters.convention, row.symbol)
             named = as_vector(letters.convention, markup) if row.pair is None else f"{markup}/l"
             named = f"−{named}" if row.turned else named
-            text = Text(0j, symbol(named, 3.0), "start", colour, f"label-{name}", ("label",))
-            labels.append(Label(text, (on_page(at), on_page(tip)), rank=0))
+            labels.append(Label.of(symbol(named, 3.0), (on_page(at), on_page(tip)), f"label-{name}", colour=colour))
         if row.pair is None and abs(row.arm) > SHORT and ends_of:
             along = ends_of[0][1]
             foot = -1j * along * row.arm
@@ -130,8 +128,7 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
                 lines.append(Line(on_page(foot), on_page(row.at), strokes.DIRECTION))
             thin.append(Group(tuple(lines), classes=("arm",)))
             arm = force_letters(letters.convention, Symbol("arm", name=str(row.symbol))) + ("'" if row.turned else "")
-            label = Text(0j, symbol(arm, 2.8), "start", strokes.GREY, classes=("label",))
-            labels.append(Label(label, (0j, on_page(foot)), rank=2))
+            labels.append(Label.of(symbol(arm, 2.8), (0j, on_page(foot)), colour=strokes.GREY, rank=2))
     thin.append(Circle(0j, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE))
     piece = Piece({"velocity": tuple(thin), "forces": tuple(arrows)}, tuple(labels))
     placed = moved_piece(piece, origin)

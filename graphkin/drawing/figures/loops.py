@@ -119,7 +119,7 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
             continue
         unknown = ("s", arrow.arrow.slide) in open_
         written = rich(f"${size_name(arrow)}$ ?") if unknown else symbol(size_name(arrow))
-        labels.append(Label(Text(0j, written, "start", colour, classes=("label",)), (tail, tip)))
+        labels.append(Label.of(written, (tail, tip), colour=colour))
         along = (sheet.poses[arrow.arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
         if arrow.arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
             # the angle of the vector: the link's own, and half a turn more where the loop runs against it
@@ -128,13 +128,12 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
             mark = " ?" if ("theta", loop.loop.ties[arrow.arrow.link]) in open_ else ""
             middle = on_page(cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2))
             angle = rich(f"$θ_{{{arrow.arrow.link}}}${turned}{mark}", 3.0)
-            letter = Text(0j, angle, "start", colour, classes=("label",))
-            labels.append(Label(letter, tail + middle, rank=1))
+            labels.append(Label.of(angle, tail + middle, colour=colour, rank=1))
     for k, arrow in enumerate(loop.arrows):
         if arrow.arrow.names[0]:
             drawn.append(Circle(corners[k], 0.55, fill=strokes.BLACK))
-            point = Text(0j, symbol(letters_of(sheet, "chinese").point(arrow.arrow.names[0])), classes=("label",))
-            labels.append(Label(point, corners[k], rank=1))
+            labels.append(Label.of(symbol(letters_of(sheet, "chinese").point(arrow.arrow.names[0])), corners[k],
+                                   rank=1))
     opened, more = _as_printed(sheet, loop, scale)
     thin += opened
     labels += more
@@ -158,8 +157,9 @@ def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primi
     if abs(ends.end - ends.start) < 0.05:
         return [drawn], []
     metres, unit = sheet.scene.units.metres, sheet.scene.units.length
-    words = Text(0j, rich(f"{number(gap / metres, 4)} {unit}", 2.8), "start", OPEN.colour, classes=("label",))
-    return [drawn, Group((ends,), id=f"gap-{loop.loop.name}", classes=("gap",))], [Label(words, (ends.start, ends.end))]
+    words = rich(f"{number(gap / metres, 4)} {unit}", 2.8)
+    name = Label.of(words, (ends.start, ends.end), colour=OPEN.colour)
+    return [drawn, Group((ends,), id=f"gap-{loop.loop.name}", classes=("gap",))], [name]
 
 
 def _gap(sheet: Sheet, loop: LoopValue) -> float | None:

@@ -155,8 +155,8 @@ def _numbers(shown: Shown) -> Piece:
     for name, sheet in shown.numbered.items():
         ends = _crank_end(sheet)
         if ends is not None and ends[1] != ends[0]:
-            text = Text(0j, plain(name, 2.6), "start", strokes.BLACK, f"label-position-{name}", ("label",))
-            labels.append(Label(text, on_page(ends[1]), (cmath.phase(ends[1] - ends[0]),)))
+            labels.append(Label.of(plain(name, 2.6), on_page(ends[1]), f"label-position-{name}",
+                                   toward=(cmath.phase(ends[1] - ends[0]),)))
     return Piece(labels=tuple(labels))
 
 
@@ -280,7 +280,7 @@ def _gamma(shown: Shown) -> Piece:
     words = rich(rf"$γ_{{min}}$ = {number(math.degrees(gamma), 5)}°", 2.8)
     arc = angle_dimension(on_page(joint), 8.0, start, start + turn, words)[:2]
     middle = on_page(joint + 8.0 * cmath.rect(1.0, start + turn / 2))
-    label = Label(Text(0j, words, "start", strokes.BLACK, "label-least-gamma", ("label",)), middle)
+    label = Label.of(words, middle, "label-least-gamma")
     return Piece({"answers": (Group((*lines, *arc), id="least-gamma"),)}, (label,))
 
 

@@ -15,7 +15,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, framed, panel, prose, row, rows
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import JOINT_RADIUS
 from graphkin.drawing.parts.mechanism import bare_mechanism, links_alone
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper, replaced_pairs
@@ -82,19 +82,17 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
     for point, names in sheet.structure.hinges.items():
         count = len([n for n in names if n in sheet.scene.by_name])
         if count > 2 and point in here.places:
-            text = Text(0j, rich(f"{count} − 1", 2.4, bold=True), "start", strokes.GREY, f"badge-{point}", ("label",))
-            labels.append(Label(text, on_page(here.places[point]), rank=1))
+            labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
+                                   colour=strokes.GREY, rank=1))
     pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in (sheet.scene.instead_of or sheet.scene).pins]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
-        text = Text(0j, symbol("p_{H}", 3.0), "start", strokes.GREY, f"badge-{name}", ("label",))
-        labels.append(Label(text, on_page(place), rank=1))
+        labels.append(Label.of(symbol("p_{H}", 3.0), on_page(place), f"badge-{name}", colour=strokes.GREY, rank=1))
     for cam in here.cams:
         if cam.roller:
-            text = Text(0j, plain(term("own turning", spoken), 2.4), "start", strokes.GREY,
-                        f"badge-roller-{cam.cam.follower}", ("label",))  # fmt: skip
-            labels.append(Label(text, on_page(cam.point), rank=1))
+            labels.append(Label.of(plain(term("own turning", spoken), 2.4), on_page(cam.point),
+                                   f"badge-roller-{cam.cam.follower}", colour=strokes.GREY, rank=1))
     dashed = Piece({"mechanism": replacing_links(here, JOINT_RADIUS)}, tuple(labels))
     stood_for = {f"label-guide-{b.slide.b}-{b.slide.guide.name}" for b in here.sliders
                  if b.slide.key in replaced_pairs(small)}  # fmt: skip
@@ -262,8 +260,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
             parts += [Line(on_page(a), on_page(b), dashed) for a, b in ways if abs(b - a) > TOUCH]
         if slide.a in links and slide.a in here.scene.by_name and slide.a not in numbered:
             numbered.add(slide.a)
-            text = Text(0j, plain(slide.a, bold=True), "start", colour, classes=("label",))
-            labels.append(Label(text, on_page(at), rank=1))
+            labels.append(Label.of(plain(slide.a, bold=True), on_page(at), colour=colour, rank=1))
     pins = {pair.point: strokes.WHITE for pair in outer if pair.turns}
     if any(isinstance(e, Driven) for e in elements):  # where groups hang on it
         pins |= {p: strokes.WHITE for n in links for p in structure.links[n].points if p in structure.hinges}
@@ -272,7 +269,7 @@ def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[l
         if point in here.places:
             at = on_page(here.places[point])
             parts.append(Circle(at, JOINT_RADIUS * 0.85, fill=fill, stroke=strokes.OUTLINE))
-            labels.append(Label(Text(0j, symbol(here.letters.point(point), 3.0), "start", classes=("label",)), at))
+            labels.append(Label.of(symbol(here.letters.point(point), 3.0), at))
     return parts, labels
 
 

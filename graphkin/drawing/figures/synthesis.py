@@ -220,8 +220,7 @@ def _strokes(made: Sequence[DesignStroke], step: int, panel: Box) -> Piece:
             shape = symbols.fixed_pivot(at) if stroke.pivot else symbols.turning_pair(at, radius=0.9)
             name = stroke.name
             marks.append(Group(tuple(shape), id=f"point-{name}", classes=("point",), step=step))
-            text = Text(0j, rich(_letter(name)), id=f"label-point-{name}", classes=("label",), step=step)
-            labels.append(Label(text, at))
+            labels.append(Label.of(rich(_letter(name)), at, f"label-point-{name}", step=step))
     group = (Group(tuple(lines), classes=("strokes",), step=step),) if lines else ()
     things = tuple(thing if isinstance(thing, Group) else Group((thing,), step=step) for thing in marks)
     return Piece({"construction": group, "mechanism": things}, tuple(labels))
@@ -243,7 +242,7 @@ def _angle(stroke: DesignAngle) -> tuple[list[Primitive], Label]:
     apex = on_page(stroke.apex)
     middle = apex + (radius + 1.0) * cmath.rect(1.0, -(first + second) / 2)
     text = f"${stroke.name}$ = {number(stroke.value)}°" if stroke.name else f"{number(stroke.value)}°"
-    label = Label(Text(0j, rich(text, 2.8), classes=("label",)), middle, ((first + second) / 2,), rank=1)
+    label = Label.of(rich(text, 2.8), middle, toward=((first + second) / 2,), rank=1)
     return [Arc(apex, radius, first, second, strokes.DIMENSION)], label
 
 

@@ -13,7 +13,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Stroke, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, arrow, hatched_line
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_labels
@@ -116,16 +116,15 @@ def _lines(sheet: Sheet, plan: TrainPlan, k: int, letters: Letters, start: float
         written.setdefault(round(h, 3), []).append(letters.point(spot.name) if not spot.rolls else spot.name)
     for h, names in written.items():
         markup = ", ".join(dict.fromkeys(names))
-        text = Text(0j, symbol(markup, 3.0), "start", classes=("label",), id=f"label-plan-{'-'.join(names)}{tag}")
-        labels.append(Label(text, complex(0.0, -h), rank=1))
+        labels.append(Label.of(symbol(markup, 3.0), complex(0.0, -h), f"label-plan-{'-'.join(names)}{tag}", rank=1))
     for one in own:
         colour = strokes.colour_of_link(sheet.scene, one.link)
         a, b = (on_page(z) for z in one.ends)
         over = 3.0 * (b - a) / abs(b - a)
         arrows.append(Group((Line(a - over, b + over, strokes.LINK.coloured(colour)),),
                             id=f"plan-line-{one.link}{tag}", classes=("plan-line",)))  # fmt: skip
-        name = Text(0j, rich(one.link, 3.2, bold=True), "start", colour, f"label-plan-line-{one.link}{tag}", ("label",))
-        labels.append(Label(name, (a, b), rank=0))
+        labels.append(Label.of(rich(one.link, 3.2, bold=True), (a, b), f"label-plan-line-{one.link}{tag}",
+                               colour=colour))
     return Piece({"construction": tuple(thin), plan.order: tuple(arrows)}, tuple(labels))
 
 
@@ -139,7 +138,7 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, letters: Letters) -> Piece:
                              Line(0j, complex(0.0, deep), strokes.DIRECTION),
                              Circle(0j, 0.9, fill=strokes.WHITE, stroke=strokes.OUTLINE)]  # fmt: skip
     rays: list[Primitive] = []
-    labels = [Label(Text(0j, symbol("P", 3.2), "start", classes=("label",)), 0j, (1.57,), rank=0)]
+    labels = [Label.of(symbol("P", 3.2), 0j, toward=(1.57,))]
     feet_of: dict[float, list[str]] = {}
     for one in shown:
         colour = strokes.colour_of_link(sheet.scene, one.link)
@@ -150,8 +149,8 @@ def _rate_scale(sheet: Sheet, plan: TrainPlan, letters: Letters) -> Piece:
         feet_of.setdefault(round(one.foot, 2), []).append(one.link)
     for x, links in feet_of.items():
         markup = ", ".join(f"{sign}_{{{n}}}" for n in links)
-        text = Text(0j, symbol(markup, 3.0), "start", classes=("label",), id=f"label-plan-rate-{'-'.join(links)}")
-        labels.append(Label(text, complex(x, deep + 1.2), (-1.57,), rank=0))
+        labels.append(Label.of(symbol(markup, 3.0), complex(x, deep + 1.2), f"label-plan-rate-{'-'.join(links)}",
+                               toward=(-1.57,)))
     return Piece({"construction": tuple(thin), plan.order: tuple(rays)}, tuple(labels))
 
 
@@ -256,8 +255,8 @@ def scheme(scene: Mechanism, line: CentreLine, mm: float, width: float) -> Piece
         shapes.setdefault(link, []).append(Line(a, b, stroke))
         if link not in named and link in scene.by_name:
             named.add(link)
-            text = Text(0j, plain(link, 3.2, bold=True), "start", stroke.colour, f"label-plan-wheel-{link}", ("label",))
-            labels.append(Label(text, (a, b), rank=0))
+            labels.append(Label.of(plain(link, 3.2, bold=True), (a, b), f"label-plan-wheel-{link}",
+                                   colour=stroke.colour))
 
     for mesh in line.meshes:
         plane, pitch = planes.of[mesh.name], heights[mesh.name]

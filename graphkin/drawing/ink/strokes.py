@@ -15,31 +15,10 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
 __all__ = [
-    "BLACK",
-    "CONSTRUCTION",
-    "DIMENSION",
-    "DIRECTION",
-    "FRAME",
-    "GREY",
-    "HATCHING",
-    "LEADER",
-    "LINK",
-    "LINK_COLOURS",
-    "OF_CENTRES",
-    "OUTLINE",
-    "REDUNDANT",
-    "RELATIVE",
-    "RESULTANT",
-    "TRIALS",
-    "TRIAL_CURVE",
-    "WHITE",
-    "colour_of_link",
-    "colour_of_vector",
-    "link_colour",
-    "pale",
-    "texture",
-    "tint",
-]
+    "BLACK", "CONSTRUCTION", "DIMENSION", "DIRECTION", "FRAME", "GREY", "HATCHING", "LEADER", "LINK", "LINK_COLOURS",
+    "OF_CENTRES", "OUTLINE", "REDUNDANT", "RELATIVE", "RESULTANT", "TRIALS", "TRIAL_CURVE", "WHITE", "colour_of_link",
+    "colour_of_vector", "link_colour", "pale", "texture", "tint",
+]  # fmt: skip
 
 BLACK, WHITE, GREY = "#000000", "#ffffff", "#595959"
 LINK = Stroke(0.5)

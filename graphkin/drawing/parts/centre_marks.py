@@ -134,8 +134,8 @@ class _Marks:
 
     def _name(self, group: list[Centre], spot: complex) -> Label:
         runs = stacked(self._names(group), 3.5)
-        text = Text(0j, runs, "start", strokes.BLACK, f"label-{self._id(group[0])}", ("label", "centre"))
-        return Label(text, spot, key=self._key(group) if len(group) > 1 else None)
+        return Label.of(runs, spot, f"label-{self._id(group[0])}", classes=("centre",),
+                        key=self._key(group) if len(group) > 1 else None)
 
     def _names(self, group: Sequence[Centre], tail: str = "") -> list[str]:
         """The names of centres at one place, in lines."""
@@ -153,8 +153,8 @@ class _Marks:
         for c in group:
             if c.lines:
                 words = " × ".join(line_name(line, self.letters) for line in c.lines)
-                text = Text(0j, rich(words, SMALLEST), "start", strokes.GREY, f"label-lines-{self._id(c)}", ("label",))
-                labels.append(Label(text, on_page(c.point or 0j), (), 3))
+                labels.append(Label.of(rich(words, SMALLEST), on_page(c.point or 0j), f"label-lines-{self._id(c)}",
+                                       colour=strokes.GREY, rank=3))
         return labels
 
     def _lines(self, centre: Centre) -> list[Line]:
@@ -262,8 +262,8 @@ class _Marks:
             scene = self.centres.links.scene
             far = abs(first.point - start) / self.centres.links.mm / scene.units.metres
             words = [f"${point}{self.letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
-        text = Text(0j, stacked(words, 3.2), "start", strokes.BLACK, f"label-{self._id(first)}", ("label", "centre"))
-        return Label(text, (tail, tip), key=self._key(group))
+        return Label.of(stacked(words, 3.2), (tail, tip), f"label-{self._id(first)}", classes=("centre",),
+                        key=self._key(group))
 
     def _reference(self) -> tuple[str, complex]:
         """The fixed pivot from which far centres are measured."""

@@ -15,7 +15,7 @@ from graphkin.account.headings import number, slide_index, written
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, Text, on_page
+from graphkin.drawing.ink.primitives import Group, Line, Primitive, Run, on_page
 from graphkin.drawing.parts.given_shapes import along_its_guide, as_line, off_its_guide, used_guides
 from graphkin.drawing.parts.mechanism_on_paper import GUIDE_LENGTH, Slider, link_since, shapes, sliders
 from graphkin.drawing.place.dimensions import (
@@ -133,8 +133,7 @@ def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
             if parts is not None:
                 yield parts
             else:
-                text = Text(0j, runs, "start", strokes.BLACK, f"label-length-{one}{other}", ("label", "length"))
-                yield Label(text, (start, end), rank=1)
+                yield Label.of(runs, (start, end), f"label-length-{one}{other}", rank=1, classes=("length",))
 
 
 def _spans(link: PlacedLink, metres: float) -> tuple[list[tuple[str, str]], list[tuple[str, str, str]]]:
@@ -391,7 +390,7 @@ def travels(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
 def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> Label:
     """The value of a driver as a label; it is given, so everything else gives way to it."""
     id, since = f"{DRIVEN}{key.replace('/', '-')}", link_since(sheet, key.split("/")[0])
-    return Label(Text(0j, runs, "start", strokes.BLACK, id, ("label",), since=since), mark, rank=0)
+    return Label.of(runs, mark, id, since=since)
 
 
 def _shown(sheet: Sheet) -> list[Slider]:

@@ -235,9 +235,8 @@ def _detail_inset(
         clipped = inner.clip(tail, tip)
         if vector.symbol in own and clipped is not None:
             parts += arrow(clipped[0], tip, kind, colour)
-            text = Text(0j, symbol(letters.arrow(vector.symbol), 2.8), "start", colour,
-                        f"label-detail-{vector.symbol.id}", ("label",), detail.crowd)
-            names.append(Label(text, clipped, rank=1))
+            names.append(Label.of(symbol(letters.arrow(vector.symbol), 2.8), clipped,
+                                  f"label-detail-{vector.symbol.id}", colour=colour, rank=1, step=detail.crowd))
             continue
         if clipped is None or abs(clipped[1] - clipped[0]) < 0.5:
             continue
@@ -433,7 +432,7 @@ def inset_boxes(strip: Box, count: int) -> list[Box]:
 
 
 def _label(markup: str, id: str, at: complex, toward: float, rank: int = 0) -> Label:
-    return Label(Text(0j, symbol(markup, 2.8), "start", strokes.BLACK, id, ("label",)), at, (toward,), rank)
+    return Label.of(symbol(markup, 2.8), at, id, toward=(toward,), rank=rank)
 
 
 READ = Stroke(0.3, (1.6, 0.8), "#c2006b")

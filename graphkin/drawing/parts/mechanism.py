@@ -258,8 +258,7 @@ def _letter(here: MechanismOnPaper, point: str) -> Label:
     z = here.places[point]
     away = -added_up((w / abs(w) for w in here.ways(z)), 0j)
     letter = symbol(here.letters.point(point))
-    text = Text(0j, letter, "start", strokes.BLACK, f"label-point-{point}", ("label",))
-    return Label(text, on_page(z), (phase(away),) if abs(away) > 0.1 else ())
+    return Label.of(letter, on_page(z), f"label-point-{point}", toward=(phase(away),) if abs(away) > 0.1 else ())
 
 
 def _over_block(here: MechanismOnPaper, z: complex) -> list[Primitive]:
@@ -611,8 +610,8 @@ def _springs(here: MechanismOnPaper) -> Piece:
         since = max((number for number in map(here.since, one.links) if number), default=None)
         shape = symbols.spring(on_page(a), on_page(b))
         drawn.append(Group(shape, id=f"spring-{one.name}", classes=("spring",), since=since))
-        text = Text(0j, plain(one.name), "start", strokes.BLACK, f"label-spring-{one.name}", ("label",), since=since)
-        names.append(Label(text, (on_page(a), on_page(b)), rank=1))
+        names.append(Label.of(plain(one.name), (on_page(a), on_page(b)), f"label-spring-{one.name}", rank=1,
+                              since=since))
     return Piece({"mechanism": tuple(drawn)}, tuple(names)) if drawn else Piece()
 
 
@@ -672,8 +671,8 @@ def trial_marks_in_mechanism(sheet: Sheet) -> Piece:
                 parts += [Line(on_page(z + w), on_page(z - w), strokes.CONSTRUCTION) for w in (CROSS, 1j * CROSS)]
                 name = f"label-trial-{curve.point}-{number}"
                 numeral = symbol(str(number), 2.0)
-                text = Text(0j, numeral, "start", strokes.GREY, name, ("label", "trial"), since=step.number)
-                labels.append(Label(text, on_page(z), rank=4))
+                labels.append(Label.of(numeral, on_page(z), name, colour=strokes.GREY, rank=4, classes=("trial",),
+                                       since=step.number))
             id = f"trial-curve-{curve.point}" + (f"-{curves}" if curves > 1 else "")
             drawn.append(Group(tuple(parts), id=id, classes=("trial",), step=step.number))
         if step.reason == "positions":

@@ -409,7 +409,7 @@ def _head(line: Segment, tip: complex) -> Iterator[Primitive]:
 def _carried(here: PolygonOnPage, moved: Symbol, line: Segment) -> Iterator[Label]:
     if abs(line[1] - line[0]) > 4.0:
         markup = symbol(here.letters.arrow(moved), 3.0)
-        yield Label(Text(0j, markup, "start", strokes.GREY, f"label-carried-{moved.id}", ("label",)), line, rank=4)
+        yield Label.of(markup, line, f"label-carried-{moved.id}", colour=strokes.GREY, rank=4)
 
 
 def _rays(here: PolygonOnPage) -> Iterator[Piece]:
@@ -426,8 +426,8 @@ def _rays(here: PolygonOnPage) -> Iterator[Piece]:
                 if key not in named and abs(free[1] - free[0]) > 1.0:
                     named.add(key)
                     id = f"label-direction-{step.number:02d}"
-                    text = Text(0j, symbol(markup, 3.0), "start", strokes.GREY, id, ("label", "direction"))
-                    names.append(Label(text, free, rank=4, key=step_number(step.number)))
+                    names.append(Label.of(symbol(markup, 3.0), free, id, colour=strokes.GREY, rank=4,
+                                          classes=("direction",), key=step_number(step.number)))
             lines = (Line(*whole, strokes.DIRECTION),) if whole is not None else ()
             drawn = Group(lines, classes=("direction",), step=step.number)
             yield dated(Piece({"construction": (drawn,)}, tuple(names)), step.number)
@@ -504,8 +504,7 @@ def _name(
     markup = " = ".join(written(v.symbol) for v in vectors)
     id, step = f"label-{first.symbol.id}", here.vectors[first.symbol][0]
     if length == 0.0:
-        text = Text(0j, symbol(markup + " = 0"), "start", strokes.BLACK, id, ("label",), since=step)
-        return Label(text, here.at(first.tip), rank=3, key=step_number(step))
+        return Label.of(symbol(markup + " = 0"), here.at(first.tip), id, rank=3, since=step, key=step_number(step))
     resultants = all(v.role == "resultant" for v in vectors)
     text = Text(0j, symbol(markup), "start", colour_of_vector(here.sheet, first.symbol), id, ("label",), since=step)
     key = step_number(step, text.colour)
@@ -594,9 +593,8 @@ def trial_marks_in_polygon(here: PolygonOnPage) -> Iterator[Piece]:
                 if letter:
                     above = numeral(trial)
                     name = f"label-trial-{here.diagram}-{trial}-{aid.symbol.id}"
-                    text = Text(0j, symbol(f"{letter}^{{{above}}}", 2.5), "start", strokes.GREY, name,
-                                ("label", "trial"))  # fmt: skip
-                    labels.append(Label(text, here.at(aid.tip), (phase(clipped[1] - clipped[0]),), rank=5))
+                    labels.append(Label.of(symbol(f"{letter}^{{{above}}}", 2.5), here.at(aid.tip), name,
+                            colour=strokes.GREY, toward=(phase(clipped[1] - clipped[0]),), rank=5, classes=("trial",)))
         classes = (f"trial-{trial}",) if trial else ("special",)
         drawn = Group(tuple(parts), classes=classes, step=step.number)
         yield dated(Piece({"construction": (drawn,)}, tuple(labels)), step.number)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from graphkin.construction.touching import Touching
 from graphkin.drawing.ink import strokes, symbols
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, on_page
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.piece import Piece, dated
@@ -130,12 +130,10 @@ def _marks(places: Iterable[tuple[str, complex, complex]], tag: str = "") -> Pie
             lines.append(Line(on_page(ends[0]), on_page(ends[1]), AXIS))
             for k, (end, way) in enumerate(zip(ends, (-along, along), strict=True)):
                 mark = f"label-{letter}-{name}-{k + 1}{tag}"
-                text = Text(0j, symbol(letter, 3.0), "start", strokes.BLACK, mark, ("label",))
-                names.append(Label(text, on_page(end), (phase(way),), 0))
+                names.append(Label.of(symbol(letter, 3.0), on_page(end), mark, toward=(phase(way),)))
         if tag:
             lines.append(Circle(on_page(at), 0.5, fill=strokes.BLACK))
-            own = Text(0j, symbol(name, 3.0), "start", strokes.BLACK, classes=("label",))
-            names.append(Label(own, on_page(at), rank=1))
+            names.append(Label.of(symbol(name, 3.0), on_page(at), rank=1))
         drawn.append(Group(tuple(lines), id=f"contact-{name}{tag}", classes=("contact",)))
     return Piece({"construction": tuple(drawn)}, tuple(names))
 

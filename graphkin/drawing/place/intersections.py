@@ -12,16 +12,7 @@ from numpy.typing import NDArray
 from graphkin.plane import cross
 
 __all__ = [
-    "Flags",
-    "Floats",
-    "Indices",
-    "Points",
-    "Sides",
-    "crosses",
-    "meets",
-    "near",
-    "separated",
-    "sides",
+    "ON_LINE", "Flags", "Floats", "Indices", "Points", "crosses", "joined", "meets", "near", "separated", "sides",
     "sides_around", "touching",
 ]  # fmt: skip
 

@@ -15,7 +15,7 @@ from typing import NamedTuple, TypeAlias, TypeVar
 import numpy as np
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.ink.primitives import Line, Segment, Text, page_direction
+from graphkin.drawing.ink.primitives import Line, Run, Segment, Text, page_direction
 from graphkin.drawing.place.intersections import Flags, Floats, Indices, Points
 from graphkin.plane import cross
 
@@ -93,6 +93,16 @@ class Label:
     rank: int = 0
     key: Text | None = None
     between: str = ""
+
+    @classmethod
+    def of(
+        cls, runs: tuple[Run, ...], mark: Mark, id: str = "", *, colour: str = "#000000", rank: int = 0,
+        toward: tuple[float, ...] = (), classes: tuple[str, ...] = (), step: int | None = None,
+        since: int | None = None, key: Text | None = None, between: str = "",
+    ) -> Label:  # fmt: skip
+        """A label of some runs in the class "label" and further ones; ``id``, ``step`` and ``since`` are the text's."""
+        text = Text(0j, runs, "start", colour, id, ("label", *classes), step, since)
+        return cls(text, mark, toward, rank, key, between)
 
     def request(self, box: Box) -> LabelRequest:
         """What it asks for with a box of this size."""
