@@ -4,16 +4,15 @@ import math
 
 import pytest
 
-from graphkin import draw
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Text, walk
+from graphkin.drawing.ink.primitives import Arc, Circle, Line, Polygon, Text
 from graphkin.drawing.ink.symbols import (
     block,
     fixed_pivot,
     guide,
     hatched_line,
-    hull,
+    rigid_link,
     sense_arc,
     slot,
     turning_pair,
@@ -64,19 +63,18 @@ def test_a_slot_reaches_half_its_width_past_its_centres():
     assert pytest.approx(max(arc.at((arc.start + arc.end) / 2).real for arc in arcs)) == 31.3
 
 
-def test_the_hull_of_points_leaves_out_those_within():
-    assert set(hull((0j, 10 + 0j, 5 + 8j, 5 + 3j))) == {0j, 10 + 0j, 5 + 8j}
-
-
-def test_points_on_a_line_have_no_hull_with_an_area():
-    assert len(hull((0j, 20 + 10j, 10 + 5j))) == 2
+def test_a_rigid_link_is_the_hull_of_its_points():
+    (area,) = rigid_link((0j, 10 + 0j, 5 + 8j, 5 + 3j))
+    assert set(area.points) == {0j, 10 + 0j, 5 + 8j}
 
 
 def test_the_area_of_a_rigid_link_is_a_light_tint():
-    things = walk(draw("four-bar-coupler-point", figures=("mechanism",)).figures["mechanism"].children)
-    (link,) = (thing for thing in things if isinstance(thing, Group) and thing.id == "link-2")
-    assert isinstance(link.children[0], Polygon)
-    assert link.children[0].fill == strokes.tint(link.children[0].stroke.colour)
+    (area,) = rigid_link((0j, 10 + 0j, 5 + 8j), "#0067a6")
+    assert area.fill == strokes.tint("#0067a6")
+
+
+def test_a_straight_rigid_link_is_drawn_as_bars():
+    assert [Line, Line] == [type(shape) for shape in rigid_link((0j, 20 + 10j, 10 + 5j))]
 
 
 @pytest.mark.parametrize("sense", [1, -1])
