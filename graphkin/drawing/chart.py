@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike
 from graphkin.drawing.box import Box
 from graphkin.drawing.font import FAMILY, Style, face_rules, families, holds
 from graphkin.drawing.ink.primitives import Primitive, Stroke, Text
-from graphkin.drawing.place.labels import Label, Mark, Obstacles
+from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.placement import place
 from graphkin.drawing.text import rich, width
 from graphkin.drawing.write.drawing import Kept

@@ -16,9 +16,8 @@ from graphkin.drawing.ink import symbols as arrows
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Text
 from graphkin.drawing.ink.strokes import DIRECTION, LINK
 from graphkin.drawing.ink.symbols import turning_pair, vector_group
-from graphkin.drawing.place.labels import Label, Obstacles
-from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.panel import InkRaster
+from graphkin.drawing.place.labels import InkRaster, Label
+from graphkin.drawing.place.obstacles import Obstacles, obstacles_of
 from graphkin.drawing.place.placement import Placement, place
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
@@ -224,5 +223,5 @@ def test_labels_stand_where_they_stand_without_the_raster(monkeypatch):
     children, labels = polygon([80 + 30j, 90 + 60j, 60 + 90j, 95 + 66j, 88 + 52j])
     crowd = (*children, *(Line(complex(x, 10.0), complex(x + 20.0, 90.0), LINK) for x in range(20, 120, 4)))
     quick = place(labels, PANEL, obstacles_of(crowd))
-    monkeypatch.setattr("graphkin.drawing.place.panel.MANY", 1 << 60)
+    monkeypatch.setattr("graphkin.drawing.place.labels.MANY", 1 << 60)
     assert place(labels, PANEL, obstacles_of(crowd)) == quick

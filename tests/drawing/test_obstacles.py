@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from graphkin.drawing.box import Box
-from graphkin.drawing.place.labels import Obstacles
-from graphkin.drawing.place.obstacles import first_free, free_boxes
+from graphkin.drawing.place.obstacles import Obstacles, first_free, free_boxes
 
 PANEL = Box(0.0, 0.0, 100.0, 100.0)
 HALF = 3 + 2j

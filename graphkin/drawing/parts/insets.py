@@ -52,9 +52,9 @@ from graphkin.drawing.parts.polygon import (
     side_by_side,
     step_numbers,
 )
-from graphkin.drawing.place.labels import Label, Obstacles
+from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, with_labels, without
-from graphkin.drawing.place.obstacles import free_boxes, obstacles_of
+from graphkin.drawing.place.obstacles import Obstacles, free_boxes, obstacles_of
 from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece
 from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
 from graphkin.plane import cross, unit

@@ -44,8 +44,8 @@ from graphkin.drawing.parts.mechanism_on_paper import (
 )
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
-from graphkin.drawing.place.intersections import Floats, Points
 from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import Floats, Points
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot, unit

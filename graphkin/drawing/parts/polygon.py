@@ -30,8 +30,8 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
 from graphkin.drawing.ink.strokes import colour_of_link, colour_of_vector
 from graphkin.drawing.ink.symbols import COMPONENT, POINTER, RESULTANT, arrowhead, vector_group
-from graphkin.drawing.place.labels import Label, Obstacles
-from graphkin.drawing.place.obstacles import first_free
+from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import Obstacles, first_free
 from graphkin.drawing.place.piece import Piece, dated, joined
 from graphkin.drawing.text import SMALLEST, plain, runs_width, symbol, text_box
 from graphkin.plane import added_up, cross, dot

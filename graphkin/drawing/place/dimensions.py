@@ -18,8 +18,7 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Arc, Line, Polygon, Run, Segment, Text, page_direction
 from graphkin.drawing.ink.symbols import POINTER, arrowhead
-from graphkin.drawing.place.intersections import Flags, Floats, Indices, Points, meets
-from graphkin.drawing.place.labels import Obstacles
+from graphkin.drawing.place.obstacles import Flags, Floats, Indices, Obstacles, Points, meets
 from graphkin.drawing.text import CAP_HEIGHT, plain, text_box
 from graphkin.plane import cross
 

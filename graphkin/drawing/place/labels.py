@@ -1,28 +1,41 @@
-"""What a label is and what stands in its way, the places around its mark where it could stand, ring by ring, what each
-costs in looks, and whether labels at two of them are in each other's way.
+"""What a label is, the places around its mark where it could stand, ring by ring, what each costs in looks, which of
+them the drawing leaves free, and whether labels at two of them are in each other's way.
 
-The places of all labels are made together, as arrays.
+All places of all labels are made and judged together as arrays: where ink is, cell by cell, tells of most boxes that
+they meet it, upright boxes what is near, the separating axes of box and segment what touches.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Run, Segment, Text, page_direction
-from graphkin.drawing.place.intersections import Flags, Floats, Indices, Points
+from graphkin.drawing.place.obstacles import (
+    Flags,
+    Floats,
+    Indices,
+    Obstacles,
+    Points,
+    crosses,
+    joined,
+    near,
+    separated,
+    sides,
+    sides_around,
+    touching,
+)
 from graphkin.plane import cross
 
 __all__ = [
-    "LEADER_FROM", "LEADER_LEAST", "LEADER_SPACE", "LED_RINGS", "LOTS", "RINGS", "Candidates", "Columns", "Label",
-    "LabelForms", "LabelPosition", "LabelPositions", "LabelRequest", "LabelRequests", "Mark", "Obstacles", "Placed",
-    "candidates", "ends", "leader_forms", "led_candidates",
+    "FORBIDDEN", "LED_RINGS", "LOTS", "RINGS", "TANGLED", "InkRaster", "Label", "LabelPanel", "LabelPosition",
+    "LabelPositions", "Mark", "Placed", "leader_forms", "least_cost",
 ]  # fmt: skip
 
 LOTS = (0, 40, 120, 240, 720)
@@ -32,8 +45,6 @@ T = TypeVar("T", float, Floats)
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 Mark: TypeAlias = complex | Segment
 """What a label names: a point, or the line between two."""
-
-_Parts: TypeAlias = tuple[Points, Floats, Points, Floats, Indices]
 
 # Distance of the box from its mark, mm, ring by ring.
 RINGS = (0.7, 1.5, 2.4, 3.6, 5.0, 6.8, 9.0, 11.5, 14.5, 18.0, 22.0, 27.0)
@@ -54,21 +65,6 @@ LED_RINGS = ((2.4, 3.6, 5.0, 6.8), (9.0, 11.5, 14.5, 18.0, 22.0, 27.0, 32.0, 38.
 _SIDES = np.array((1.0, -1.0))
 # Where nothing is liked, up and to the right reads best (Imhof, Positioning names on maps, 1975).
 _LIKED = math.radians(40)
-
-
-@dataclass(frozen=True)
-class LabelRequest:
-    """What a label asks for: places around a mark of these ends (equal for a point), for a box of half this width and
-    height (as a complex number), in its liked directions (rad)."""
-
-    start: complex
-    end: complex
-    half: complex
-    toward: tuple[float, ...]
-
-    @property
-    def is_point(self) -> bool:
-        return self.start == self.end
 
 
 @dataclass(frozen=True)
@@ -104,50 +100,24 @@ class Label:
         text = Text(0j, runs, "start", colour, id, ("label", *classes), step, since)
         return cls(text, mark, toward, rank, key, between)
 
-    def request(self, box: Box) -> LabelRequest:
-        """What it asks for with a box of this size."""
-        return LabelRequest(*ends(self.mark), complex(box.width, box.height) / 2, self.toward)
-
-
-@dataclass(frozen=True)
-class Obstacles:
-    """Segments, and areas as upright boxes, on the page in mm; ``writing`` are those of the areas that leaders may not
-    run over either, ``thick`` those of the solid segments that they are to go round: vectors and links, ``vectors``
-    those of these beyond which no letter of a point is to stand without a leader."""
-
-    solid: tuple[Segment, ...] = ()
-    dashed: tuple[Segment, ...] = ()
-    areas: tuple[Box, ...] = ()
-    writing: tuple[Box, ...] = ()
-    thick: tuple[Segment, ...] = ()
-    vectors: tuple[Segment, ...] = ()
-
-    def __add__(self, other: Obstacles) -> Obstacles:
-        return Obstacles(
-            self.solid + other.solid,
-            self.dashed + other.dashed,
-            self.areas + other.areas,
-            self.writing + other.writing,
-            self.thick + other.thick,
-            self.vectors + other.vectors,
-        )
-
 
 class LabelRequests:
     """What some labels ask for, as arrays: ends of marks, half sizes of boxes, whether the mark is a point, for points
     the cost of each direction, for segments the liked one."""
 
-    def __init__(self, requests: Sequence[LabelRequest]) -> None:
-        self.start = np.array([one.start for one in requests])
-        self.end = np.array([one.end for one in requests])
-        self.half = np.array([one.half for one in requests])
+    def __init__(self, asked: Sequence[tuple[Label, Box]]) -> None:
+        self.marks = [ends(label.mark) for label, _ in asked]
+        self.start, self.end = np.array(self.marks).reshape(-1, 2).T.copy()
+        self.half = np.array([complex(box.width, box.height) / 2 for _, box in asked])
         self.is_point = self.start == self.end
-        self.dislikes = np.array([_dislike(one.toward if one.is_point else ()) for one in requests])
-        self.liked = np.array([page_direction(one.toward[0] if one.toward else _LIKED) for one in requests])
+        liked = [label.toward for label, _ in asked]
+        self.dislikes = np.array(
+            [_dislike(toward if point else ()) for toward, point in zip(liked, self.is_point.tolist(), strict=True)]
+        )
+        self.liked = np.array([page_direction(toward[0] if toward else _LIKED) for toward in liked])
 
 
-@dataclass(frozen=True)
-class Candidates:
+class Candidates(NamedTuple):
     """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, distances
     from them (mm), and which of the labels asked for it."""
 
@@ -157,13 +127,31 @@ class Candidates:
     gaps: Floats
     owners: Indices
 
-    def at(self, kept: Flags | Indices) -> Candidates:
-        """Some of the places."""
-        return Candidates(self.centres[kept], self.costs[kept], self.feet[kept], self.gaps[kept], self.owners[kept])
 
-    def __add__(self, other: Candidates) -> Candidates:
-        columns = zip(vars(self).values(), vars(other).values(), strict=True)
-        return Candidates(*map(np.concatenate, columns))
+class Columns(NamedTuple):
+    """Places, of one label or of several, as arrays: centres, costs, feet and tips of leaders, whether there is one."""
+
+    centres: Points
+    costs: Floats
+    feet: Points
+    tips: Points
+    led: Flags
+
+
+Table = TypeVar("Table", Candidates, Columns)
+
+
+def picked(table: Table, some: Flags | Indices | slice) -> Table:
+    """Some of the places."""
+    columns: Any = [column[some] for column in table]
+    return type(table)(*columns)
+
+
+def stacked(tables: Iterable[Table]) -> Table:
+    """The places of several tables, one after the other."""
+    first, *others = tables
+    columns: Any = map(np.concatenate, zip(first, *others, strict=True))
+    return type(first)(*columns)
 
 
 def ends(mark: Mark) -> Segment:
@@ -187,7 +175,7 @@ def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -
             # Far from a vector there is more room all round its middle than square to it.
             middles = (requests.start[who[segments]] + requests.end[who[segments]]) / 2
             parts.append(_off_points(requests, who, segments, middles, far))
-    return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
+    return stacked(parts)
 
 
 def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ...]) -> Candidates:
@@ -202,23 +190,24 @@ def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ..
         feet = (start + shares * (end - start))[:, None, None]
         centres = feet + gaps * ways + hold
         costs = gaps + 2.0 * np.abs(shares - 0.5)[:, None, None]
-        columns = [np.broadcast_to(column, centres.shape).ravel() for column in (centres, costs, feet, gaps)]
-        parts.append((*columns, np.full(centres.size, i)))
-    return Candidates(*map(np.concatenate, zip(*parts, strict=True)))
+        whole = (np.broadcast_to(column, centres.shape).ravel() for column in (centres, costs, feet, gaps))
+        columns: Any = (*whole, np.full(centres.size, i))
+        parts.append(Candidates(*columns))
+    return stacked(parts)
 
 
 def _off_points(
     requests: LabelRequests, who: Indices, some: Indices, points: Points, gaps: tuple[float, ...]
-) -> _Parts:
+) -> Candidates:
     """Columns of places all round some points, at an angle each."""
     rings, angles, away, hold_x, hold_y = _around(gaps)
     half, at = requests.half[who[some]][:, None], points[:, None]
     centres = at + away + hold_x * half.real + 1j * (hold_y * half.imag)
     costs = rings + requests.dislikes[who[some]].take(angles, axis=1)
-    return centres.ravel(), costs.ravel(), points.repeat(len(rings)), *_rings_of(rings, some)
+    return Candidates(centres.ravel(), costs.ravel(), points.repeat(len(rings)), *_rings_of(rings, some))
 
 
-def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> _Parts:
+def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> Candidates:
     """Columns of places on both sides of some segments, square to them."""
     rings, side, share, dear = _along(gaps)
     start, end, half, liked = (
@@ -232,7 +221,7 @@ def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tu
     feet = (start[:, None] + _SHARES * way[:, None]).take(share, axis=1)
     centres = feet + (rings + reach[:, None]) * sides.take(side, axis=1)
     costs = rings + disliked.take(side, axis=1) + dear
-    return centres.ravel(), costs.ravel(), feet.ravel(), *_rings_of(rings, some)
+    return Candidates(centres.ravel(), costs.ravel(), feet.ravel(), *_rings_of(rings, some))
 
 
 def _rings_of(rings: Floats, some: Indices) -> tuple[Floats, Indices]:
@@ -342,26 +331,31 @@ class Placed:
     keyed: bool = False
 
 
-class Columns(NamedTuple):
-    """Places, of one label or of several, as arrays: centres, costs, feet and tips of leaders, whether there is one."""
+def leader_forms(x: T, y: T, along_x: T, along_y: T) -> tuple[tuple[T | float, ...], tuple[T | float, ...]]:
+    """For a leader from a foot along a way: the distances of a point from its middle, across and down, and from its
+    line, each as factors of 1 and the point, the last times its length; and below what distances it meets a box there,
+    as factors of 1, half width and half height.  No way meets none."""
+    wide, high, one, none = abs(along_x), abs(along_y), 1.0, 0.0
+    distances = (
+        -x - along_x / 2, one, none, -y - along_y / 2, none, one, along_y * x - along_x * y, -along_y, along_x
+    )  # fmt: skip
+    reaches = (
+        wide / 2 + LEADER_SPACE, one, none, high / 2 + LEADER_SPACE, none, one, (wide + high) * LEADER_SPACE, high, wide
+    )  # fmt: skip
+    return distances, reaches
 
-    centres: Points
-    costs: Floats
-    feet: Points
-    tips: Points
-    led: Flags
 
-    def at(self, some: Flags | Indices | slice) -> Columns:
-        """Some of the places."""
-        return Columns(self.centres[some], self.costs[some], self.feet[some], self.tips[some], self.led[some])
+class LabelPositions:
+    """Places of one label, whose box has a half size, cheapest first; and their linear forms: in columns 1 and the
+    middles of boxes, feet and tips of leaders; and of each leader, by factor, form and place, what `leader_forms`
+    says."""
 
+    def __init__(self, half: complex, columns: Columns) -> None:
+        self.half, self.columns, self.costs = half, columns, columns.costs
+        self._made: dict[int, LabelPosition] = {}
 
-class LabelForms:
-    """Linear forms of places, of one label or of several: in columns 1 and the middles of boxes, feet and tips of
-    leaders; and of each leader, by factor, form and place, what `leader_forms` says."""
-
-    def __init__(self, columns: Columns) -> None:
-        self.columns = columns
+    def __len__(self) -> int:
+        return len(self.costs)
 
     @cached_property
     def middles(self) -> Floats:
@@ -385,33 +379,6 @@ class LabelForms:
                 forms[k % 3, k // 3] = factor
         return distances, reaches
 
-
-def leader_forms(x: T, y: T, along_x: T, along_y: T) -> tuple[tuple[T | float, ...], tuple[T | float, ...]]:
-    """For a leader from a foot along a way: the distances of a point from its middle, across and down, and from its
-    line, each as factors of 1 and the point, the last times its length; and below what distances it meets a box there,
-    as factors of 1, half width and half height.  No way meets none."""
-    wide, high, one, none = abs(along_x), abs(along_y), 1.0, 0.0
-    distances = (
-        -x - along_x / 2, one, none, -y - along_y / 2, none, one, along_y * x - along_x * y, -along_y, along_x
-    )  # fmt: skip
-    reaches = (
-        wide / 2 + LEADER_SPACE, one, none, high / 2 + LEADER_SPACE, none, one, (wide + high) * LEADER_SPACE, high, wide
-    )  # fmt: skip
-    return distances, reaches
-
-
-class LabelPositions:
-    """Places of one label, whose box has a half size, cheapest first: a part of many places, of which the forms are
-    known."""
-
-    def __init__(self, half: complex, columns: Columns, forms: LabelForms | None = None, first: int = 0) -> None:
-        self.half, self.columns, self.costs = half, columns, columns.costs
-        self.forms, self.first = forms or LabelForms(columns), first
-        self._made: dict[int, LabelPosition] = {}
-
-    def __len__(self) -> int:
-        return len(self.costs)
-
     @cached_property
     def _listed(self) -> tuple[list[complex], list[float], list[complex], list[complex], list[bool]]:
         centres, costs, feet, tips, led = self.columns
@@ -421,10 +388,6 @@ class LabelPositions:
     def first_led(self) -> int:
         """The index of the first place that has a leader."""
         return int(self.columns.led.argmax()) if self.columns.led.any() else len(self)
-
-    def middles(self, first: int, last: int) -> Floats:
-        """1 and the middles of the boxes from ``first`` to ``last``, in columns."""
-        return self.forms.middles[:, self.first + first : self.first + last]
 
     def position(self, index: int) -> LabelPosition:
         """The place of an index."""
@@ -464,3 +427,285 @@ def _crosses(one: Segment, other: Segment) -> bool:
 def _points(points: Points) -> Floats:
     """1 and the points, across and down, in columns."""
     return np.array((np.ones(len(points)), points.real, points.imag))
+
+
+CELL = 1.0  # mm
+ROUNDING = 1e-9  # cells
+
+
+class InkRaster:
+    """The cells of a panel that hold points of lines or areas, summed up over rows and columns (Crow, Summed-area
+    tables for texture mapping, SIGGRAPH 1984), so that four numbers tell how many lie in a box of cells."""
+
+    def __init__(self, panel: Box, start: Points, end: Points, areas: int) -> None:
+        """Lines from ``start`` to ``end``; the first ``areas`` of them are diagonals of filled upright boxes."""
+        self.left, self.top = panel.left - 2 * CELL, panel.top - 2 * CELL
+        self.columns, rows = int(panel.width / CELL) + 6, int(panel.height / CELL) + 6
+        height = (end - start).imag[:areas]
+        lines, step = _stations(height)
+        low = start[:areas][lines] + 1j * step * height[lines]
+        width = (end - start).real[:areas][lines]
+        start, end = np.concatenate((low, start[areas:])), np.concatenate((low + width, end[areas:]))
+        lines, step = _stations(end - start)
+        points = start[lines] + step * (end - start)[lines]
+        x, y = (points.real - self.left) / CELL, (points.imag - self.top) / CELL
+        inside = (x >= 0) & (x < self.columns - 1) & (y >= 0) & (y < rows - 1)
+        held = np.zeros((rows, self.columns), dtype=np.int32)
+        held[y[inside].astype(np.intp) + 1, x[inside].astype(np.intp) + 1] = 1
+        self.sums = held.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32).ravel()
+
+    def meets(self, low: Points, high: Points) -> Flags:
+        """Which of some boxes of these corners surely meet ink, since a cell with ink is within; boxes in the panel."""
+        grown = 1.0 + ROUNDING
+        x, y = (low.real - self.left) / CELL + grown, (low.imag - self.top) / CELL + grown
+        left, right = x.astype(np.intp), np.maximum((high.real - self.left) / CELL, x).astype(np.intp)
+        top, bottom = y.astype(np.intp), np.maximum((high.imag - self.top) / CELL, y).astype(np.intp)
+        top *= self.columns
+        bottom *= self.columns
+        more: Flags = self._upto(bottom + right) + self._upto(top + left) > (
+            self._upto(bottom + left) + self._upto(top + right)
+        )
+        return more
+
+    def _upto(self, cells: Indices) -> Indices:
+        """How many cells hold something up to each of some."""
+        return self.sums.take(cells, mode="clip")
+
+
+def _stations(ways: Points | Floats) -> tuple[Indices, Floats]:
+    """Points that lie no further than a cell apart along each of some ways, both ends included: the way of each, and
+    its share of it."""
+    steps = np.maximum(np.ceil(np.abs(ways) / CELL), 1).astype(np.intp)
+    which = np.repeat(np.arange(len(ways)), steps + 1)
+    first = np.cumsum(steps + 1) - (steps + 1)
+    return which, (np.arange(len(which)) - first[which]) / steps[which]
+
+
+LEADER_GAP = 0.4  # mm between the end of a leader and the box of its label
+CLEARANCE = 0.35  # between a label and any line or area, mm
+NEARER = 1.2  # by so much a label is nearer to its own mark than to any other
+# What a place costs beside its distance (mm): a leader, whatever the leader crosses, a dashed line under the label, a
+# leader to a line that ends nearer than NEAR_END to a point at its end.
+LEADER_COST, CROSSED_COST, DASHED_COST, END_COST = 4.0, 12.0, 110.0, 3.0
+BESIDE, BEYOND_COST = 1.0, 6.0  # mm off its point, and what it costs there that a vector runs between without a leader
+AREA_WEIGHT, THICK_WEIGHT = 25.0, 10.0  # of what a leader crosses, where a thin line counts 1
+FORBIDDEN = 1e5
+TANGLED = LEADER_COST + CROSSED_COST * THICK_WEIGHT  # what a place costs at least whose leader crosses a vector
+OUTSIDE = 100  # faults that leaving the panel counts for
+FOOT_REACH = 0.45  # mm: what lies nearer to the foot of a leader is the mark itself
+NEAR_END = 2.0
+MANY = 1 << 15  # pairs of a box and an obstacle from which a raster of what is drawn is worth its making
+
+
+def least_cost(ring: int) -> float:
+    """What the best place of a ring could cost."""
+    return RINGS[ring] + (LEADER_COST if RINGS[ring] > LEADER_FROM else 0.0)
+
+
+class LabelPanel:
+    """A panel with what is drawn on it and all marks, which is asked for positions of labels."""
+
+    def __init__(
+        self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark], asked: Sequence[tuple[Label, Box]]
+    ) -> None:
+        self.panel = panel
+        self.over: dict[Segment, bool] = {}  # which leaders cross what they are to go round
+        writing = set(obstacles.writing)
+        areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
+        diagonals = tuple((complex(area.left, area.top), complex(area.right, area.bottom)) for area in areas)
+        things = np.array(diagonals + obstacles.solid + obstacles.dashed, dtype=complex).reshape(-1, 2)
+        self.start, self.end = things.T.copy()
+        self.reach = sides_around(self.start, self.end)
+        self.areas = len(diagonals)
+        self.solid = len(diagonals) + len(obstacles.solid)
+        thick = set(obstacles.thick)
+        self.vectors = np.array(obstacles.vectors, dtype=complex).reshape(-1, 2).T.copy()
+        self.weights = np.array(
+            [FORBIDDEN if area in writing else AREA_WEIGHT for area in obstacles.areas]
+            + [THICK_WEIGHT if line in thick else 1.0 for line in obstacles.solid]
+            + [1.0] * len(obstacles.dashed)
+        )
+        # Labels at the same place share one mark: coincident points are told apart by their letters.
+        distinct = list(dict.fromkeys(map(ends, (*(label.mark for label, _ in asked), *marks))))
+        self.index = {pair: i for i, pair in enumerate(distinct)}
+        self.mark_start, self.mark_end = np.array(distinct, dtype=complex).reshape(-1, 2).T.copy()
+        self.mark_reach = sides_around(self.mark_start, self.mark_end)
+        self.mark_is_point = self.mark_start == self.mark_end
+        self.ask(asked)
+
+    def ask(self, asked: Sequence[tuple[Label, Box]]) -> None:
+        """Let labels with boxes of these sizes, at marks that are known, want places."""
+        self.requests = LabelRequests(asked)
+        self.own_mark = np.array([self.index[mark] for mark in self.requests.marks], dtype=int)
+
+    def free(
+        self, some: Sequence[int], first: int, last: int, known: Sequence[LabelPositions] = ()
+    ) -> list[LabelPositions]:
+        """Places without a fault in the rings from ``first`` up to ``last`` for each of some requests, with those that
+        are known of each."""
+        who = np.array(some)
+        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]), known)
+
+    def further(
+        self, some: Sequence[int], rings: tuple[float, ...], known: Sequence[LabelPositions]
+    ) -> list[LabelPositions]:
+        """Further places without a fault in some rings for each of some requests, with leaders, and those that are
+        known of each."""
+        who = np.array(some)
+        return self._without_fault(who, led_candidates(self.requests, who, rings), known)
+
+    def everywhere_free(self, some: Sequence[int]) -> list[LabelPositions]:
+        """Places without a fault in all rings, and further ones, for each of some requests."""
+        who = np.array(some)
+        led = led_candidates(self.requests, who, sum(LED_RINGS, ()))
+        return self._without_fault(who, stacked((candidates(self.requests, who, RINGS), led)))
+
+    def struck(self, place: LabelPosition) -> bool:
+        """Whether a dashed line runs through a place."""
+        if place.cost <= DASHED_COST:
+            return False
+        half = complex(place.right - place.left, place.bottom - place.top) / 2 + complex(CLEARANCE, CLEARANCE)
+        _, what = self._touched(np.array([place.box.centre]), np.array([half]), len(self.start))
+        return bool((what >= self.solid).any())
+
+    def tangled(self, place: LabelPosition) -> bool:
+        """Whether the leader of a place crosses a vector, a link, a joint or an arrowhead."""
+        if place.leader is None:
+            return False
+        if place.leader not in self.over:
+            foot, tip = (np.array([z]) for z in place.leader)
+            start = foot + (tip - foot) / np.abs(tip - foot) * FOOT_REACH
+            self.over[place.leader] = bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
+        return self.over[place.leader]
+
+    def _without_fault(
+        self, who: Indices, places: Candidates, known: Sequence[LabelPositions] = ()
+    ) -> list[LabelPositions]:
+        half = self.requests.half[who][places.owners]
+        clear = half + complex(CLEARANCE, CLEARANCE)
+        free = ~self._outside(places.centres, half)
+        if len(half) * self.solid > MANY:
+            free &= ~self.ink.meets(places.centres - clear, places.centres + clear)
+        kept = free.nonzero()[0]
+        places, half, clear = picked(places, kept), half[kept], clear[kept]
+        which, what = self._touched(places.centres, clear, len(self.start))
+        np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
+        led = self._led(who, places, half)
+        free = ~led | (places.gaps >= LEADER_LEAST)
+        free[which[what < self.solid]] = False
+        kept = free.nonzero()[0]
+        places, led = picked(places, kept), led[kept]
+        self._charge_beyond(who, places, half[kept], led)
+        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
+        owners = places.owners
+        if known:
+            columns = stacked((*(one.columns for one in known), columns))
+            owners = np.concatenate((np.repeat(np.arange(len(known)), [len(one) for one in known]), owners))
+        order = np.lexsort((columns.costs, owners))
+        order = order[columns.costs[order] < FORBIDDEN]
+        columns, owners = picked(columns, order), owners[order]
+        bounds = np.searchsorted(owners, np.arange(len(who) + 1)).tolist()
+        return [
+            LabelPositions(half, picked(columns, slice(first, last)))
+            for half, first, last in zip(self.requests.half[who].tolist(), bounds[:-1], bounds[1:], strict=True)
+        ]
+
+    def everywhere(self, request: int) -> tuple[LabelPositions, Indices]:
+        """All places of all rings for one request, and the number of faults of each."""
+        who = np.array([request])
+        places = candidates(self.requests, who, RINGS)
+        half = self.requests.half[who][places.owners]
+        faults = OUTSIDE * self._outside(places.centres, half).astype(int)
+        np.add.at(faults, self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE), self.solid)[0], 1)
+        led = self._led(who, places, half)
+        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
+        order = np.argsort(columns.costs, kind="stable")
+        return LabelPositions(complex(half[0]), picked(columns, order)), faults[order]
+
+    def _tips(self, who: Indices, places: Candidates, led: Flags) -> Points:
+        """The tips of the leaders of places that need one, which then cost more; of other places their feet."""
+        tips = places.feet.copy()
+        some = led.nonzero()[0]
+        if not some.size:
+            return tips
+        centres, feet, owners = places.centres[some], places.feet[some], who[places.owners[some]]
+        off, half = centres - feet, self.requests.half[owners]
+        way = _held(off.real, half.real) + 1j * _held(off.imag, half.imag)
+        length = np.maximum(np.abs(way), 1e-9)
+        tips[some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
+        start = feet + way / length * FOOT_REACH
+        nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
+        places.costs[some] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, to, self.weights)
+        places.costs[some] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
+        return tips
+
+    def _charge_beyond(self, who: Indices, places: Candidates, half: Points, led: Flags) -> None:
+        """Let places of points cost more that have no leader though a vector runs between."""
+        if not len(self.vectors[0]):
+            return
+        some = (~led & (places.gaps > BESIDE) & self.requests.is_point[who[places.owners]]).nonzero()[0]
+        off = places.centres[some] - places.feet[some]
+        way = _held(off.real, half[some].real) + 1j * _held(off.imag, half[some].imag)
+        feet = places.feet[some]
+        start, to = feet + way / np.maximum(np.abs(way), 1e-9) * FOOT_REACH, feet + way
+        for which, what in near(sides_around(start, to), sides_around(*self.vectors)):
+            over = touching(start.take(which), to.take(which), self.vectors[0].take(what), self.vectors[1].take(what))
+            places.costs[some[np.unique(which[over])]] += BEYOND_COST
+
+    def _outside(self, centres: Points, half: Points) -> Flags:
+        low, high, panel = centres - half, centres + half, self.panel
+        return (low.real < panel.left) | (high.real > panel.right) | (low.imag < panel.top) | (high.imag > panel.bottom)
+
+    @cached_property
+    def ink(self) -> InkRaster:
+        """All areas and solid lines."""
+        return InkRaster(self.panel.grown(CLEARANCE), self.start[: self.solid], self.end[: self.solid], self.areas)
+
+    def _touched(self, centres: Points, half: Points, count: int) -> tuple[Indices, Indices]:
+        """Pairs of a box and one of the first obstacles that it meets; obstacles count areas, solid, dashed in turn."""
+        found = []
+        left, top, right, bottom = (side[:count] for side in self.reach)
+        for which, what in near(sides(centres - half, centres + half), (left, top, right, bottom)):
+            lines = (what >= self.areas).nonzero()[0]  # for what lies around an area its box will do
+            i, j = which.take(lines), what.take(lines)
+            meeting = np.ones(len(what), dtype=bool)
+            meeting[lines] = ~separated(centres.take(i), half.take(i), self.start.take(j), self.end.take(j))
+            found.append((which[meeting], what[meeting]))
+        return joined(found)
+
+    def _led(self, who: Indices, places: Candidates, half: Points) -> Flags:
+        """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
+        own."""
+        led: Flags = places.gaps > LEADER_FROM
+        close = (~led).nonzero()[0]
+        centres, own = places.centres[close], self.own_mark[who[places.owners[close]]]
+        reach = half[close] + (places.gaps[close] + NEARER) * (1 + 1j)
+        for which, what in near(sides(centres - reach, centres + reach), self.mark_reach):
+            others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)
+            i, j = which[others], what[others]
+            hit = ~separated(centres[i], reach[i], self.mark_start[j], self.mark_end[j])
+            led[close[i[hit]]] = True
+        return led
+
+    def _crossed(self, feet: Points, start: Points, to: Points, weights: Floats) -> Floats:
+        """What each leader runs over, by weights: areas are joints and arrowheads, or writing."""
+        found = np.zeros(len(feet))
+        for which, what in near(sides_around(start, to), self.reach):
+            a, b, c, d = start.take(which), to.take(which), self.start.take(what), self.end.take(what)
+            over = np.zeros(len(what))
+            over[touching(a, b, c, d)] = 1.0
+            areas = (what < self.areas).nonzero()[0]  # a leader over an area crosses one of its diagonals
+            a, b, c, d = a.take(areas), b.take(areas), c.take(areas), d.take(areas)
+            foot = feet.take(which.take(areas))
+            own = (c.real <= foot.real) & (foot.real <= d.real) & (c.imag <= foot.imag) & (foot.imag <= d.imag)
+            written = weights.take(what.take(areas)) >= FORBIDDEN  # a foot under writing is no place for it
+            other = c.real + 1j * d.imag, d.real + 1j * c.imag
+            over[areas] = np.where(own, written, over.take(areas) + crosses(a, b, *other))
+            some = over.nonzero()[0]
+            found += np.bincount(which.take(some), over.take(some) * weights.take(what.take(some)), len(feet))
+        return found
+
+
+def _held(off: Floats, half: Floats) -> Floats:
+    """From a foot to the nearest of a box along one axis."""
+    return np.where(np.abs(off) <= half, 0.0, off - np.sign(off) * half)

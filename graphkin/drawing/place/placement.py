@@ -21,21 +21,22 @@ import numpy as np
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Text
-from graphkin.drawing.place.intersections import ON_LINE, Flags, Floats, Indices
 from graphkin.drawing.place.labels import (
+    FORBIDDEN,
     LED_RINGS,
     LOTS,
     RINGS,
+    TANGLED,
     Label,
-    LabelForms,
+    LabelPanel,
     LabelPosition,
     LabelPositions,
     Mark,
-    Obstacles,
     Placed,
     leader_forms,
+    least_cost,
 )
-from graphkin.drawing.place.panel import FORBIDDEN, TANGLED, LabelPanel, least_cost
+from graphkin.drawing.place.obstacles import ON_LINE, Flags, Floats, Indices, Obstacles
 from graphkin.drawing.text import box_about
 from graphkin.plane import added_up
 
@@ -90,7 +91,8 @@ class _Choices:
         self.labels = labels
         self.texts = [label.text for label in labels]
         self.boxes = [box_about(text.runs) for text in self.texts]
-        self.panel = LabelPanel(panel, obstacles, marks, list(map(Label.request, labels, self.boxes)))
+        self.asked = list(zip(labels, self.boxes, strict=True))
+        self.panel = LabelPanel(panel, obstacles, marks, self.asked)
         self.found: dict[int, LabelPositions] = {}
         self.seen = [0] * len(labels)  # rings looked at
         self.keys: dict[int, int] = {}  # the request for the key of a label
@@ -121,18 +123,18 @@ class _Choices:
 
     def ask_for_keys(self, some: Sequence[int]) -> range:
         """Let keys of some labels want places too; returns their requests."""
-        requests = []
+        first = len(self.asked)
         for i in some:
             label = self.labels[i]
             assert label.key is not None
             classes = ("label", *label.key.classes)
             self.texts.append(replace(label.key, id=label.text.id, classes=classes, since=label.text.since))
             self.boxes.append(box_about(label.key.runs))
-            requests.append(label.request(self.boxes[-1]))
-        first = self.panel.ask(requests)
-        asked = range(first, first + len(some))
-        self.keys |= zip(some, asked, strict=True)
-        return asked
+            self.asked.append((label, self.boxes[-1]))
+        self.panel.ask(self.asked)
+        requests = range(first, len(self.asked))
+        self.keys |= zip(some, requests, strict=True)
+        return requests
 
     def forms(self, i: int) -> list[tuple[int, float]]:
         """The requests by which a label may stand, and what they cost beside their places."""
@@ -516,15 +518,14 @@ class HeldPositions:
     def _met(self, places: LabelPositions, first: int, last: int, labels: Indices) -> Flags:
         """Which labels stand where they are met by which of the places from ``first`` to ``last``."""
         held, half = self.forms[self.numbers[labels]], (1.0, places.half.real, places.half.imag)
-        forms, start = places.forms, places.first
-        distances = held[:, _DISTANCES].reshape(-1, 3) @ places.middles(first, last)
+        distances = held[:, _DISTANCES].reshape(-1, 3) @ places.middles[:, first:last]
         near = np.abs(distances, out=distances) < (held[:, _REACHES].reshape(-1, 3) @ half)[:, None]
         box_x, box_y, leader_x, leader_y, line = near.reshape(len(labels), 5, -1).transpose(1, 0, 2)
         over: Flags = box_x & box_y
         over |= leader_x & leader_y & line
         led = max(places.first_led, first)
         if led < last:
-            over[:, led - first :] |= _met_by_leaders(held, forms, slice(start + led, start + last))
+            over[:, led - first :] |= _met_by_leaders(held, places, slice(led, last))
         return over
 
     def first_free(self, places: LabelPositions, count: int) -> int | None:
@@ -544,7 +545,7 @@ class HeldPositions:
             yield 0
         held, half = self.forms[self.numbers[self.stands]], (1.0, places.half.real, places.half.imag)
         for first, last in places.lots(count):
-            distances = held[:, _BOX_DISTANCES].reshape(-1, 3) @ places.middles(first, last)
+            distances = held[:, _BOX_DISTANCES].reshape(-1, 3) @ places.middles[:, first:last]
             near = np.abs(distances, out=distances) < (held[:, _BOX_REACHES].reshape(-1, 3) @ half)[:, None]
             free = np.flatnonzero(~(near[::2] & near[1::2]).any(axis=0))
             yield from (k for k in (first + free).tolist() if 0 < k < count)
@@ -575,16 +576,16 @@ def _forms(position: LabelPosition, space: complex) -> tuple[float, ...]:
     )  # fmt: skip
 
 
-def _met_by_leaders(held: Floats, forms: LabelForms, some: slice) -> Flags:
+def _met_by_leaders(held: Floats, places: LabelPositions, some: slice) -> Flags:
     """Which positions are met by the leaders of some places."""
-    distances, reaches = (form[..., some].reshape(3, -1) for form in forms.leaders)
+    distances, reaches = (form[..., some].reshape(3, -1) for form in places.leaders)
     apart = held[:, _MIDDLE] @ distances
     near = np.abs(apart, out=apart) < held[:, _HALF] @ reaches
     across, down, line = near.reshape(len(held), 3, -1).transpose(1, 0, 2)
     under: Flags = across & down
     under &= line
-    its_normal, own_normal = held[:, _NORMAL], forms.leaders[0][:, 2, some]
-    crossed = (its_normal @ forms.feet[:, some]) * (its_normal @ forms.tips[:, some]) < -ON_LINE
+    its_normal, own_normal = held[:, _NORMAL], places.leaders[0][:, 2, some]
+    crossed = (its_normal @ places.feet[:, some]) * (its_normal @ places.tips[:, some]) < -ON_LINE
     crossed &= (held[:, _FOOT] @ own_normal) * (held[:, _TIP] @ own_normal) < -ON_LINE
     under |= crossed
     return under
