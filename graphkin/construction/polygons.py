@@ -23,7 +23,7 @@ from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
 from graphkin.construction.steps import Step
 from graphkin.construction.strokes import Aid, Bar, Image, Mark, Vector
 from graphkin.construction.touching import Touching
-from graphkin.construction.train_plan import Wheels
+from graphkin.construction.trains import Wheels
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.contacts import PlacedContact

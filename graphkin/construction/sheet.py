@@ -27,7 +27,7 @@ from graphkin.structure.model import Cluster, Element, Structure
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.construction.centre_lines import TrainPlan
+    from graphkin.construction.trains import TrainPlan
 
 __all__ = [
     "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Scales", "Sheet", "Term",

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 
 from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters
-from graphkin.construction.centre_lines import CentreLine, PlanLine, TrainPlan
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.trains import CentreLine, PlanLine, TrainPlan
 from graphkin.drawing.boxes import GAP, Block, FigurePage, column, panel, row, table
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
