@@ -8,7 +8,6 @@ lines along them cross in the end point.  The angular rates follow from the vect
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Literal
 
 from graphkin.construction.net import (
     ClosingVector,
@@ -30,7 +29,9 @@ from graphkin.construction.sizes import (
     OffCurves,
     Order,
     RateTimes,
+    Role,
     RollingCurves,
+    Size,
     SquareOverRadius,
 )
 from graphkin.construction.steps import Step
@@ -41,8 +42,8 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Weld
 
 __all__ = [
-    "at_contacts", "draw_equation", "draw_parallel_legs", "draw_relative", "first_ends", "known_turns", "links_alike",
-    "parts_of", "same_turn", "share_rate", "spread", "symbol_of", "turned",
+    "at_contacts", "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
+    "same_turn", "share_rate", "spread", "symbol_of", "turned",
 ]  # fmt: skip
 
 Side = list[tuple[Edge, list[Component]]]
@@ -91,21 +92,12 @@ def _turned_alike(
     group: Dyad | Cluster, order: Order, rates: Mapping[str, tuple[float, float]]
 ) -> list[tuple[str, str, float]]:
     """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
+    welds = () if isinstance(group, Cluster) else tuple(w for body in group.bodies for w in body.welds)
+    drivers = group.drivers if isinstance(group, Cluster) else tuple(w.driver for w in welds)
     which = 0 if order == "velocity" else 1
-    if isinstance(group, Cluster):
-        slides = [p for p in group.pairs if not p.turns]
-        given = [
-            (d.relative_to, d.link, rates[d.key][which] if rates else 0.0)
-            for d in group.drivers if d.turns
-        ]  # fmt: skip
-        return [*((s.a, s.b, 0.0) for s in slides), *given]
-    slides = [p for p in group.pairs if not p.turns]
-    welds = [w for body in group.bodies for w in body.welds]
-    held = [
-        (w.a, w.b, _turn_sign(w) * rates[w.driver.key][which] if rates and w.pair.turns else 0.0)
-        for w in welds
-    ]
-    return [*((s.a, s.b, 0.0) for s in slides), *held]
+    slides = [(p.a, p.b, 0.0) for p in (*group.pairs, *(w.pair for w in welds)) if not p.turns]
+    given = [(d.relative_to, d.link, rates[d.key][which] if rates else 0.0) for d in drivers if d.turns]
+    return [*slides, *given]
 
 
 def known_turns(plot: Polygons, order: Order, group: Dyad | Cluster) -> None:
@@ -168,7 +160,7 @@ def at_contacts(plot: Polygons, group: Dyad | Cluster, joined: Joined) -> Joined
 # -- equations drawn ---------------------------------------------------------------------------------------------------
 
 
-def side_of(plot: Polygons, order: Order, path: Sequence[Edge]) -> Side:
+def _side_of(plot: Polygons, order: Order, path: Sequence[Edge]) -> Side:
     """The terms of each edge along one side of an equation."""
     return [(edge, [plot.slip.term(part) for part in parts_of(plot, order, edge)]) for edge in path]
 
@@ -182,37 +174,46 @@ def _open(side: Side) -> list[Component]:
     return [part for part in _parts(side) if part.span is None]
 
 
-def written(part: Component) -> Term:
-    """A component as a term of a written equation."""
-    return Term(part.symbol, part.span is not None, True, part.size, part.written)
+def _written(side: Side) -> tuple[Term, ...]:
+    return tuple(Term(part.symbol, part.span is not None, True, part.size, part.written) for part in _parts(side))
 
 
-def _terms(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:
+def _from_pole(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:
+    """A side as it is written, with the vector from the pole to its start."""
     start = side[0][0].start
     first = () if plot.fixed(start) else (Term(Symbol(letter(order), plot.label(start)), True, True),)
-    return (*first, *map(written, _parts(side)))
+    return (*first, *_written(side))
+
+
+def _write(plot: Polygons, order: Order, element: Element, *sides: tuple[Term, ...]) -> int:
+    """Write an equation; returns its number."""
+    number = len(plot.board.equations) + 1
+    plot.board.equations.append(Equation(number, order, sides, element))
+    return number
 
 
 def draw_equation(
-    plot: Polygons, order: Order, element: Element, equation: TwoUnknowns | ClosingVector
+    plot: Polygons, order: Order, element: Element, equation: TwoUnknowns | ClosingVector | ParallelLegs
 ) -> None:
     """Write a vector equation with no, one or two unknown sizes, draw it, and measure the rates that follow.
 
     An equation that says no more of a vector than that it is itself is not written.
     """
+    if isinstance(equation, ParallelLegs):
+        assert isinstance(element, Cluster)
+        _draw_parallel_legs(plot, order, element, equation)
+        return
     end = equation.end
     whole = Symbol(letter(order), plot.label(end))
-    sides = [side_of(plot, order, path) for path in equation.sides]
+    sides = [_side_of(plot, order, path) for path in equation.sides]
     stands = isinstance(equation, ClosingVector) and (plot.fixed(end) or end in plot.ends[order])
-    terms = [_terms(plot, order, side) for side in sides]
+    terms = [_from_pole(plot, order, side) for side in sides]
     alone = [side for side in terms if [term.symbol for term in side] == [whole]]
     number: int | None = None
     if len(sides) > 1 or not alone or (not stands and any(term.size for term in alone[0])):
-        number = len(plot.board.equations) + 1
-        others = [side for side in terms if side not in alone]
         heads = alone or [(Term(whole, stands, stands),)]
-        plot.board.equations.append(Equation(number, order, (*heads, *others), element))
-    if isinstance(equation, TwoUnknowns):
+        number = _write(plot, order, element, *heads, *(side for side in terms if side not in alone))
+    if len(sides) == 2:
         _cross(plot, order, end, sides, number)
     else:
         _close(plot, order, end, sides[0], number)
@@ -245,7 +246,7 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
 
     A side may have several unknowns along one direction, as those of a special point have: their sum is found.
     """
-    starts, lines = [], []
+    lines, carried = [], []
     for side in sides:
         parts = _parts(side)
         open_at = parts.index(_open(side)[0])
@@ -253,17 +254,17 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
         for part in parts[:open_at]:
             at = _lay_off(plot, order, part, at, equation)
         # known terms behind the unknown one are added first, and put in their place afterwards
-        behind = [part for part in parts[open_at + 1 :] if part.span is not None]
-        at = _carry(plot, order, behind, at, equation)
-        starts.append((at, added_up((part.span for part in behind if part.span), 0j)))
+        before = at
+        at = _carry(plot, order, parts[open_at + 1 :], at, equation)
         lines.append((at, parts[open_at]))
+        carried.append(at - before)
     whole = Symbol(letter(order), plot.label(end))
     meeting = _lines_meet(plot, order, whole, 0j, lines, equation)
     mark = Mark(plot.label(end), meeting)
     plot.board.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
-    for side, (start, carried) in zip(sides, starts, strict=True):
+    for side, (start, _), behind in zip(sides, lines, carried, strict=True):
         if len(_open(side)) == 1:
-            _fill(plot, order, side, meeting - carried, start - carried, equation)
+            _fill(plot, order, side, meeting - behind, start - behind, equation)
     plot.reach(order, end, meeting, equation)
 
 
@@ -296,29 +297,26 @@ def draw_relative(
     plot: Polygons, order: Order, group: Cluster, symbol: Symbol, paths: Sequence[Sequence[Edge]]
 ) -> complex:
     """The vector of one moving point relative to another, drawn from the pole by two ways that have no known start."""
-    sides = [_parts(side_of(plot, order, path)) for path in paths]
-    if not any(part.span for side in sides for part in side):
+    sides = [_side_of(plot, order, path) for path in paths]
+    if not any(part.span for part in (*_parts(sides[0]), *_parts(sides[1]))):
         return 0j  # exactly
-    number = len(plot.board.equations) + 1
-    terms = [tuple(map(written, side)) for side in sides]
-    plot.board.equations.append(Equation(number, order, ((Term(symbol, False, False),), *terms), group))
+    number = _write(plot, order, group, (Term(symbol, False, False),), *map(_written, sides))
     lines = []
     for side in sides:
-        at = _carry(plot, order, (part for part in side if part.span), 0j, number)
-        lines.append((at, next(part for part in side if part.span is None)))
+        at = _carry(plot, order, (part for part in _parts(side) if part.span), 0j, number)
+        lines.append((at, _open(side)[0]))
     meeting = _lines_meet(plot, order, symbol, 0j, lines, number)
     found = Aid(symbol, 0j, meeting, plot.trial)
     plot.board.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
     return meeting
 
 
-def draw_parallel_legs(plot: Polygons, order: Order, group: Cluster, legs: ParallelLegs) -> None:
+def _draw_parallel_legs(plot: Polygons, order: Order, group: Cluster, legs: ParallelLegs) -> None:
     """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the joints,
     from the other's along the direction that both leave free."""
-    side = side_of(plot, order, legs.path)
-    number = len(plot.board.equations) + 1
+    side = _side_of(plot, order, legs.path)
     head = Term(Symbol(letter(order), plot.label(legs.end)), True, True)
-    plot.board.equations.append(Equation(number, order, ((head,), _terms(plot, order, side)), group))
+    number = _write(plot, order, group, (head,), _from_pole(plot, order, side))
     own = same_turn(plot, group).get(legs.link, legs.link)
     at, goal = plot.end(order, legs.path[0].start), plot.end(order, legs.end)
     start = _carry(plot, order, _parts(side), at, number)
@@ -380,7 +378,7 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
     mm = abs(cross(arm, span) / abs(arm) if plot.trial else span)
-    size, read = plot.rate_of(order, symbol, mm, arm, _bar(edge))
+    size, read = plot.rate_of(order, symbol, mm, arm, edge.bar)
     value = size if cross(arm, span) >= 0 else -size
     rate = RATE[order]
     own = plot.slip.rate(Symbol(rate, link=edge.link), value)
@@ -389,7 +387,7 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
     source = symbol if symbol in plot.drawn[order] else None
     plot.rates[order][edge.link] = Rate(edge.link, value if own is None else own, source, read, abs(arm))
     plot.board.do(
-        Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=_bar(edge), value=value, mm=read)
+        Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=edge.bar, value=value, mm=read)
     )
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
@@ -407,7 +405,9 @@ def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     if edge.rolling:
         return _rolling_parts(plot, order, edge)
     if edge.tied:
-        return _tied_parts(plot, order, edge)
+        # as a polygon of its own gave it: nothing where both special points move alike
+        span = plot.ties[order, edge.end.point] * (1 if edge.forward else -1)
+        return [_term(plot, edge, letter(order), unit(span), abs(span), edge.direction)] if span else []
     if edge.held:
         return _contour_parts(plot, order, edge)
     if edge.slide is not None:
@@ -416,113 +416,129 @@ def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
 
 
 def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
+    """The motion of an edge's end relative to its start, or a part of it, by its letters."""
     start, end = plot.label(edge.labels[0]), plot.label(edge.labels[1])
     if kind in ("v", "a") and plot.fixed(edge.start):
         return Symbol(kind, plot.label(edge.end))
     return Symbol(kind, end, start)
 
 
+ROLES: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
+"""Of the parts of a relative acceleration."""
+
+
+def _term(
+    plot: Polygons, edge: Edge, kind: str, along: complex, mm: float | None, written: Direction,
+    size: Size | None = None,
+) -> Component:  # fmt: skip
+    """A term of an edge.
+
+    Parameters
+    ----------
+    kind : of its symbol: all of a velocity (v) or an acceleration (a), or the part an, at, ak, ar
+    along : unit vector along it
+    mm : its size on paper; None: unknown
+    written : its direction as it is written
+    size : the rule of its size
+    """
+    role = ROLES.get(kind) or ("resultant" if plot.fixed(edge.start) else "relative")
+    return Component(symbol_of(plot, kind, edge), role, along, None if mm is None else along * mm, written, size)
+
+
+def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Component:
+    """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
+    size = RateTimes("omega", (link,), symbol_of(plot, "v", edge), twice=True)
+    return _term(plot, edge, "ak", along, mm, written, size)
+
+
 def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
-    arm = plot.places[edge.end.point] - plot.places[edge.start.point]
+    """Two points of one link: omega times their distance, square to it; omega squared towards the start, and alpha."""
     if edge.link in plot.still:
         return []
+    arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.scales.of(order), edge.bar
     square = 1j * unit(arm)
-    name = _bar(edge)
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
-    role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
+    rule = None if rate is None else RateTimes(RATE[order], (edge.link,), bar)
     if order == "velocity":
-        span = None if rate is None else square * (rate.value * plot.length(arm, name) / plot.scales.velocity)
-        size = RateTimes("omega", (edge.link,), name) if span is not None else None
-        return [Component(symbol_of(plot, "v", edge), role, square, span, edge.direction, size)]
-    omega = plot.rates["velocity"][edge.link].value
-    arm_m = plot.length(arm, name)
-    inward = -unit(arm)
-    normal = Component(
-        symbol_of(plot, "an", edge),
-        "normal",
-        inward,
-        inward * (omega**2 * arm_m / plot.scales.acceleration),
-        Direction("towards", (edge.end.point, edge.start.point)),
-        RateTimes("omega", (edge.link,), name, square=True),
-    )
+        mm = None if rate is None else rate.value * plot.length(arm, bar) / per
+        return [_term(plot, edge, "v", square, mm, edge.direction, rule)]
+    omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
+    squared = RateTimes("omega", (edge.link,), bar, square=True)
+    normal = _term(plot, edge, "an", -unit(arm), omega**2 * length / per, Direction("towards", bar[::-1]), squared)
     if rate is not None and rate.value == 0.0:
         return [normal]
-    span = None if rate is None else square * (rate.value * arm_m / plot.scales.acceleration)
-    size = RateTimes("alpha", (edge.link,), name) if span is not None else None
-    return [normal, Component(symbol_of(plot, "at", edge), "tangential", square, span, edge.direction, size)]
+    mm = None if rate is None else rate.value * length / per
+    return [normal, _term(plot, edge, "at", square, mm, edge.direction, rule)]
 
 
-def _tied_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
-    """The special point of one link relative to that of another, as its own polygon gave it: nothing where they move
-    alike."""
-    span = plot.ties[order, edge.end.point] * (1 if edge.forward else -1)
-    if span == 0.0:
-        return []
-    return [Component(symbol_of(plot, letter(order), edge), "relative", unit(span), span, edge.direction)]
+def _weld_parts(plot: Polygons, order: Order, edge: Edge, weld: Weld) -> list[Component]:
+    """A point of a link that a driver turns about a hinge of another link, relative to that link."""
+    hinge, per = weld.pair.point, plot.scales.of(order)
+    arm = plot.places[edge.end.point] - plot.places[hinge]
+    way = 1 if (weld.driver.link == weld.b) == edge.forward else -1  # whether the driver turns the end from the start
+    omega, alpha = (way * rate for rate in plot.given[weld.driver.key])
+    name, both = (hinge, edge.end.point), (weld.b, weld.a)
+    length, square = plot.length(arm, name), 1j * unit(arm)
+    if order == "velocity":
+        return [_term(plot, edge, "v", square, omega * length / per, edge.direction, RateTimes("omega", both, name))]
+    base = weld.a if edge.forward else weld.b
+    turn, inward = plot.rates["velocity"][base].value, -unit(arm)
+    squared = RateTimes("omega", both, name, square=True)
+    return [
+        _term(plot, edge, "an", inward, omega**2 * length / per, Direction("towards", name[::-1]), squared),
+        _term(plot, edge, "at", square, alpha * length / per, edge.direction, RateTimes("alpha", both, name)),
+        _coriolis(plot, edge, base, inward, 2 * turn * omega * length / per, Direction("along", name)),
+    ]
 
 
 def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
     with the term of Coriolis, for that one turns."""
     seen = plot.seen_from(edge.held)
-    way = 1 if edge.forward else -1
-    moving = edge.end if edge.forward else edge.start
-    role: Literal["resultant", "relative"] = "resultant" if plot.fixed(edge.start) else "relative"
+    way, moving = (1, edge.end) if edge.forward else (-1, edge.start)
     slip = way * seen.end("velocity", moving)
     if order == "velocity":
-        return [Component(symbol_of(plot, "v", edge), role, unit(slip or 1.0), slip, edge.direction)]
+        return [_term(plot, edge, "v", unit(slip or 1.0), abs(slip), edge.direction)]
     held, turns = edge.labels[0].link, plot.rates["velocity"]
     # seen from a link that turns itself as seen from the held one, the rest has another share of Coriolis
     read = seen.slip_mm(Symbol("v", seen.label(moving)), slip)
     speed = unit(slip) * read * plot.scales.velocity / plot.scales.acceleration if slip else 0j
-    more = 2j * (turns[edge.held].value - turns[held].value) * speed
-    rest = way * seen.end("acceleration", moving) + more
+    rest = way * seen.end("acceleration", moving) + 2j * (turns[edge.held].value - turns[held].value) * speed
     coriolis = 2j * turns[held].value * speed
-    parts = [Component(symbol_of(plot, "ar", edge), "sliding", unit(rest or 1.0), rest, edge.direction)]
+    parts = [_term(plot, edge, "ar", unit(rest or 1.0), abs(rest), edge.direction)]
     if held not in plot.still:
-        symbol = symbol_of(plot, "v", edge)
-        size = RateTimes("omega", (held,), symbol, twice=True)
-        parts.insert(0, Component(
-            symbol_of(plot, "ak", edge), "coriolis", unit(coriolis or 1.0), coriolis, edge.direction, size
-        ))  # fmt: skip
+        parts.insert(0, _coriolis(plot, edge, held, unit(coriolis or 1.0), abs(coriolis), edge.direction))
     return parts
 
 
-def _slip_read(plot: Polygons, edge: Edge) -> tuple[complex, float]:
-    """The relative velocity of an edge's ends as drawn (mm), and its size as read (m/s)."""
+def _slip_read(plot: Polygons, edge: Edge, sense: complex) -> tuple[float, float]:
+    """The relative velocity of an edge's ends as read (m/s): its size, and that along a sense."""
     slip = plot.end("velocity", edge.end) - plot.end("velocity", edge.start)
-    return slip, plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
+    speed = plot.slip_mm(symbol_of(plot, "v", edge), slip) * plot.scales.velocity
+    return speed, speed if dot(slip, sense) >= 0 else -speed
 
 
 def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[Component]:
+    """Both sides of a sliding pair: the rest runs along the guide, Coriolis square to it; a curved guide adds the
+    square of the sliding velocity over the radius of curvature, towards its centre."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
-    given = _given(plot, slide.key, order)
-    fixed = plot.fixed(edge.start)
-    role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
+    given, per = _given(plot, slide.key, order), plot.scales.of(order)
+    mm, size = (None, None) if given is None else (given / per, Given())
     if order == "velocity":
-        span = None if given is None else sense * (given / plot.scales.velocity)
-        return [Component(symbol_of(plot, "v", edge), role, sense, span, edge.direction, _given_size(span))]
-    span = None if given is None else sense * (given / plot.scales.acceleration)
-    bent = _bent_parts(plot, edge, slide, sense)
-    if (slide.b in plot.still or slide.a in plot.still) and not bent:
-        # no rotation, no Coriolis: the sliding part is all there is
-        symbol = symbol_of(plot, "a", edge) if fixed else symbol_of(plot, "ar", edge)
-        return [
-            Component(symbol, "resultant" if fixed else "sliding", sense, span, edge.direction, _given_size(span))
-        ]
+        return [_term(plot, edge, "v", sense, mm, edge.direction, size)]
+    bends = slide.guide.curvature
+    if {slide.a, slide.b} & plot.still and not bends:  # no rotation, no Coriolis
+        return [_term(plot, edge, "a" if plot.fixed(edge.start) else "ar", sense, mm, edge.direction, size)]
+    speed, signed = _slip_read(plot, edge, sense)
+    turned = Direction("turned", edge.direction.names)
     omega = plot.rates["velocity"][slide.b].value
-    slip, speed = _slip_read(plot, edge)
-    size = 2 * omega * (speed if dot(slip, sense) >= 0 else -speed) / plot.scales.acceleration
-    coriolis = Component(
-        symbol_of(plot, "ak", edge),
-        "coriolis",
-        1j * sense,
-        1j * sense * size,
-        Direction("turned", edge.direction.names),
-        RateTimes("omega", (slide.b,), symbol_of(plot, "v", edge), twice=True),
-    )
-    sliding = Component(symbol_of(plot, "ar", edge), "sliding", sense, span, edge.direction, _given_size(span))
-    return [coriolis, *bent, sliding]
+    parts = [_coriolis(plot, edge, slide.b, 1j * sense, 2 * omega * signed / per, turned)]
+    if bends:  # against the guide's motion it is turned round
+        rule = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
+        inward = 1j * sense * (1 if bends > 0.0 else -1)
+        parts.append(_term(plot, edge, "an", inward, speed**2 * abs(bends) / per, turned, rule))
+        plot.board.notice("acceleration", Remark("at pitch curve", (edge.start.point,)))
+    return [*parts, _term(plot, edge, "ar", sense, mm, edge.direction, size)]
 
 
 def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
@@ -532,33 +548,27 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     contact, place, normal = plot.contact(edge.contact)
     touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
     plot.board.notice(order, Remark("at contact", (contact.name,)))
-    tangent = -1j * normal
-    fixed = plot.fixed(edge.start)
-    role: Literal["resultant", "relative"] = "resultant" if fixed else "relative"
+    tangent, per = -1j * normal, plot.scales.of(order)
     if order == "velocity":
-        return [Component(symbol_of(plot, "v", edge), role, tangent, None, edge.direction)]
+        return [_term(plot, edge, "v", tangent, None, edge.direction)]
     centres = dict(zip((d.link for d in contact.round), touching.centres(contact), strict=True))
     # 1/m, positive where the centre of curvature lies on the side of the normal
     bends = [plot.paper.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
     omega, other = (plot.rates["velocity"][n].value for n in (one, two))
-    slip, speed = _slip_read(plot, edge)
-    speed = speed if dot(slip, tangent) >= 0 else -speed
+    _, speed = _slip_read(plot, edge, tangent)
     turning = other - omega
     off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
-    velocity = symbol_of(plot, "v", edge)
     if one in centres:
-        size: RateTimes | OffCurves = OffCurves(velocity, (two, one), two in centres)
+        size: Size = OffCurves(symbol_of(plot, "v", edge), (two, one), two in centres)
     else:
         size = RateTimes("omega", (two, one), (contact.round[0].centre, contact.name), square=True)
-    way, square = Direction("turned", edge.direction.names), Direction("along", ("n-n",))
-    per = plot.scales.acceleration
-    coriolis = Component(
-        symbol_of(plot, "ak", edge), "coriolis", normal, normal * (2 * omega * speed / per), way,
-        RateTimes("omega", (one,), velocity, twice=True),
-    )  # fmt: skip
-    curved = Component(symbol_of(plot, "an", edge), "normal", normal, normal * (off / per), square, size)
-    sliding = Component(symbol_of(plot, "ar", edge), "sliding", tangent, None, edge.direction)
-    return [*([] if one in plot.still else [coriolis]), curved, sliding]
+    turned = Direction("turned", edge.direction.names)
+    parts = [
+        _coriolis(plot, edge, one, normal, 2 * omega * speed / per, turned),
+        _term(plot, edge, "an", normal, off / per, Direction("along", ("n-n",)), size),
+        _term(plot, edge, "ar", tangent, None, edge.direction),
+    ]
+    return parts[1:] if one in plot.still else parts
 
 
 def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
@@ -571,100 +581,24 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     place, normal, centres = Touching(plot.structure.scene, mm, plot.paper.poses).rolling_centres(edge.rolling)
     bends = [mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
     turning = plot.rates["velocity"][two].value - plot.rates["velocity"][one].value
-    span = normal * (turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration)
+    off = turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration
+    along = normal if off >= 0.0 else -normal
     links = tuple(n for n in (two, one) if n not in plot.still) or (two,)
-    letter = edge.start.point
     if len(centres) == 1:
         ((link, centre),) = centres.items()
-        names = plot.centre_letter(edge.rolling, link), letter
-        size: RateTimes | RollingCurves = RateTimes("omega", links, names, square=True)
-        way = Direction("towards", names if dot(span, place - centre) > 0 else names[::-1])
+        names = plot.centre_letter(edge.rolling, link), edge.start.point
+        size: Size = RateTimes("omega", links, names, square=True)
+        way = Direction("towards", names if off * dot(normal, place - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0
         pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)
         size, way = RollingCurves(links, pair, inside, abs(1.0 / (bends[1] - bends[0]))), edge.direction
-    if plot.fixed(edge.start):
-        return [Component(symbol_of(plot, "a", edge), "resultant", unit(span or normal), span, way, size)]
-    return [Component(symbol_of(plot, "an", edge), "normal", unit(span or normal), span, way, size)]
-
-
-def _bent_parts(plot: Polygons, edge: Edge, slide: Pair, sense: complex) -> list[Component]:
-    """The normal part that a curved guide adds: the square of the sliding velocity over the radius of curvature,
-    towards the centre of curvature of the guide; against the guide's motion it is turned round."""
-    bends = slide.guide.curvature
-    if bends == 0.0:
-        return []
-    _, speed = _slip_read(plot, edge)
-    inward = 1j * sense * (1 if bends > 0.0 else -1)
-    span = inward * (speed**2 * abs(bends) / plot.scales.acceleration)
-    size = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
-    plot.board.notice("acceleration", Remark("at pitch curve", (edge.start.point,)))
-    way = Direction("turned", edge.direction.names)
-    return [Component(symbol_of(plot, "an", edge), "normal", inward, span, way, size)]
+    return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(off), way, size)]
 
 
 def _given(plot: Polygons, key: str, order: Order) -> float | None:
-    """Rate of a driven slide, or of one that is moved at a trial speed."""
+    """Rate of a driven slide, or of one that is moved at a trial speed (m/s, m/s2)."""
     if (order, key) in plot.tried:
         return plot.tried[order, key]
     rates = plot.given.get(key)
     return None if rates is None else rates[0 if order == "velocity" else 1]
-
-
-def _weld_parts(plot: Polygons, order: Order, edge: Edge, weld: Weld) -> list[Component]:
-    """A point of a link that a driver turns about a hinge of another link, relative to that link."""
-    hinge = weld.pair.point
-    arm = plot.places[edge.end.point] - plot.places[hinge]
-    way = 1 if edge.forward else -1
-    speed, rate = plot.given[weld.driver.key]
-    omega, alpha = way * _turn_sign(weld) * speed, way * _turn_sign(weld) * rate
-    name = (hinge, edge.end.point)
-    arm_m = plot.length(arm, name)
-    square = 1j * unit(arm)
-    if order == "velocity":
-        span = square * (omega * arm_m / plot.scales.velocity)
-        size = RateTimes("omega", (weld.b, weld.a), name)
-        return [Component(symbol_of(plot, "v", edge), "relative", square, span, edge.direction, size)]
-    base = weld.a if edge.forward else weld.b
-    turn = plot.rates["velocity"][base].value
-    per = arm_m / plot.scales.acceleration
-    inward = -unit(arm)
-    return [
-        Component(
-            symbol_of(plot, "an", edge),
-            "normal",
-            inward,
-            inward * (omega**2 * per),
-            Direction("towards", name[::-1]),
-            RateTimes("omega", (weld.b, weld.a), name, square=True),
-        ),
-        Component(
-            symbol_of(plot, "at", edge),
-            "tangential",
-            square,
-            square * (alpha * per),
-            edge.direction,
-            RateTimes("alpha", (weld.b, weld.a), name),
-        ),
-        Component(
-            symbol_of(plot, "ak", edge),
-            "coriolis",
-            inward,
-            inward * (2 * turn * omega * per),
-            Direction("along", name),
-            RateTimes("omega", (base,), symbol_of(plot, "v", edge), twice=True),
-        ),
-    ]
-
-
-def _bar(edge: Edge) -> tuple[str, str]:
-    return edge.start.point, edge.end.point
-
-
-def _given_size(span: complex | None) -> Given | None:
-    return None if span is None else Given()
-
-
-def _turn_sign(weld: Weld) -> int:
-    """+1 where the driver's angle is that of b from a."""
-    return 1 if weld.driver.link == weld.b else -1

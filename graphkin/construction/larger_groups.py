@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from graphkin.construction.equations import (
     at_contacts,
     draw_equation,
-    draw_parallel_legs,
     draw_relative,
     first_ends,
     known_turns,
@@ -33,7 +32,6 @@ from graphkin.construction.net import (
     Edge,
     Joined,
     Net,
-    ParallelLegs,
     Path,
     RollingPoint,
     Turning,
@@ -151,13 +149,10 @@ def _draw_move(plot: Polygons, order: Order, group: Cluster, step: Move) -> None
         apart.end(order, edge.end if edge.forward else edge.start)
         if not plot.trial:
             copy_steps(plot, order, group, edge.held, *before)
-    match step:
-        case TwoUnknowns() | ClosingVector():
-            draw_equation(plot, order, group, step)
-        case ParallelLegs():
-            draw_parallel_legs(plot, order, group, step)
-        case Special():
-            _special_point(plot, order, group, step)
+    if isinstance(step, Special):
+        _special_point(plot, order, group, step)
+    else:
+        draw_equation(plot, order, group, step)
     _complete(plot, order, group)
 
 

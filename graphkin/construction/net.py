@@ -81,6 +81,11 @@ class Edge:
     forward: bool = True
     unknown: Unknown | None = None
 
+    @property
+    def bar(self) -> tuple[str, str]:
+        """The letters of both ends."""
+        return self.start.point, self.end.point
+
     def reversed(self) -> Edge:
         return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
 

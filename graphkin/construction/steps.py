@@ -11,9 +11,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from graphkin.construction.centre_lines import PlanTrial
 from graphkin.construction.sizes import Direction, Role, Size
 from graphkin.construction.strokes import Stroke
+from graphkin.construction.trains import PlanTrial
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
