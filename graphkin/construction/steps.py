@@ -13,15 +13,14 @@ from typing import Literal, TypeAlias
 
 from graphkin.construction.sizes import Direction, Role, Size
 from graphkin.construction.strokes import Stroke
-from graphkin.construction.trains import PlanTrial
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "SENTENCES", "Cause", "DiagramName", "FarPoint", "Missed", "Moved", "RateTrial",
-    "Reason", "Step", "Superposed", "TakenOff", "TrialPositions", "TrialRow", "TrialTable", "Verb", "end_of",
-    "phrase_of",
+    "DIAGRAMS", "FINDS_A_POINT", "SENTENCES", "Cause", "DiagramName", "FarPoint", "Missed", "Moved", "PlanTrial",
+    "RateTrial", "Reason", "Step", "Superposed", "TakenOff", "TrialPositions", "TrialRow", "TrialTable", "Verb",
+    "end_of", "phrase_of",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
@@ -288,6 +287,16 @@ class TakenOff:
     symbol: Symbol
     size: Size | None
     mm: float
+
+
+@dataclass(frozen=True)
+class PlanTrial:
+    """Rates that were assumed, by link: the values of each trial, what each left open (mm), and what follows."""
+
+    links: tuple[str, ...]
+    assumed: tuple[tuple[float, ...], ...]
+    apart: tuple[tuple[float, ...], ...]
+    found: tuple[float, ...]
 
 
 @dataclass(frozen=True)

@@ -23,7 +23,7 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sizes import Order
-from graphkin.construction.steps import Step
+from graphkin.construction.steps import PlanTrial, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import PlacedLink
@@ -32,7 +32,7 @@ from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
 
 __all__ = [
-    "CentreLine", "PlanLine", "PlanScales", "PlanTrial", "Spot", "TrainPlan", "Wheels", "centre_lines", "train_plan",
+    "CentreLine", "PlanLine", "PlanScales", "Spot", "TrainPlan", "Wheels", "centre_lines", "train_plan",
 ]  # fmt: skip
 
 ALIKE = 1e-9  # of a length: heights that are one
@@ -223,16 +223,6 @@ class PlanLine:
     rate: float
     beside: str = ""
     trial: bool = False
-
-
-@dataclass(frozen=True)
-class PlanTrial:
-    """Rates that were assumed, by link: the values of each trial, what each left open (mm), and what follows."""
-
-    links: tuple[str, ...]
-    assumed: tuple[tuple[float, ...], ...]
-    apart: tuple[tuple[float, ...], ...]
-    found: tuple[float, ...]
 
 
 @dataclass(frozen=True)
