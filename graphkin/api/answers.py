@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import os
 import re
 from collections.abc import Mapping, Sequence
@@ -12,22 +10,20 @@ from typing import Literal
 
 from graphkin.api.arguments import asked_symbols
 from graphkin.errors import CallError, Problem
-from graphkin.files import opened, path_of
+from graphkin.papers.data_rows import Rows, table_of
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.printed import Printed, Unreadable
 from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_way, unit_factor
 from graphkin.scene.symbol import KINDS, Symbol
-from graphkin.words import Phrase, Wording, from_others
+from graphkin.words import Phrase, Wording
 
-__all__ = ["Answers", "AnswersLike", "Unread", "as_answers", "table_of", "with_points"]
+__all__ = ["Answers", "AnswersLike", "Unread", "as_answers"]
 
 Role = Literal["at", "variant", "person", "id", "equations", "drawing"]
 AnswersLike = str | os.PathLike[str] | Mapping[str, Mapping[str, object]]
 
-LARGEST = 10_000_000
 _QUANTITY = re.compile(rf"({'|'.join(KINDS)})_")
-_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 _WAY = re.compile(r"direction|sense|angle|dir\b|arg|方向|转向|角度|指向|∠", re.IGNORECASE)
 _OTHER_COLUMNS: Mapping[Role, set[str]] = {
     "at": {"at", "position", "driver", "位置", "position no", "φ1", "phi_1"},
@@ -39,13 +35,6 @@ _OTHER_COLUMNS: Mapping[Role, set[str]] = {
     "equations": {"equations", "vector equations", "方程", "矢量方程"},
     "drawing": {"drawing", "drawings", "作图", "图", "图形"},
 }  # fmt: skip
-@dataclass(frozen=True)
-class Rows:
-    """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
-
-    heads: tuple[str, ...]
-    rows: tuple[tuple[int, tuple[str, ...]], ...]
-    sign: str = ","
 
 
 @dataclass(frozen=True)
@@ -107,51 +96,6 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
         silent = {i: frozenset(h for h in heads if h not in v) for i, v in enumerate(given.values(), 1)}
         return _answers(scene, Rows(("person", *heads), tuple(rows)), "answers", silent)
     return _answers(scene, table_of(given), str(given), {})
-
-
-def table_of(path: str | os.PathLike[str]) -> Rows:
-    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
-
-    Raises CallError.
-    """
-    shown = str(path)[:200]
-    try:
-        with opened(path_of(path)) as stream:
-            data = stream.read(LARGEST + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise CallError(
-            Problem(shown, Phrase("cannot be read", reason=from_others(reason)), Phrase("name a csv file"))
-        ) from None
-    if len(data) > LARGEST:
-        raise CallError(
-            Problem(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
-        )
-    text = ""
-    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
-        try:
-            text = data.decode(encoding)
-            break
-        except UnicodeDecodeError:
-            continue
-    first = text.split("\n", 1)[0]
-    sign = max(",;\t", key=first.count)
-    try:
-        reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
-        lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
-    except csv.Error as error:
-        raise CallError(Problem(shown, Phrase("is no table", error=error), Phrase("save it as csv"))) from None
-    if len(lines) < 2:
-        raise CallError(Problem(shown, Phrase("has no rows"), Phrase("write a line of heads and a line")))
-    return Rows(lines[0][1], tuple(lines[1:]), sign)
-
-
-def with_points(sheet: Rows) -> Rows:
-    """A table with decimal points, where commas do not part its cells."""
-    if sheet.sign == ",":
-        return sheet
-    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
-    return Rows(sheet.heads, tuple(rows), sheet.sign)
 
 
 @dataclass(frozen=True)

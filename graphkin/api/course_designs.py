@@ -1,15 +1,17 @@
 """``graphkin handout --template course-design``: the schemes of a course with all their positions, which of them each
-student draws, the reports of a course project, and the table of the class."""
+student draws, the reports of a course project (cover, task, data, structure, positions, construction, tables,
+diagrams), and the table of the class."""
 
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from graphkin import solver
-from graphkin.api.answers import table_of
+from graphkin.account.headings import number
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
@@ -28,38 +30,105 @@ from graphkin.api.problem_sets import drawn_schemes, schemes_of
 from graphkin.api.results import OfScene, Result
 from graphkin.api.sweep import sweep
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import compare, rounding_of
+from graphkin.checking.report import Compared
 from graphkin.construction import execute
 from graphkin.drawing.chart import ChartPage
+from graphkin.drawing.write.drawing import Drawing
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
-from graphkin.papers.blocks import Picture, Plate
-from graphkin.papers.course_design import (
-    ClassRow,
-    CourseDesign,
-    PlaceValues,
-    Student,
-    class_document,
-    on_paper,
-    plate,
-    report,
-    value_read,
+from graphkin.papers.answer_key import key_rows, way
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Plate,
+    Said,
+    TableBlock,
+    Together,
+    said,
 )
+from graphkin.papers.data_rows import table_of
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.page import document_page
-from graphkin.papers.paper import paper_of, paper_plan
-from graphkin.papers.pdf import can_join, can_typeset, one_after_another, pdf
-from graphkin.papers.prepare import FORMATS, lesson_of, positions
+from graphkin.papers.paper import Paper, paper_of, paper_plan
+from graphkin.papers.pdf import can_join, can_typeset, one_after_another, papers_as
+from graphkin.papers.pictures import bare_picture, mechanism_picture, parts
+from graphkin.papers.prepare import FORMATS, compared, lesson_of, positions
+from graphkin.papers.problem import given as given_words
+from graphkin.papers.problem import paper_title, scene_title
+from graphkin.papers.solution import solution_blocks
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import safe_name
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.named_positions import named_positions
 from graphkin.table import Table
-from graphkin.words import Phrase, languages
+from graphkin.words import Phrase, languages, word
+from graphkin.words.written import in_markup
 
 __all__ = ["CourseDesigns", "course_design"]
+
+HEADED = 24.0  # mm of a page for the heading above a figure, and its caption
+MOST_VALUES = 7  # columns of values that a table has room for
+DIGITS = 5
+HEADS: Mapping[str, tuple[str, ...]] = {
+    "name": ("name", "student", "姓名", "学生"),
+    "id": ("id", "number", "no", "学号"),
+    "scheme": ("scheme", "variant", "group", "方案", "组", "组别"),
+    "place": ("position", "at", "位置"),
+}
+GROUPS = ("group", "组", "组别")
+"""Heads of schemes that may be meant as groups of students who all have the same lengths."""
+
+Figures = tuple[Picture | Plate, ...]
+
+
+@dataclass(frozen=True)
+class Student:
+    """Who a report is for, and which scheme and position are theirs ("" where nothing is said)."""
+
+    name: str = ""
+    id: str = ""
+    scheme: str = ""
+    place: str = ""
+
+
+@dataclass(frozen=True)
+class PlaceValues:
+    """What was read off at one position: the first driver's value and the readings by symbol, both in scene units
+    (vectors by size, rates with sign), and the exact values beside them; no values where it cannot be drawn."""
+
+    name: str
+    driver: float
+    read: Mapping[Symbol, float] = field(default_factory=dict)
+    exact: Mapping[Symbol, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class ClassRow:
+    """A line of the table of a class."""
+
+    student: Student
+    values: PlaceValues
+
+
+@dataclass(frozen=True)
+class Scheme:
+    """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
+
+    name: str
+    scene: Mechanism
+    drivers: Mapping[str, float]
+    places: Mapping[str, PlaceValues]
+
+    def values(self, place: str) -> dict[str, float]:
+        """Driver values (rad, m) at a position."""
+        return {self.scene.drivers[0].key: self.drivers[place]}
+
 
 @dataclass(frozen=True, repr=False, eq=False)
 class CourseDesigns(OfScene, Result):
@@ -172,7 +241,7 @@ def course_design(
     else:
         dealt = [(who, course[scheme_name(course, who)].values(who.place)) for who in dealt_out(students, course)]
     content: dict[str, bytes] = {}
-    lines, agrees, shared, bound = [], True, dict[str, dict[str, tuple[Picture | Plate, ...]]](), []
+    lines, agrees, shared = [], True, dict[str, dict[str, Figures]]()
     lesson = None
     for k, (who, values) in enumerate(dealt):
         one = course[scheme_name(course, who)]
@@ -182,34 +251,23 @@ def course_design(
         agrees = agrees and lesson.report.ok
         if one.name not in shared:
             shared[one.name] = _figures(one.scene, spoken, letters)
-        key = one.scene.drivers[0].key
         asked = asked_in_tables(one.scene, find)
-        stands = lesson.sheet.drivers[key]
+        stands = lesson.sheet.drivers[one.scene.drivers[0].key]
         place = one.places[who.place] if who.place in one.places else read_at("", stands, lesson, asked)
         lines.append(ClassRow(who, place))
-        made = CourseDesign(
-            lesson, who, one.scene.unit_of(one.scene.drivers[0]).said(stands), data,
-            tuple(one.places.values()), asked, one.scene.unit_of(one.scene.drivers[0]).written, **shared[one.name],
-            loops=_drawn(one.scene, "loops", spoken, letters, place.driver),
-        )  # fmt: skip
-        document = report(made)
+        figures = shared[one.name] | {"loops": _drawn(one.scene, "loops", spoken, letters, place.driver)}
+        document = _report(lesson, who, one, stands, data, asked, figures)
         stem = "report" if len(dealt) == 1 and students is None and not data else _stem(k, len(dealt), who)
-        if "html" in formats:
-            content[f"{stem}.html"] = document_page(document).encode()
-        if "pdf" in formats and can_typeset():
-            content[f"{stem}.pdf"] = pdf(document)
-            bound.append(content[f"{stem}.pdf"])
+        content |= papers_as(formats, {stem: document})
         if progress is not None:
             progress(k + 1, len(dealt))
     assert lesson is not None
     asked = asked_in_tables(lesson.sheet.scene, find)
     whole = class_document(lesson, lines, asked, given.unit_of(given.drivers[0]).written)
-    if "html" in formats:
-        content["class.html"] = document_page(whole).encode()
-    if "pdf" in formats and can_typeset():
-        content["class.pdf"] = pdf(whole)
-        if len(bound) > 1 and can_join():
-            content["all-reports.pdf"] = one_after_another(bound)
+    bound = [paper for name, paper in content.items() if name.endswith(".pdf")]
+    content |= papers_as(formats, {"class": whole})
+    if len(bound) > 1 and can_join():
+        content["all-reports.pdf"] = one_after_another(bound)
     content["class.csv"] = _class_table(given, lines, asked).harmless().csv().encode("utf-8-sig")
     content["answers_template.csv"] = _template(given, lines, asked).harmless().csv().encode("utf-8-sig")
     result = CourseDesigns(given, tuple(lines), asked, content, agrees, "pdf" not in formats or can_typeset())
@@ -226,7 +284,7 @@ def _stem(k: int, count: int, who: Student) -> str:
 
 def _drawn(
     scene: Mechanism, name: str, language: str, convention: str, at: At = None
-) -> tuple[Picture | Plate, ...]:
+) -> Figures:
     """The pages of a figure; none where it cannot be drawn: a report without it is whole in all else."""
     try:
         figure = draw(scene, at=at, language=language, convention=convention, figures=[name]).figures.get(name)
@@ -236,7 +294,7 @@ def _drawn(
     return tuple(on_paper(page, paper_of(scene)) for page in pages)
 
 
-def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, tuple[Picture | Plate, ...]]:
+def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, Figures]:
     """Figures that all students of a scheme share."""
     paper = paper_of(scene)
     found = {name: _drawn(scene, name, language, convention) for name in ("structure", "positions")}
@@ -250,55 +308,7 @@ def _figures(scene: Mechanism, language: str, convention: str) -> dict[str, tupl
     return found | {"diagrams": tuple(pages_of)}
 
 
-def _class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
-    heads = ["name", "id", "variant", "position", "at", *(c for s in asked for c in (_head(scene, s), f"{s} exact"))]
-    lines = [
-        (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
-         *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
-        for row in rows
-    ]  # fmt: skip
-    return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))
-
-
-def _template(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
-    """A table for the class to fill in, as `audit` reads it, with everyone's driver value."""
-    heads = ["name", "id", "variant", "at"]
-    for s in asked:
-        heads += [_head(scene, s), f"{s} direction"] if s.is_vector else [_head(scene, s)]
-    blank = [""] * (len(heads) - 4)
-    lines = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}", *blank) for r in rows]
-    return Table.of(heads, lines)
-
-
-def _head(scene: Mechanism, symbol: Symbol) -> str:
-    unit = symbol.unit(scene.units).text
-    return f"{symbol} ({unit})" if unit else str(symbol)
-
-
-HEADS: Mapping[str, tuple[str, ...]] = {
-    "name": ("name", "student", "姓名", "学生"),
-    "id": ("id", "number", "no", "学号"),
-    "scheme": ("scheme", "variant", "group", "方案", "组", "组别"),
-    "place": ("position", "at", "位置"),
-}
-
-
-GROUPS = ("group", "组", "组别")
-"""Heads of schemes that may be meant as groups of students who all have the same lengths."""
-
-
-@dataclass(frozen=True)
-class Scheme:
-    """One mechanism of a course: its positions (SI values of the first driver) and what was read off at each."""
-
-    name: str
-    scene: Mechanism
-    drivers: Mapping[str, float]
-    places: Mapping[str, PlaceValues]
-
-    def values(self, place: str) -> dict[str, float]:
-        """Driver values (rad, m) at a position."""
-        return {self.scene.drivers[0].key: self.drivers[place]}
+# -- schemes, and which of them each student draws ---------------------------------------------------------------------
 
 
 def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None, count: int) -> Scheme:
@@ -317,11 +327,8 @@ def scheme_of(name: str, source: SceneLike, find: Iterable[str | Symbol] | None,
         try:
             motion = solved_here(structure, {key: value})
             sheet = execute(paper_plan(structure, {key: value}, asked))
-            motion = solver.as_drawn(motion, sheet.structure)
-            exact = solver.exact_values(motion, asked)
-            report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding_of(motion))
-            report.must_agree(scene)
-            lesson = Lesson(sheet, report, {}, "en", "chinese", asked)
+            lesson = compared(sheet, motion, "en", "chinese", asked)
+            lesson.report.must_agree(scene)
             places[place] = read_at(place, value, lesson, asked)
         except Unsolvable:
             places[place] = PlaceValues(place, scene.unit_of(scene.drivers[0]).of(value))
@@ -420,3 +427,225 @@ def asked_in_tables(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tu
         return kept
     drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))
     return tuple(s for s in drawn if s.scope == "motion" and s.to is None and s.kind in ("v", "a", "omega", "alpha"))
+
+
+# -- the report of a student, and the table of the class ---------------------------------------------------------------
+
+
+def on_paper(drawing: Drawing, paper: Paper, caption: Said = ()) -> Picture | Plate:
+    """A page that was drawn for itself within the margins of a paper: without its own margins and titles true to scale
+    where that fits, else made small, with its check bar."""
+    narrow = bare_picture(drawing)
+    if narrow.width <= paper.body.width and narrow.height <= paper.body.height - HEADED:
+        return Picture(narrow, caption)
+    return plate(narrow.content("svg", text="outlines"), (narrow.width, narrow.height), paper, drawing.desc, caption)
+
+
+def plate(svg: bytes, size: tuple[float, float], paper: Paper, words: str, caption: Said = ()) -> Plate:
+    """A page of a figure, made small where it is larger than the body of a paper below a heading."""
+    times = min(1.0, paper.body.width / size[0], (paper.body.height - HEADED) / size[1])
+    return Plate(svg.decode(), size[0] * times, size[1] * times, words, caption)
+
+
+def _report(
+    lesson: Lesson, student: Student, scheme: Scheme, stands: float, data: tuple[tuple[str, ...], ...],
+    asked: Sequence[Symbol], figures: Mapping[str, Figures],
+) -> Document:  # fmt: skip
+    """The report of one student.
+
+    Parameters
+    ----------
+    lesson : the mechanism in the student's position
+    stands : value of the first driver there (rad, m)
+    data : heads and rows of the data of all schemes, the name of each first; without any nothing is told of them
+    asked : what the table of all positions shows
+    figures : "structure", "positions", "loops" and "diagrams", where they could be drawn
+    """
+    language, driver = lesson.language, scheme.scene.unit_of(scheme.scene.drivers[0])
+    told = said("course place", language, driver.said(stands))
+    task = Heading(said("course task", language), 2, fresh=True)
+    blocks: list[Block] = [*_cover(lesson, student, told), task, *given_words(lesson)]
+    if data:
+        blocks.append(Together((Heading(said("course data", language)), *_data(data, student, language))))
+    for name in ("structure", "positions"):
+        blocks += _headed(f"course {name}", figures[name], language)
+    place = said("course position", language, in_markup(student.place)) if student.place else told
+    heads = zip(said("course drawn", language), place, strict=True)
+    blocks.append(Heading(tuple((each, text + word("colon", each) + more) for (each, text), (_, more) in heads)))
+    blocks += [_lower(block) for block in solution_blocks(lesson)]
+    blocks.append(
+        Together((
+            Heading(said("course comparison", language)),
+            _comparison(lesson),
+            Paragraph(said("course comparison words", language), small=True),
+        ))
+    )  # fmt: skip
+    blocks += _headed("course loops", figures["loops"], language)
+    places = tuple(scheme.places.values())
+    own = frozenset(i for i, place in enumerate(places) if place.name == student.place)
+    first, *others = _value_tables(lesson, (said("course place head", language),), [(p.name,) for p in places],
+                                   places, asked, driver.written, own)  # fmt: skip
+    blocks.append(Together((Heading(said("course all positions", language)), first)))
+    blocks += [*others, Paragraph(said("course all words", language), small=True)]
+    blocks += _headed("course diagrams", figures["diagrams"], language)
+    title = paper_title(lesson, "course design")
+    return Document(title, languages(language), tuple(blocks), paper_of(lesson.sheet.scene))
+
+
+def class_document(lesson: Lesson, rows: Sequence[ClassRow], asked: Sequence[Symbol], unit: str) -> Document:
+    """The values of a whole class in one table; the lesson lends its letters, units and paper."""
+    language = lesson.language
+    keys = ["name of student"]
+    cells: list[tuple[str, ...]] = [(row.student.name or "–",) for row in rows]
+    more = (("course id head", "id"), ("course scheme head", "scheme"), ("course place head", "place"))
+    for key, name in more:
+        found = [getattr(row.student, name) for row in rows]
+        if any(found):
+            keys.append(key)
+            cells = [(*before, own or "–") for before, own in zip(cells, found, strict=True)]
+    heads = tuple(said(key, language) for key in keys)
+    plain = [tuple(in_markup(cell) for cell in line) for line in cells]
+    tables = _value_tables(lesson, heads, plain, [row.values for row in rows], asked, unit)
+    blocks: tuple[Block, ...] = (
+        Heading(scene_title(lesson), 1),
+        Heading(said("course class", language)),
+        *tables,
+        Paragraph(said("sign of answers", language), small=True),
+    )
+    return Document(
+        paper_title(lesson, "course class"), languages(language), blocks, paper_of(lesson.sheet.scene)
+    )  # fmt: skip
+
+
+def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
+    """Title, whose it is, what is theirs, and the mechanism."""
+    language = lesson.language
+    yield Heading(said("course design", language), 1)
+    yield Heading(scene_title(lesson), 2)
+    blanks = []
+    for key, blank, text in (("course student", "name of student", student.name),
+                             ("course id", "class of student", student.id)):  # fmt: skip
+        if text:
+            yield Paragraph(said(key, language, in_markup(text)))
+        else:
+            blanks.append(blank)
+    for key, text in (("course scheme", student.scheme), ("course position", student.place)):
+        if text:
+            yield Paragraph(said(key, language, in_markup(text)))
+    yield Paragraph(place)
+    yield Fields(tuple(said(key, language) for key in (*blanks, "course teacher", "date")))
+    layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
+    yield Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
+
+
+def _letters(head: str) -> str:
+    """The head of a column as markup, a letter with its index set as such.
+
+    >>> _letters("l_O2A (mm)"), _letters("n2 (r/min)"), _letters("driver.angle")
+    ('$l_{O2A}$ (mm)', '$n_{2}$ (r/min)', 'driver.angle')
+    """
+    found = re.match(r"([^\W\d_])(?:_([^\W_]+)|(\d+))(?=\s|$)", head)
+    if found is None:
+        return in_markup(head)
+    return f"${found[1]}_{{{found[2] or found[3]}}}${in_markup(head[found.end():])}"
+
+
+def _data(data: tuple[tuple[str, ...], ...], student: Student, language: str) -> Iterable[TableBlock]:
+    """The data of the schemes, split where they are many, the student's own row in bold."""
+    heads, *rows = data
+    own = frozenset(i for i, row in enumerate(rows) if row[0] == student.scheme)
+    for k in range(1, len(heads), MOST_VALUES):
+        part = slice(k, k + MOST_VALUES)
+        names = (said("course scheme head", language), *((("en", _letters(head)),) for head in heads[part]))
+        lines = tuple(tuple(map(in_markup, (row[0], *row[part]))) for row in rows)
+        yield TableBlock(names, lines, "l" + "r" * len(heads[part]), own)
+
+
+def _headed(key: str, pictures: Sequence[Picture | Plate], language: str) -> Iterable[Block]:
+    """Figures under one heading, the first of them on its page."""
+    if pictures:
+        yield Together((Heading(said(key, language)), pictures[0]))
+        yield from pictures[1:]
+
+
+def _lower(block: Block) -> Block:
+    """A block of the solution with its headings below that of the chapter."""
+    if isinstance(block, Heading):
+        return replace(block, level=3, fresh=False)
+    if isinstance(block, Together):
+        return replace(block, blocks=tuple(_lower(one) for one in block.blocks))  # type: ignore[misc]
+    if isinstance(block, Beside):
+        return replace(block, blocks=tuple(_lower(one) for one in block.blocks))  # type: ignore[misc]
+    return block
+
+
+def _comparison(lesson: Lesson) -> TableBlock:
+    """Every result as it was read off and as it was computed, and what a pencil may be off."""
+    keys = ("quantity", "on paper", "measured", "exact", "course difference", "unit", "sense", "tolerance")
+    rows, bold = [], set()
+    for i, (line, row) in enumerate(zip(key_rows(lesson), lesson.results, strict=True)):
+        if line.asked:
+            bold.add(i)
+        off = row.relative
+        own = row.symbol.is_vector or row.symbol.measure == "length"
+        rows.append((
+            f"${lesson.letters.vector(row.symbol)}$",
+            number(line.on_paper, 4) if own and line.on_paper is not None else "–",
+            number(value_read(lesson, row), DIGITS), number(line.exact, DIGITS),
+            "–" if off is None else f"{100 * off:.2f}", line.unit, way(row, lesson.language),
+            "–" if line.tolerance is None else f"± {number(line.tolerance, 2)}",
+        ))  # fmt: skip
+    return TableBlock(tuple(said(k, lesson.language) for k in keys), tuple(rows), "lrrrrllr", frozenset(bold))
+
+
+def value_read(lesson: Lesson, row: Compared) -> float:
+    """A reading in the scene's unit: a vector by size, a rate with its sign; zero where it is nothing but rounding."""
+    value = row.reading.value
+    size = abs(value) if row.symbol.is_vector else float(complex(value).real)
+    return lesson.in_unit(row.symbol, size) if row.true != 0.0 else 0.0
+
+
+def _value_tables(
+    lesson: Lesson, heads: tuple[Said, ...], cells: Sequence[tuple[str, ...]], places: Sequence[PlaceValues],
+    asked: Sequence[Symbol], unit: str, bold: frozenset[int] = frozenset(),
+) -> list[TableBlock]:  # fmt: skip
+    """A row for each position behind its names; what one table has no room for stands in a further one."""
+    language = lesson.language
+    driver = said("course driver head", language, unit)
+    tables = []
+    for k in range(0, len(asked), MOST_VALUES):
+        part = asked[k : k + MOST_VALUES]
+        columns = tuple((("en", f"${lesson.letters.vector(s)}$ {lesson.unit(s)}"),) for s in part)
+        rows = tuple(
+            (*own, number(place.driver, DIGITS),
+             *(number(place.read[s], DIGITS) if s in place.read else "–" for s in part))
+            for own, place in zip(cells, places, strict=True)
+        )  # fmt: skip
+        align = "l" * len(heads) + "r" * (1 + len(part))
+        tables.append(TableBlock((*heads, driver, *columns), rows, align, bold))
+    return tables
+
+
+def _class_table(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
+    heads = ["name", "id", "variant", "position", "at", *(c for s in asked for c in (_head(scene, s), f"{s} exact"))]
+    lines = [
+        (row.student.name, row.student.id, row.student.scheme, row.student.place, row.values.driver,
+         *(v for s in asked for v in (row.values.read.get(s), row.values.exact.get(s))))
+        for row in rows
+    ]  # fmt: skip
+    return Table.of(heads, lines, ("", "", "", "", ".9g", *[".9g"] * (2 * len(asked))))
+
+
+def _template(scene: Mechanism, rows: Sequence[ClassRow], asked: Sequence[Symbol]) -> Table:
+    """A table for the class to fill in, as `audit` reads it, with everyone's driver value."""
+    heads = ["name", "id", "variant", "at"]
+    for s in asked:
+        heads += [_head(scene, s), f"{s} direction"] if s.is_vector else [_head(scene, s)]
+    blank = [""] * (len(heads) - 4)
+    lines = [(r.student.name, r.student.id, r.student.scheme, f"{r.values.driver:.9g}", *blank) for r in rows]
+    return Table.of(heads, lines)
+
+
+def _head(scene: Mechanism, symbol: Symbol) -> str:
+    unit = symbol.unit(scene.units).text
+    return f"{symbol} ({unit})" if unit else str(symbol)

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 
-from graphkin.api.answers import Rows, table_of, with_points
 from graphkin.api.arguments import (
     MOST_SEED,
     ON_SHEETS,
@@ -31,13 +30,22 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
 from graphkin.papers.answer_key import answers_template
-from graphkin.papers.data_rows import Columns, columns_of, replaced
+from graphkin.papers.data_rows import Columns, Rows, columns_of, replaced, table_of, with_points
 from graphkin.papers.exports import BANKED, bank
-from graphkin.papers.fresh_numbers import Spread, varied_keys
+from graphkin.papers.fresh_numbers import Spread, rules_checked, varied_keys
 from graphkin.papers.pdf import can_join, one_after_another
-from graphkin.papers.problem_set import Job, MadeSet, Render, accepted, jobs_of_rows, jobs_of_seed, make
-from graphkin.papers.variants import Answer, Variant, asked_of
-from graphkin.papers.vary_rules import rules_checked
+from graphkin.papers.variants import (
+    Answer,
+    Job,
+    MadeSet,
+    Render,
+    Variant,
+    accepted,
+    asked_of,
+    jobs_of_rows,
+    jobs_of_seed,
+    make,
+)
 from graphkin.scene.files import toml_text
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import safe_name, written

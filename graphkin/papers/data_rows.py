@@ -1,6 +1,6 @@
-"""Numbers of a data table that are given by other columns: "0.3 O4B", "O4B*(1 + cos(asin(O2A/O2O4)))/2".
-
-Tables of data as course exercises give them: a row for each group, scheme or student, with the usual names as heads.
+"""Tables as people write them, read from a CSV file; and tables of data as course exercises give them: a row for each
+group, scheme or student, with the usual names as heads, cells also by formulas of other columns ("0.3 O4B",
+"O4B*(1 + cos(asin(O2A/O2O4)))/2").
 
 A head is a key of the scene file with dots (``links.2.length``, ``frame.guides.h.through.y``, ``driver.angle``), two
 points whose distance is given (``O4B``, ``lO4B``, ``l_O2A``), the driver's speed (``n2`` in r/min, ``omega1``), or its
@@ -11,16 +11,24 @@ datum: the first names the row, the rest is left alone.
 from __future__ import annotations
 
 import ast
+import csv
+import io
 import math
 import operator
+import os
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphkin.files import Tables
-from graphkin.words import Phrase
+from graphkin.errors import CallError, Problem
+from graphkin.files import Tables, opened, path_of
+from graphkin.papers.fresh_numbers import drivers_of
+from graphkin.words import Phrase, from_others
 
-__all__ = ["Columns", "columns_of", "names_in", "replaced", "value_of"]
+__all__ = ["Columns", "Rows", "columns_of", "replaced", "table_of", "value_of", "with_points"]
+
+LARGEST = 10_000_000  # bytes of a table
+_MARKS = {b"\xff\xfe": "utf-16", b"\xfe\xff": "utf-16"}
 
 LONGEST = 200
 _OPERATORS: Mapping[type[ast.operator], Callable[[float, float], float]] = {
@@ -39,6 +47,69 @@ _FUNCTIONS: Mapping[str, Callable[[float], float]] = {
     "atan": lambda x: math.degrees(math.atan(x)),
 }
 _PRODUCT = re.compile(r"(?<![A-Za-z0-9_])(\d+(?:\.\d+)?)\s*(?=[A-Za-z(])")
+Setting = tuple[str, float]
+_UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
+_WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
+_SPEED = re.compile(r"n_?\{?(\w*?)\}?")
+_RATE = re.compile(r"(?:omega|ω|w)_?\{?(\w*?)\}?")
+_ANGLE = re.compile(r"(?:phi|theta|φ|θ|ϕ)_?\{?(\w*?)\}?")
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table as read: its heads, its rows with the number of their line, and the sign between their cells."""
+
+    heads: tuple[str, ...]
+    rows: tuple[tuple[int, tuple[str, ...]], ...]
+    sign: str = ","
+
+
+def table_of(path: str | os.PathLike[str]) -> Rows:
+    """A CSV file in UTF-8, or in GB 18030 as Chinese spreadsheets write it; commas, semicolons or tabs part the cells.
+
+    Raises CallError.
+    """
+    shown = str(path)[:200]
+    try:
+        with opened(path_of(path)) as stream:
+            data = stream.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise CallError(
+            Problem(shown, Phrase("cannot be read", reason=from_others(reason)), Phrase("name a csv file"))
+        ) from None
+    if len(data) > LARGEST:
+        raise CallError(
+            Problem(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
+        )
+    text = ""
+    for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
+        try:
+            text = data.decode(encoding)
+            break
+        except UnicodeDecodeError:
+            continue
+    first = text.split("\n", 1)[0]
+    sign = max(",;\t", key=first.count)
+    try:
+        reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
+        lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
+    except csv.Error as error:
+        raise CallError(Problem(shown, Phrase("is no table", error=error), Phrase("save it as csv"))) from None
+    if len(lines) < 2:
+        raise CallError(Problem(shown, Phrase("has no rows"), Phrase("write a line of heads and a line")))
+    return Rows(lines[0][1], tuple(lines[1:]), sign)
+
+
+def with_points(sheet: Rows) -> Rows:
+    """A table with decimal points, where commas do not part its cells."""
+    if sheet.sign == ",":
+        return sheet
+    rows = ((line, tuple(re.sub(r"(?<=\d),(?=\d)", ".", cell) for cell in cells)) for line, cells in sheet.rows)
+    return Rows(sheet.heads, tuple(rows), sheet.sign)
+
+
+# -- a row of data -----------------------------------------------------------------------------------------------------
 
 
 def value_of(text: str, known: Mapping[str, float]) -> float:
@@ -51,27 +122,29 @@ def value_of(text: str, known: Mapping[str, float]) -> float:
     >>> value_of("0.3 O4B", {"O4B": 580.0})
     174.0
     """
-    plain = text.strip().replace("\u2212", "-")
-    try:
-        value = float(plain)
-    except ValueError:
-        value = _evaluated(_tree(plain), known)
+    value = _plain(text)
+    if value is None:
+        value = _evaluated(_tree(text.replace("\u2212", "-")), known)
     if not math.isfinite(value):
-        raise ValueError(Phrase("is no number", number=plain[:40]))
+        raise ValueError(Phrase("is no number", number=text.strip()[:40]))
     return value
 
 
-def names_in(text: str) -> set[str]:
+def _plain(text: str) -> float | None:
+    """The number of a cell; None for a formula."""
+    try:
+        return float(text.strip().replace("\u2212", "-"))
+    except ValueError:
+        return None
+
+
+def _names_in(text: str) -> set[str]:
     """The names that a cell needs; none for a plain number or what is no formula."""
     try:
-        float(text.strip().replace("\u2212", "-"))
+        tree = None if _plain(text) is not None else _tree(text)
     except ValueError:
-        try:
-            tree = _tree(text)
-        except ValueError:
-            return set()
-        return {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(_FUNCTIONS)
-    return set()
+        return set()
+    return set() if tree is None else {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)} - set(_FUNCTIONS)
 
 
 def _tree(text: str) -> ast.expr:
@@ -104,14 +177,6 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
             except ValueError:
                 raise ValueError(f"{name} has no value there") from None
     raise ValueError("only + - * /, sqrt, sin, cos, tan, asin, acos, atan and names of columns are possible")
-
-
-Setting = tuple[str, float]
-_UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
-_WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
-_SPEED = re.compile(r"n_?\{?(\w*?)\}?")
-_RATE = re.compile(r"(?:omega|ω|w)_?\{?(\w*?)\}?")
-_ANGLE = re.compile(r"(?:phi|theta|φ|θ|ϕ)_?\{?(\w*?)\}?")
 
 
 @dataclass(frozen=True)
@@ -171,7 +236,7 @@ def _values(texts: Mapping[str, str]) -> dict[str, float]:
     values: dict[str, float] = {}
     left = dict(texts)
     while left:
-        needs = {s: {n: plain[_bare(n)] for n in names_in(text) if _bare(n) in plain} for s, text in left.items()}
+        needs = {s: {n: plain[_bare(n)] for n in _names_in(text) if _bare(n) in plain} for s, text in left.items()}
         ready = [s for s in left if not set(needs[s].values()) & left.keys()]
         if not ready:
             raise ValueError(f"{', '.join(left)} are given by one another")
@@ -191,7 +256,7 @@ def _bare(name: str) -> str:
 
 def _meaning(source: Tables, short: str) -> str:
     """What a short name stands for: "speed", "rate", "angle", "length" or ""."""
-    links = [str(d.get("link", "")) for d in _drivers(source)]
+    links = [str(d.get("link", "")) for _, d in drivers_of(source)]
     for kind, pattern in (("speed", _SPEED), ("rate", _RATE), ("angle", _ANGLE)):
         match = pattern.fullmatch(short)
         if match and links and match[1] in ("", *links):
@@ -199,16 +264,11 @@ def _meaning(source: Tables, short: str) -> str:
     return "length" if _two_points(source, short) else ""
 
 
-def _drivers(source: Tables) -> Sequence[Tables]:
-    drivers = source.get("driver", [])
-    return drivers if isinstance(drivers, list) else [drivers]
-
-
 def _settings(source: Tables, short: str, value: float) -> Iterable[Setting]:
     kind = _meaning(source, short)
     if kind == "length":
         return _length(source, short, value)
-    drivers = _drivers(source)
+    drivers = [driver for _, driver in drivers_of(source)]
     name = next(p.fullmatch(short) for p in (_SPEED, _RATE, _ANGLE) if p.fullmatch(short))
     index = next((i for i, d in enumerate(drivers) if name and name[1] in ("", str(d.get("link", "")))), 0)
     where = f"driver.{index + 1}" if isinstance(source.get("driver"), list) else "driver"

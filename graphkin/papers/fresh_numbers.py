@@ -1,6 +1,7 @@
-"""Fresh numbers for a scene file: which of them vary, by how much, rounded so that they look like a problem's; and
-those that must fit each other when they vary: teeth that mesh, discs that roll, pieces of a cam's law, a driver's law
-and the moment asked.
+"""Fresh numbers for a scene file: which of them vary, by how much, rounded so that they look like a problem's; what
+``[vary]`` of the scene says about them (ranges, ties, what stays, what is asked, how hard a problem may be); and those
+that must fit each other when they vary: teeth that mesh, discs that roll, pieces of a cam's law, a driver's law and the
+moment asked.
 
 A candidate depends on nothing but the seed, the number of the variant and the attempt, so that a set is the same
 whatever computes it.
@@ -12,22 +13,50 @@ import cmath
 import copy
 import math
 import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
 
+from graphkin.errors import CallError, Problem
 from graphkin.files import OwnTables, Tables
-from graphkin.papers.vary_rules import asked_now, free_of_rules, round_step, ruled, ruled_keys
 from graphkin.plane import added_up
 from graphkin.scene import mechanism_of
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism
-from graphkin.scene.tables import KeyPath, put_at, value_at
+from graphkin.scene.tables import KeyPath, path_of_key, put_at, value_at
+from graphkin.words import Phrase
 
-__all__ = ["Spread", "candidate", "varied_keys"]
+__all__ = [
+    "LEVELS", "Bounds", "Spread", "candidate", "drivers_of", "level_of", "round_step", "rules_checked", "varied_keys",
+]  # fmt: skip
 
 SHY = 0.12  # part of its reach that a driver keeps off both ends
+STEPS = (1.0, 2.0, 5.0)
+LEAST_TEETH = 8
+EARLY = 0.15  # part of a driver's law at its beginning and at its end that no problem asks for
+LEAST_PIECE = 10.0  # degrees of a cam
+ALIKE = 1e-6
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """How badly lines may cross (rad), how far an answer may be missed with a pencil (part of it), the least
+    transmission and the greatest pressure angle (rad)."""
+
+    crossing: float
+    tolerance: float = 0.05
+    transmission: float = 0.0
+    pressure: float = math.pi / 2
+
+
+LEVELS = {
+    "easy": Bounds(math.radians(35.0)),
+    "usual": Bounds(math.radians(20.0)),
+    "hard": Bounds(math.radians(12.0)),
+}
+"""At which angle lines must cross is the transmission angle of a group of bars, and the rest to 90 degrees of the
+pressure angle of a slider."""
 
 
 @dataclass(frozen=True)
@@ -47,49 +76,89 @@ class Spread:
         return replace(self, lengths=0.4 * self.lengths, places=0.4 * self.places)
 
 
+def drivers_of(source: Tables) -> list[tuple[KeyPath, Tables]]:
+    """The drivers of a scene file, each with its path: one table, or several."""
+    drivers = source.get("driver", [])
+    return [(("driver", i), one) for i, one in enumerate(drivers)] if isinstance(drivers, list) else [
+        (("driver",), drivers)
+    ]  # fmt: skip
+
+
 def varied_keys(source: Tables) -> tuple[tuple[KeyPath, str], ...]:
     """The numbers of a scene file that variants change, with what they are: "length", "place", "angle", "rate",
-    "travel", or as `fitting_keys` says.  Zeros stay zero, and so do accelerations and the directions of guides."""
-    found: list[tuple[KeyPath, str]] = []
+    "travel", "teeth", the "end" of a piece of a cam's law, the "moment" of a driver's.
+
+    Zeros stay zero, and so do accelerations and the directions of guides.  Falls of cams follow the rises, lengths of
+    carriers their wheels.
+    """
+    return (*_plain_keys(source), *_fitting_keys(source))
+
+
+def _plain_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
+    """The numbers that need fit no others."""
     for name, link in source.get("links", {}).items():
         if "length" in link:
-            found.append((("links", name, "length"), "length"))
+            yield ("links", name, "length"), "length"
     frame = source.get("frame", {})
     for point, xy in frame.get("points", {}).items():
         if isinstance(xy, dict):
-            found.append((("frame", "points", point, "r"), "length"))
-            continue
-        found += [(("frame", "points", point, i), "place") for i in (0, 1) if xy[i]]
+            yield ("frame", "points", point, "r"), "length"
+        else:
+            yield from ((("frame", "points", point, i), "place") for i in (0, 1) if xy[i])
     for guide, table in frame.get("guides", {}).items():
-        if isinstance(table.get("through"), list):
-            found += [(("frame", "guides", guide, "through", i), "place") for i in (0, 1) if table["through"][i]]
+        through = table.get("through")
+        if isinstance(through, list):
+            yield from ((("frame", "guides", guide, "through", i), "place") for i in (0, 1) if through[i])
     for name, cam in source.get("cams", {}).items():
         if cam.get("base", {}).get("r"):
-            found.append((("cams", name, "base", "r"), "length"))
-    drivers = source.get("driver", [])
-    several = isinstance(drivers, list)
-    for i, driver in enumerate(drivers if several else [drivers]):
-        path: KeyPath = ("driver", i) if several else ("driver",)
+            yield ("cams", name, "base", "r"), "length"
+    for path, driver in drivers_of(source):
         for key in ("angle", "travel", "omega", "rpm", "velocity"):
             if driver.get(key) or (key == "angle" and key in driver):
-                kind = key if key in ("angle", "travel") else "rate"
-                found.append(((*path, key), kind))
-    return (*found, *fitting_keys(source))
+                yield (*path, key), key if key in ("angle", "travel") else "rate"
+
+
+def _fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
+    """The numbers of discs, wheels, cams and driver laws."""
+    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
+    owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
+    for where, owner in owners:
+        for name, disc in owner.get("discs", {}).items():
+            if disc.get("r"):
+                yield (*where, "discs", name, "r"), "length"
+    for name, gear in source.get("gears", {}).items():
+        if all(isinstance(z, int | float) for z in gear.get("teeth", ["rack"])):
+            yield from ((("gears", name, "teeth", i), "teeth") for i in (0, 1))
+    for name, cam in source.get("cams", {}).items():
+        law = cam.get("law", ())
+        yield from ((("cams", name, "law", i, "to"), "end") for i in range(len(law) - 1))
+        yield from ((("cams", name, "law", i, "rise"), "length") for i, piece in enumerate(law) if piece.get("rise"))
+        if cam.get("roller"):
+            yield ("cams", name, "roller"), "length"
+    for path, driver in drivers_of(source):
+        law = driver.get("law", {})
+        if law.get("duration"):
+            yield (*path, "law", "duration"), "rate"
+            if law.get("to"):
+                yield (*path, "law", "to"), "length"
+            if driver.get("time"):
+                yield (*path, "time"), "moment"
 
 
 def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: int) -> OwnTables:
     """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
-    for path, kind in free_of_rules(source, varied_keys(source)):
+    tied = _ruled_keys(source)
+    free = [] if _vary(source).get("only") else [(path, kind) for path, kind in varied_keys(source) if path not in tied]
+    for path, kind in free:
         limited = spread.reach if path in (("driver", "angle"), ("driver", 0, "angle")) else None
         value = float(value_at(source, path))
         put_at(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
-    ruled(source, made, dice, {"angle": spread.angle_step})
-    tied = ruled_keys(source)
-    fitted(source, made, lambda path: path not in tied)
+    _draw_ruled(source, made, dice, {"angle": spread.angle_step})
+    _fit(source, made, lambda path: path not in tied)
     _said_once(made)
-    asked = asked_now(source, dice)
+    asked = _asked_now(source, dice)
     return {**made, "find": asked} if asked else made
 
 
@@ -98,8 +167,7 @@ def _said_once(made: OwnTables) -> None:
     offset is that of the guide."""
     for cam in made.get("cams", {}).values():
         cam.pop("offset", None)
-    drivers = made.get("driver", [])
-    for driver in drivers if isinstance(drivers, list) else [drivers]:
+    for _, driver in drivers_of(made):
         made["links"].get(driver.get("link"), {}).pop("start", None)
 
 
@@ -130,47 +198,7 @@ def _within(dice: random.Random, reach: tuple[float, float], spread: Spread) -> 
     return float(f"{step * dice.randint(first, max(first, last)):.12g}")
 
 
-LEAST_TEETH = 8
-EARLY = 0.15  # part of a driver's law at its beginning and at its end that no problem asks for
-LEAST_PIECE = 10.0  # degrees of a cam
-ALIKE = 1e-6
-
-
-def fitting_keys(source: Tables) -> Iterator[tuple[KeyPath, str]]:
-    """The numbers of discs, wheels, cams and driver laws that vary: radii ("length"), "teeth", the ends of a cam's
-    pieces ("end"), its rises ("length"), the end, duration and moment of a driver's law ("length", "rate", "moment").
-
-    Falls follow the rises, lengths of carriers their wheels.
-    """
-    owners: list[tuple[KeyPath, Tables]] = [(("frame",), source.get("frame", {}))]
-    owners += [(("links", name), link) for name, link in source.get("links", {}).items()]
-    for where, owner in owners:
-        for name, disc in owner.get("discs", {}).items():
-            if disc.get("r"):
-                yield (*where, "discs", name, "r"), "length"
-    for name, gear in source.get("gears", {}).items():
-        if all(isinstance(z, int | float) for z in gear.get("teeth", ["rack"])):
-            yield from ((("gears", name, "teeth", i), "teeth") for i in (0, 1))
-    for name, cam in source.get("cams", {}).items():
-        law = cam.get("law", ())
-        yield from ((("cams", name, "law", i, "to"), "end") for i in range(len(law) - 1))
-        yield from ((("cams", name, "law", i, "rise"), "length") for i, piece in enumerate(law) if piece.get("rise"))
-        if cam.get("roller"):
-            yield ("cams", name, "roller"), "length"
-    drivers = source.get("driver", [])
-    several = isinstance(drivers, list)
-    for i, driver in enumerate(drivers if several else [drivers]):
-        path: KeyPath = ("driver", i) if several else ("driver",)
-        law = driver.get("law", {})
-        if law.get("duration"):
-            yield (*path, "law", "duration"), "rate"
-            if law.get("to"):
-                yield (*path, "law", "to"), "length"
-            if driver.get("time"):
-                yield (*path, "time"), "moment"
-
-
-def fitted(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> None:
+def _fit(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> None:
     """Make the numbers of a candidate fit each other; those that cannot are put back as they were.
 
     Parameters
@@ -179,10 +207,9 @@ def fitted(source: Tables, made: OwnTables, free: Callable[[KeyPath], bool]) -> 
     """
     for name, cam in made.get("cams", {}).items():
         _cam(source["cams"][name], cam)
-    drivers = made.get("driver", [])
-    for driver in drivers if isinstance(drivers, list) else [drivers]:
+    for path, driver in drivers_of(made):
         if driver.get("law", {}).get("duration"):
-            _moment(driver, driver["law"])
+            _set_moment(value_at(made, path), driver["law"])
     rolling = any(contact.get("rolling") for contact in made.get("contacts", {}).values())
     for name, link in made.get("links", {}).items():
         _rims(source["links"][name], link)
@@ -211,7 +238,7 @@ def _cam(was: Tables, cam: OwnTables) -> None:
         falls[-1]["fall"] = float(f"{up - added_up(piece['fall'] for piece in falls[:-1]):.12g}")
 
 
-def _moment(driver: OwnTables, law: Tables) -> None:
+def _set_moment(driver: OwnTables, law: Tables) -> None:
     """A moment, or an angle, well within what a law goes through."""
     if driver.get("time"):
         within = min(max(driver["time"] / law["duration"], EARLY), 1.0 - EARLY)
@@ -335,3 +362,114 @@ def _put_back(was: Any, now: Any) -> None:
     for name, table in now.items():
         if isinstance(table, dict) and name in was and "discs" in table:
             _put_back(was[name], table)
+
+
+# -- what [vary] says --------------------------------------------------------------------------------------------------
+
+
+def level_of(source: Tables) -> Bounds:
+    """The bounds that a scene asks for: those of its level, and what it says itself."""
+    table = _vary(source)
+    keys = ("crossing", "transmission", "pressure", "tolerance")
+    own = {key: table[key] for key in keys if table.get(key) is not None}
+    bounds = {key: value if key == "tolerance" else math.radians(value) for key, value in own.items()}
+    return replace(LEVELS[table.get("level", "usual")], **bounds)
+
+
+def _vary(source: Tables) -> Tables:
+    table = source.get("vary") or {}
+    return table if isinstance(table, Mapping) else {}
+
+
+def _path_of_number(source: Tables, key: str) -> KeyPath:
+    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``.
+
+    Raises ValueError where there is no number.
+    """
+    path = path_of_key(source, key)
+    value = None if path is None else value_at(source, path)
+    if path is None or isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError(Phrase("is no number of the scene"))
+    return path
+
+
+def rules_checked(source: Tables) -> None:
+    """Raise CallError naming every key of ``[vary]`` that is no number of the scene, and every range that is none."""
+    table = _vary(source)
+    problems = []
+    keys = [(f"vary.ranges.{k}", k) for k in table.get("ranges", {})]
+    keys += [("vary.keep", k) for k in table.get("keep", ())]
+    keys += [("vary.ratios", k) for keys in table.get("ratios", ()) for k in keys]
+    for where, key in keys:
+        try:
+            _path_of_number(source, key)
+        except ValueError as error:
+            problems.append(
+                Problem(where, f'"{key}" {error}', Phrase("write a key such as links.2.length or driver.angle"))
+            )
+    problems += [
+        Problem(
+            f"vary.ranges.{k}",
+            Phrase("from to", least=f"{low:g}", greatest=f"{high:g}"),
+            Phrase("give the smaller value first"),
+        )
+        for k, (low, high) in table.get("ranges", {}).items()
+        if low > high
+    ]
+    asked, most = table.get("ask"), len(table.get("find", ()))
+    if asked is not None and asked > most:
+        problems.append(
+            Problem(
+                "vary.ask", Phrase("of quantities", asked=asked, most=most), Phrase("list more of them in vary.find")
+            )
+        )
+    if problems:
+        raise CallError(*problems)
+
+
+def _ruled_keys(source: Tables) -> set[KeyPath]:
+    """The numbers that have a range, are tied to another, or are kept."""
+    table = _vary(source)
+    tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
+    return {_path_of_number(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
+
+
+def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
+    """Draw what has a range, and let what is tied follow; ``step_of`` gives the steps of angles by the last key."""
+    table = _vary(source)
+    for key, (low, high) in table.get("ranges", {}).items():
+        path = _path_of_number(source, key)
+        size = max(abs(low), abs(high), 1e-9)
+        whole = "teeth" in path
+        step = 1.0 if whole else step_of.get(str(path[-1]), round_step(size))
+        if high - low < 2 * step and not whole:
+            step = round_step(max(high - low, 1e-9)) * 10
+        first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+        value = dice.randint(first, last) * step if first <= last else low
+        value = min(max(value, low), high)
+        put_at(made, path, round(value) if whole else float(f"{value:.12g}"))
+    for keys in table.get("ratios", ()):
+        lead, *others = [_path_of_number(source, key) for key in keys]
+        factor = value_at(made, lead) / value_at(source, lead) if value_at(source, lead) else 1.0
+        for other in others:
+            put_at(made, other, float(f"{value_at(source, other) * factor:.9g}"))
+
+
+def _asked_now(source: Tables, dice: random.Random) -> list[str]:
+    """Which quantities a variant asks for; none where the scene leaves it."""
+    table = _vary(source)
+    pool = list(table.get("find", ()))
+    count = table.get("ask") or len(pool)
+    taken = set(dice.sample(range(len(pool)), min(count, len(pool))))
+    return [symbol for i, symbol in enumerate(pool) if i in taken]
+
+
+def round_step(value: float) -> float:
+    """The step of the 1-2-5 series that is about a sixtieth of a value, so that its multiples look round beside it.
+
+    >>> round_step(580), round_step(90), round_step(0.34)
+    (5.0, 1.0, 0.005)
+    """
+    least = abs(value) / 60.0
+    decade = 10.0 ** math.floor(math.log10(least))
+    return max(s * decade for s in STEPS if s * decade <= least * (1 + 1e-9))

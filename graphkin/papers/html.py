@@ -1,27 +1,31 @@
-"""Blocks as HTML: every word of a scene escaped, figures as SVG in the page, symbols with how they are read aloud, for
-readers of screens (``v_{B3B2}`` is "velocity of B3 relative to B2")."""
+"""Blocks as HTML, and documents as whole pages: every word of a scene escaped, figures as SVG in the page, symbols with
+how they are read aloud, for readers of screens (``v_{B3B2}`` is "velocity of B3 relative to B2")."""
 
 from __future__ import annotations
 
 import base64
+import hashlib
+import json
 import re
+import zlib
 from collections.abc import Iterable, Sequence
 from functools import cache
 from html import escape, unescape
+from importlib.resources import files
 from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
-from graphkin.drawing.font import Style
+from graphkin.drawing.font import Style, face_rules, families
 from graphkin.drawing.text import Atom, is_italic, parsed
 from graphkin.drawing.write.svg import svg_element
-from graphkin.papers.blocks import Block, Said, clean
+from graphkin.papers.blocks import Block, Document, Said, clean
 from graphkin.words import Phrase, area, say, word
 
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-__all__ = ["blocks_html", "rendered", "said_html", "spoken_words", "used_characters", "words_html"]
+__all__ = ["blocks_html", "document_page", "rendered", "said_html", "spoken_words", "whole_page", "words_html"]
 
 ALIGNED = {"l": "", "r": Markup(' class="right"'), "c": Markup(' class="middle"')}
 PIXEL = 25.4 / 96  # mm
@@ -58,26 +62,6 @@ def said_html(said: Said, tag: str = "span") -> str:
     )
 
 
-_BOLD = re.compile(
-    r'<(h[1-6]|th)\b.*?</\1>|<tr class="asked">.*?</tr>|<tspan[^>]*font-weight="bold".*?</tspan>', re.DOTALL
-)
-_ITALIC = re.compile(r'<(i)>.*?</\1>|<tspan[^>]*font-style="italic".*?</tspan>', re.DOTALL)
-_TAG = re.compile("<[^>]*>")
-_UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
-
-
-def used_characters(body: str) -> dict[Style, set[str]]:
-    """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
-    plain = _UNSEEN.sub("", unescape(body.replace("\\u003c", "<").replace("<\\/", "</").replace('\\"', '"')))
-    found = {
-        style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}
-        for style, pattern in (("italic", _ITALIC), ("bold", _BOLD))
-    }
-    seen = set(_TAG.sub("", plain))
-    letters = {c for c in seen if c.isalpha() and ord(c) < 0x400}
-    return {"regular": seen, "italic": found["italic"] | letters, "bold": found["bold"]}
-
-
 def blocks_html(blocks: Iterable[Block], language: str = "en") -> str:
     """Blocks one after the other; what is the same in every language is read aloud in one."""
     return rendered("blocks.html", blocks=blocks, language=language, ALIGNED=ALIGNED)
@@ -108,6 +92,80 @@ def _templates() -> Environment:
     }
     return made
 
+
+# -- whole pages -------------------------------------------------------------------------------------------------------
+
+
+def document_page(document: Document) -> str:
+    """A document as a page without scripts."""
+    return whole_page(document, f"<main>\n{blocks_html(document.blocks, document.languages[0])}\n</main>")
+
+
+def whole_page(document: Document, body: str, script: str = "", data: object = None) -> str:
+    """A page in one file, which loads nothing and runs no script but its own.
+
+    Parameters
+    ----------
+    body : what it shows (HTML)
+    script : the name of its script, a file of this room
+    data : what the script reads, packed in the page
+    """
+    paper, code = document.paper, _file(script) if script else ""
+    told = "" if data is None else json.dumps(
+        data, ensure_ascii=False, allow_nan=False, sort_keys=True, separators=(",", ":")
+    )  # fmt: skip
+    name, rules = face_rules(_used_characters(body + told))
+    style = rules + _file("page.css").replace("FAMILIES", families(name).replace("'", '"'))
+    # in millimetres, since CSS has no names for papers larger than A3
+    style += f"@page {{ size: {paper.width:g}mm {paper.height:g}mm }}\n"
+    allowed = f"'{_hash(code)}'" if code else "'none'"
+    policy = (
+        f"default-src 'none'; style-src '{_hash(style)}'; script-src {allowed}; "
+        "font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
+    )
+    return rendered(
+        "page.html",
+        language=word("code in pages", document.languages[0]),
+        title=document.title,
+        policy=Markup(policy),
+        style=Markup(style),
+        body=Markup(body),
+        script=Markup(code),
+        # the positions are much alike: packed they take an eighth of the room
+        packed=base64.b64encode(zlib.compress(told.encode(), 9)).decode() if told else "",
+    )
+
+
+@cache
+def _file(name: str) -> str:
+    return files("graphkin.papers").joinpath(name).read_text(encoding="utf-8")
+
+
+def _hash(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+_BOLD = re.compile(
+    r'<(h[1-6]|th)\b.*?</\1>|<tr class="asked">.*?</tr>|<tspan[^>]*font-weight="bold".*?</tspan>', re.DOTALL
+)
+_ITALIC = re.compile(r'<(i)>.*?</\1>|<tspan[^>]*font-style="italic".*?</tspan>', re.DOTALL)
+_TAG = re.compile("<[^>]*>")
+_UNSEEN = re.compile(r"<(style|title|desc)\b.*?</\1>", re.DOTALL)
+
+
+def _used_characters(body: str) -> dict[Style, set[str]]:
+    """The characters of a page in each face in which it shows them; the same for figures that a script holds."""
+    plain = _UNSEEN.sub("", unescape(body.replace('\\"', '"')))
+    found = {
+        style: {c for match in pattern.finditer(plain) for c in _TAG.sub("", match[0])}
+        for style, pattern in (("italic", _ITALIC), ("bold", _BOLD))
+    }
+    seen = set(_TAG.sub("", plain))
+    letters = {c for c in seen if c.isalpha() and ord(c) < 0x400}
+    return {"regular": seen, "italic": found["italic"] | letters, "bold": found["bold"]}
+
+
+# -- symbols read aloud ------------------------------------------------------------------------------------------------
 
 _POINT = re.compile(r"[A-Z][a-z]*\d*")
 _VECTORS = {"v": "v", "V": "v", "a": "a", "A": "a"}

@@ -12,7 +12,7 @@ import json
 import math
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
@@ -23,13 +23,14 @@ from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, P
 from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.papers.blocks import Beside, Document, Fields, Heading, Paragraph, Picture, Plate, Said, StepItem, clean
+from graphkin.papers.html import document_page
 from graphkin.papers.layout import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, Pair, Piece, Row, Wrapped, pages_of
 from graphkin.words import word
 
 if TYPE_CHECKING:
     import typst
 
-__all__ = ["can_join", "can_typeset", "one_after_another", "pdf"]
+__all__ = ["can_join", "can_typeset", "one_after_another", "papers_as", "pdf"]
 
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
@@ -89,6 +90,16 @@ def pdf(document: Document) -> bytes:
             template, font_paths=fonts, format="pdf", timestamp=0, sys_inputs=_inputs({**frame, "pages": pages})
         )
     assert isinstance(made, bytes)
+    return made
+
+
+def papers_as(formats: Collection[str], documents: Mapping[str, Document]) -> dict[str, bytes]:
+    """Documents as files by name: HTML, and PDF where it can be typeset."""
+    made: dict[str, bytes] = {}
+    if "html" in formats:
+        made |= {f"{name}.html": document_page(document).encode() for name, document in documents.items()}
+    if "pdf" in formats and can_typeset():
+        made |= {f"{name}.pdf": pdf(document) for name, document in documents.items()}
     return made
 
 

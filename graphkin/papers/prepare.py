@@ -27,11 +27,10 @@ from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
 from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
-from graphkin.papers.page import document_page, handout_page
 from graphkin.papers.paper import paper_plan
-from graphkin.papers.pdf import can_typeset, pdf
+from graphkin.papers.pdf import can_typeset, papers_as
 from graphkin.papers.problem import problem
-from graphkin.papers.screen import POSITIONS, Progress, common_scales, motion_data
+from graphkin.papers.screen import POSITIONS, Progress, common_scales, handout_page, motion_data
 from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
@@ -42,7 +41,10 @@ from graphkin.solver.values import force_values
 from graphkin.structure import Structure
 from graphkin.words import languages
 
-__all__ = ["FORMATS", "Papers", "evidence_of", "handout_files", "lesson_of", "positions", "usual_count", "views_of"]
+__all__ = [
+    "FORMATS", "Papers", "compared", "evidence_of", "handout_files", "lesson_of", "positions", "usual_count",
+    "views_of",
+]  # fmt: skip
 
 MANY_LINKS = 10
 
@@ -54,15 +56,20 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     ------
     Disagreement : its own check finds a value out of tolerance
     """
-    sheet = execute(what)
-    motion = solver.as_drawn(motion, what.structure)
-    exact = solver.exact_values(motion, what.asked)
+    lesson = compared(execute(what), motion, language, convention, what.asked)
+    scene = lesson.sheet.scene
+    lesson.report.must_agree(scene)
+    return replace(lesson, tolerance=predict(what, "pencil", scene.sheet.tools))
+
+
+def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:
+    """The lesson of a sheet, its readings held against the motion; without tolerances of a pencil."""
+    motion = solver.as_drawn(motion, sheet.structure)
+    exact = solver.exact_values(motion, asked)
     scale, lost = (force_scale(sheet), force_values(motion)[1]) if sheet.has_forces else (0.0, 0.0)
     rounding = rounding_of(motion, lost)
-    report = compare(sheet, read_off(sheet), exact, what.asked, rounding=rounding, force_scale=scale)
-    report.must_agree(sheet.scene)
-    tolerance = predict(what, "pencil", sheet.scene.sheet.tools)
-    return Lesson(sheet, report, tolerance, language, convention, what.asked)
+    report = compare(sheet, read_off(sheet), exact, asked, rounding=rounding, force_scale=scale)
+    return Lesson(sheet, report, {}, language, convention, asked)
 
 
 def evidence_of(what: Plan, motion: Motion, lesson: Lesson) -> Evidence:
@@ -135,13 +142,12 @@ def views_of(
     views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
-        motion = solver.as_drawn(solver.solve(structure, at=sheet.drivers), sheet.structure)
-        exact = solver.exact_values(motion, tuple(asked))
-        report = compare(sheet, read_off(sheet), exact, tuple(asked), rounding=rounding_of(motion))
-        if number != given and any(row.ok is False for row in report.rows):
+        motion = solver.solve(structure, at=sheet.drivers)
+        lesson = compared(sheet, motion, language, convention, tuple(asked))
+        if number != given and any(row.ok is False for row in lesson.report.rows):
             start -= number < given
-            continue
-        views.append(Lesson(sheet, report, {}, language, convention, tuple(asked), here))
+        else:
+            views.append(replace(lesson, centres=here))
     return views, start
 
 
@@ -199,16 +205,16 @@ def handout_files(
     progress : called with the number of positions done for the screen and the number of all
     values : of the drivers, from which the motion on the screen goes on
     """
-    papers = _Documents.of(lesson)
+    worked = tuple(solution_blocks(lesson, beginning(lesson)))
+    sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
     # typesetting runs beside Python
     with ThreadPoolExecutor(1) as beside:
-        typeset = beside.submit(_typeset, lesson, papers) if "pdf" in formats else None
+        typeset = beside.submit(_typeset, lesson, sheets, worked) if "pdf" in formats else None
         made: dict[str, bytes] = {}
         if "html" in formats:
-            shown = views or (lesson,)
             moving = motion_data(lesson.sheet, lesson.letters, values)
-            page = handout_page(lesson, shown, start, progress, moving, papers.worked)
-            made |= {**_pages(papers), "handout.html": page.encode()}
+            page = handout_page(lesson, views or (lesson,), start, progress, moving, worked)
+            made |= papers_as(("html",), sheets) | {"handout.html": page.encode()}
         if typeset is not None:
             made |= typeset.result()
     made["key.csv"] = key_table(lesson).csv().encode()
@@ -217,37 +223,12 @@ def handout_files(
     return made
 
 
-@dataclass(frozen=True)
-class _Documents:
-    """The papers of a lesson, each made once, whatever it is written as."""
-
-    problem: Document
-    key: Document
-    worked: tuple[Block, ...]
-    solution: Document
-
-    @classmethod
-    def of(cls, lesson: Lesson) -> _Documents:
-        worked = tuple(solution_blocks(lesson, beginning(lesson)))
-        return cls(problem(lesson), answer_key(lesson), worked, solution(lesson, worked))
-
-
-def _pages(papers: _Documents) -> dict[str, bytes]:
-    """Problem sheet and key as pages."""
-    return {
-        "problem.html": document_page(papers.problem).encode(),
-        "key.html": document_page(papers.key).encode(),
-    }
-
-
-def _typeset(lesson: Lesson, papers: _Documents) -> dict[str, bytes]:
-    """The typeset papers, or the figure sheets where nothing can be typeset."""
+def _typeset(
+    lesson: Lesson, sheets: Mapping[str, Document], worked: Sequence[Block] | None = None
+) -> dict[str, bytes]:
+    """Problem sheet, key and worked solution typeset, or the figure sheets where nothing can be typeset."""
     if can_typeset():
-        return {
-            "problem.pdf": pdf(papers.problem),
-            "solution.pdf": pdf(papers.solution),
-            "key.pdf": pdf(papers.key),
-        }
+        return papers_as(("pdf",), {**sheets, "solution": solution(lesson, worked)})
     drawn = diagram_figures(lesson.sheet, language=lesson.language, convention=lesson.convention)
     return {f"{name}.pdf": figure.content("pdf") for name, figure in drawn.items()}
 
@@ -273,11 +254,11 @@ class Papers:
         what = paper_plan(motion.structure, None, asked, share=False)
         lesson = lesson_of(what, motion, self.language, self.convention)
         made = {"key.csv": key_table(lesson).csv().encode()}
-        papers = _Documents.of(lesson)
+        sheets = {"problem": problem(lesson), "key": answer_key(lesson)}
         if "html" in self.formats:
-            made |= _pages(papers)
+            made |= papers_as(("html",), sheets)
         if "pdf" in self.formats:
-            made |= _typeset(lesson, papers)
+            made |= _typeset(lesson, sheets)
         if self.exports:
             question = question_of(lesson, evidence_of(what, motion, lesson), f"{self.name}-{variant.name}")
             made |= files_for(question, self.exports)

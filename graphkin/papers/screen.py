@@ -1,4 +1,4 @@
-"""What the page of a handout shows on a screen: the figures and steps of every position of the driver, drawn in the
+"""The worked solution as a page to step through: the figures and steps of every position of the driver, drawn in the
 same frames, every part with its step; what each step finds, so that somebody may try it first; and the mechanism in
 motion, as plain numbers over what the driver reaches.
 """
@@ -13,6 +13,7 @@ from itertools import combinations, zip_longest
 from typing import Literal, TypeAlias
 
 import numpy as np
+from markupsafe import Markup
 
 from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
 from graphkin.account.notation import Letters, scale_statement
@@ -42,20 +43,20 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
 from graphkin.papers.answer_key import way
-from graphkin.papers.blocks import Said, StepItem, said
-from graphkin.papers.html import blocks_html, said_html, spoken_words, words_html
+from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
+from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
-from graphkin.papers.problem import equation_words, given
-from graphkin.papers.solution import results_blocks, stage_title, step_items
+from graphkin.papers.problem import equation_words, given, scene_title
+from graphkin.papers.solution import results_blocks, solution, solution_blocks, stage_title, step_items
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.motion import instant_centre
 from graphkin.solver.pose import Array
-from graphkin.words import about, languages
+from graphkin.words import about, languages, word
 
-__all__ = ["POSITIONS", "Progress", "common_scales", "motion_data", "positions_data", "tolerances"]
+__all__ = ["POSITIONS", "Progress", "common_scales", "handout_page", "motion_data", "positions_data"]
 
 Progress = Callable[[int, int], None]  # positions done, and all of them
 POSITIONS = 12
@@ -100,6 +101,73 @@ def _joined(boxes: Iterable[Box]) -> Box:
     for box in rest:
         first = first.joined(box)
     return first
+
+
+def handout_page(
+    lesson: Lesson,
+    views: Sequence[Lesson],
+    start: int = 0,
+    progress: Progress | None = None,
+    moving: Mapping[str, object] | None = None,
+    worked: Iterable[Block] | None = None,
+) -> str:
+    """The worked solution as a page to step through.
+
+    Parameters
+    ----------
+    lesson : the solution on paper, which is what is printed
+    views : a lesson for each position of the driver that the screen shows
+    start : which of them is the given one
+    progress : called with the number of positions done and the number of all
+    moving : what the page plays (`motion_data`)
+    worked : the stages of the solution, where they are there already
+    """
+    stages = tuple(solution_blocks(lesson, tuple(given(lesson))) if worked is None else worked)
+    whole = solution(lesson, stages)
+    first = languages(lesson.language)[0]
+
+    paper = lesson.sheet.scene.sheet.paper
+    data = {
+        **positions_data(views, progress),
+        "start": start,
+        "moving": dict(moving or {}),
+        "room": _tolerances(lesson),
+        "words": {key: _side_by_side(said(of, lesson.language, *gaps)) for key, of, gaps in SPOKEN},
+    }
+    keys = said("keys", lesson.language)
+    shown = said("positions words" if len(views) > 1 else "position words", lesson.language, len(views))
+    hints = zip(keys, shown, said("print hint", lesson.language, paper), strict=True)
+    hint = tuple((each, word("between sentences", each).join((a, b, c))) for (each, a), (_, b), (_, c) in hints)
+    body = rendered(
+        "handout.html",
+        title=scene_title(lesson),
+        given=Markup(blocks_html(given(lesson), first)),
+        paper=Markup(blocks_html((Heading(scene_title(lesson), 2), *stages), first)),
+        results=Markup(blocks_html(results_blocks(lesson), first)),
+        hint=hint,
+        buttons=BUTTONS,
+        say=lambda key: Markup(said_html(said(key, lesson.language))),
+        plain=lambda key: _side_by_side(said(key, lesson.language)),
+    )
+    return whole_page(whole, body, "viewer.js", data)
+
+
+BUTTONS = (
+    ("first", "|◀", "first step"), ("previous", "◀", "previous step"), ("next", "▶", "next step"),
+    ("last", "▶|", "last step"), ("equation", "▶▶", "next equation"),
+)  # fmt: skip
+SPOKEN = (
+    ("stepOf", "step of", ("{0}", "{1}")), ("right", "trial right", ()), ("off", "trial off", ()),
+    ("turned", "trial turned", ()), ("enter", "trial enter", ()), ("hint1", "hint equation", ("{0}",)),
+    ("hint2", "hint direction", ("{0}",)), ("hint3", "hint size", ("{0}", "{1}")), ("play", "play", ()),
+    ("pause", "pause", ()), ("ccw", "counter-clockwise", ()), ("cw", "clockwise", ()), ("hidden", "step hidden", ()),
+    ("velocity", "velocity polygon", ()), ("acceleration", "acceleration polygon", ()), ("mechanism", "mechanism", ()),
+    ("figure", "figure numbered", ("{0}", "")),
+)  # fmt: skip
+
+
+def _side_by_side(words: Said) -> str:
+    return " / ".join(text for _, text in words)
 
 
 def positions_data(views: Sequence[Lesson], progress: Progress | None = None) -> dict[str, object]:
@@ -363,7 +431,7 @@ def _force_found(lesson: Lesson, stage: ForceStage, step: ForceStep) -> dict[str
     return {}
 
 
-def tolerances(lesson: Lesson) -> dict[str, float]:
+def _tolerances(lesson: Lesson) -> dict[str, float]:
     """By symbol the part of a value within which an answer is taken for right: that of the key, within bounds."""
     parts = {}
     for row in lesson.results:

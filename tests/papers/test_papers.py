@@ -15,7 +15,7 @@ from graphkin.drawing.ink.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
 from graphkin.papers.answer_key import answer_key, key_rows
 from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
-from graphkin.papers.page import document_page
+from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
 from graphkin.papers.problem import problem
 from graphkin.papers.solution import solution

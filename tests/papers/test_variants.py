@@ -21,10 +21,10 @@ from graphkin.api.problem_sets import problem_set
 from graphkin.construction import draft
 from graphkin.construction.strokes import Ray
 from graphkin.errors import CallError, Problem, Unsolvable
-from graphkin.papers import problem_set as room
+from graphkin.papers import variants as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of
+from graphkin.papers.fresh_numbers import round_step
 from graphkin.papers.variants import Answer, _within_reach, asked_of
-from graphkin.papers.vary_rules import round_step
 from graphkin.plane import cross
 from graphkin.scene import library_text, mechanism_of
 from graphkin.scene.symbol import Symbol

@@ -8,10 +8,9 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
-from graphkin.papers.fresh_numbers import Spread, candidate
+from graphkin.papers.fresh_numbers import LEVELS, Spread, candidate, level_of
 from graphkin.papers.problem import problem
 from graphkin.papers.variants import Unfit, examined
-from graphkin.papers.vary_rules import LEVELS, level_of
 from graphkin.scene.scene import written
 
 RULES = {
