@@ -62,7 +62,7 @@ if TYPE_CHECKING:
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
     from graphkin.api.sweep import sweep
     from graphkin.api.swept import Swept
-    from graphkin.board.notebook import open_board
+    from graphkin.board.server import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
     from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
     from graphkin.scene.bodies import Compass, Disc, Frame, Guide, Link, Pin, Polar
@@ -157,7 +157,7 @@ __all__ = [
 _PLACES = {
     "api.audited": "Audited audit",
     "api.cams": "Cams cam",
-    "board.notebook": "open_board",
+    "board.server": "open_board",
     "errors": "CallError GraphkinError SceneError Unsolvable",
     "api.centred": "Centred centres",
     "api.centroded": "Centroded centrodes",

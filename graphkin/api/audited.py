@@ -6,28 +6,41 @@ from __future__ import annotations
 import math
 import os
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from numbers import Real
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from graphkin import solver
 from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
-from graphkin.api.arguments import At, SceneLike, as_scene, known_words, placed
+from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, placed
 from graphkin.api.checked import solved_here
-from graphkin.api.judging import MOST_DRAWN, evidence_at, judged_table
 from graphkin.api.reading_rows import JudgedValue
 from graphkin.api.results import OfScene, Result, named
-from graphkin.checking.audit import Judged, judge, with_gaps
+from graphkin.checking.audit import (
+    Judged,
+    computing_errors,
+    exact_rows,
+    explained,
+    explained_by_digits,
+    judge,
+    judged_by_digits,
+    with_gaps,
+)
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
+from graphkin.checking.uncertainty import predict
 from graphkin.construction import execute, plan
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.plane import added_up
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
+from graphkin.solver import Motion, as_drawn, driver_range, exact_values, senses_along, structure_of, value_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -35,7 +48,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Audited", "audit"]
 
+POSITIONS = 72
+MOST_DRAWN = 6  # rows of a table that are drawn each
+MOST_PREDICTED = 4  # positions of a longer one that are
+MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values look like
 MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps of their loops
+
+FULL = ("right", "within drafting accuracy", "right from own values")
+PARTS = ("equations", "drawing", "values")
+COUNTED = (*FULL, "wrong", "missing", "not readable")
+Person = tuple[Answers, tuple[Judged, ...]]
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -282,6 +304,9 @@ def audit(
     return Audited(given, judged, language or given.sheet.language, unused, scheme, scans)
 
 
+# -- what values are held against --------------------------------------------------------------------------------------
+
+
 def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
     """The scans of a scene, held against the exact drawing."""
     given, values = placed(scene, at)
@@ -331,14 +356,12 @@ def _problems(
 
 def _others_values(problems: Mapping[str, Mechanism], own: str) -> ValuesElsewhere:
     """Exact values of the other problems of a set, by their names."""
-    from graphkin.solver import exact_values, solve
-
     @cache
     def values(symbol: Symbol) -> tuple[tuple[str, Value], ...]:
         found: list[tuple[str, Value]] = []
         for name, scene in problems.items():
             if name and scene is not problems[own]:
-                value = exact_values(solve(scene), [symbol])(symbol)
+                value = exact_values(solver.solve(scene), [symbol])(symbol)
                 found.append((name, value))
         return tuple(found)
 
@@ -375,10 +398,146 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     return tuple(found)
 
 
-FULL = ("right", "within drafting accuracy", "right from own values")
-PARTS = ("equations", "drawing", "values")
-COUNTED = (*FULL, "wrong", "missing", "not readable")
-Person = tuple[Answers, tuple[Judged, ...]]
+def judged_table(
+    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
+) -> dict[int, tuple[Judged, ...]]:
+    """Rows of a table: all positions solved at once, judged by their digits; only what is wrong is looked into, and of
+    a table that was drawn some positions are drawn to see what a pencil keeps within."""
+    symbols = list(dict.fromkeys(p.symbol for who in table for p in who.values))
+    reach = driver_range(structure_of(scene))
+    key = scene.drivers[0].key
+    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(key) for who in table]
+    own = scene.drivers[0].values[0]
+    motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
+    if not motion.ok.all():
+        k = int(np.argmin(motion.ok))
+        where = scene.unit_of(scene.drivers[0]).said(float(motion.values[k, 0]))
+        status = str(motion.status[k])
+        raise Unsolvable(
+            status,
+            Problem(
+                Phrase("driver at", key=key, where=where),
+                motion.said(k),
+            ),
+        )
+    turning = [s for s in symbols if s.scope in ("turn", "cycle")]
+    value = exact_values(solved_here(scene, None), turning)
+    exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
+    signed = _signed_columns(table, motion)
+    computed = any(who.by == "computation" for who in table)
+    errors = computing_errors(motion, [s for s in symbols if s not in turning]) if computed else {}
+    names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
+    made: dict[int, tuple[Judged, ...]] = {}
+    looked_into = 0
+    for row, who in enumerate(table):
+        judged = []
+        for stated in who.values:
+            by_line = who.by == "computation" and stated.symbol in signed and stated.direction is None
+            printed = replace(stated, signed=True) if by_line else stated
+            right = exact(row, printed)
+            error = errors.get(printed.symbol) if who.by == "computation" else None
+            one = judged_by_digits(printed, right, who.by, 0.0 if error is None else float(error[row]))
+            if one.verdict != "right" and who.by == "drawing":
+                near = case(table[_nearest(row, len(table))].at).held(printed.symbol)
+                one = judged_by_digits(printed, right, who.by, near.bound)
+            if one.verdict == "wrong":
+                one = explained_by_digits(one, exact, row, symbols, names)
+            judged.append(one)
+        if any(one.verdict == "wrong" and not one.looks_like for one in judged) and looked_into < MOST_EXPLAINED:
+            looked_into += 1
+            evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
+            if who.by == "drawing":  # by what a pencil keeps within here, not near by
+                judged = [
+                    j if j.verdict == "right" or j.looks_like
+                    else judged_by_digits(j.printed, j.exact, who.by, evidence.held(j.printed.symbol).bound)
+                    for j in judged
+                ]  # fmt: skip
+            wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
+            drawn = who.by == "drawing"
+            judged = [
+                explained(evidence, j, values, wrong, drawn) if j.verdict == "wrong" and not j.looks_like else j
+                for j in judged
+            ]
+        made[id(who)] = tuple(judged)
+    return made
+
+
+def _signed_columns(table: Sequence[Answers], motion: Motion) -> set[Symbol]:
+    """The vectors whose computed values are signed, as a program prints them: those along a guide, unless no sign
+    stands in the column although the motion goes both ways, which tells that sizes are meant."""
+    rows: dict[Symbol, list[int]] = {}
+    for row, who in enumerate(table):
+        for printed in who.values:
+            if who.by == "computation" and printed.symbol.is_vector and len(printed.texts) == 1:
+                rows.setdefault(printed.symbol, []).append(row)
+    signed = set()
+    for symbol, own in rows.items():
+        lines = senses_along(motion, symbol)
+        if lines is not None:
+            along = (value_of(motion, symbol) * lines.conjugate()).real[own]
+            if not (along.min() < 0.0 < along.max()):
+                signed.add(symbol)
+    return signed
+
+
+def _nearest(row: int, count: int) -> int:
+    """The row of a long table whose drawing tells what a pencil keeps within at another: some of them are drawn."""
+    step = max(1, math.ceil(count / MOST_PREDICTED))
+    return min(count - 1, step * round(row / step))
+
+
+def evidence_at(
+    scene: Mechanism, asked: Sequence[Symbol], at: At, variants: ValuesElsewhere = lambda symbol: ()
+) -> Evidence:
+    """Everything that is known of a scene at one position.
+
+    ``variants`` gives the values of the other problems of its set.
+    """
+    scene, values = placed(scene, at)
+    motion = solved_here(scene, values)
+    structure = motion.structure
+    what = plan(structure, values, [symbol for symbol in asked if symbol.scope != "cycle"])
+    # everything is drawn, so that slips in what leads to the asked and beside it are found
+    whole = plan(structure, values, ())
+    drawn = what if set(what.elements) == set(whole.elements) else whole
+
+    predicted = predict(what, "pencil", scene.sheet.tools)
+    exact = exact_values(as_drawn(motion, what.structure), asked)
+    return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants, motion)
+
+
+def _elsewhere(scene: Mechanism, values: dict[str, float] | None) -> ValuesElsewhere:
+    """Exact values at the positions of a table: steps of 5 degrees, from here and from 0."""
+    @cache
+    def motions() -> tuple[Motion, ...]:
+        first = scene.drivers[0]
+        if not first.turns:
+            return ()
+        from_zero = {**(values or {}), first.key: 0.0}
+        return solver.solve(scene, values, POSITIONS), solver.solve(scene, from_zero, POSITIONS)
+
+    def table(symbol: Symbol) -> list[tuple[str, complex | float]]:
+        found: list[tuple[str, complex | float]] = []
+        if symbol.scope in ("turn", "cycle") or symbol.kind == "arm":  # the lever has its arms at one position
+            return found
+        for motion in motions():
+            for i, value in enumerate(solver.value_of(motion, symbol)):
+                if motion.ok[i]:
+                    driver, at = scene.drivers[0], float(motion.values[i, 0])
+                    name = f"{driver.key} = {scene.unit_of(driver).said(at)}"
+                    found.append((name, complex(value) if symbol.is_vector else float(value.real)))
+        return found
+
+    return table
+
+
+def _named(scene: Mechanism, at: float | str | None, value: float) -> str:
+    """How a row of a table is called: its position's name, or the driver's value."""
+    driver = scene.drivers[0]
+    return at if isinstance(at, str) else f"{driver.key} = {scene.unit_of(driver).said(float(value))}"
+
+
+# -- points, and what a class did --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)

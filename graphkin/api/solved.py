@@ -31,7 +31,7 @@ from graphkin.table import Values
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
-    from graphkin.api.loops_text import LoopText
+    from graphkin.account.loops import LoopText
     from graphkin.solver import Forces, Motion
     from graphkin.table import Array, Column, Table
 
@@ -137,7 +137,7 @@ class Solved(OfScene, Result):
         ------
         CallError : a chosen loop goes from a point to another that nothing joins, or no position is solved
         """
-        from graphkin.api.loops_text import loops_text
+        from graphkin.account.loops import loops_text
 
         known_words(language=language)
         return loops_text(self.motion, language or self.mechanism.sheet.language)

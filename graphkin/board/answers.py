@@ -11,7 +11,7 @@ import io
 import tempfile
 import zipfile
 import zlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -21,7 +21,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from graphkin.api.arguments import known_words
 from graphkin.board import building, pictures
-from graphkin.board.moving import pulled
+from graphkin.board.building import pulled
 from graphkin.board.pictures import FigureOptions
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
@@ -72,10 +72,8 @@ def answer(desk: Desk, message: object) -> Answer:
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
-        form, told = QUESTIONS[name]
-        return {**head, "ok": True, **told(desk, form.model_validate(dict(message)))}
-    except ValidationError as error:
-        return {**head, "ok": False, **_problems(desk, _refused(error), message)}
+        needed, told = QUESTIONS[name]
+        return {**head, "ok": True, **told(desk, Message.of(message, needed))}
     except GraphkinError as error:
         return {**head, "ok": False, **_problems(desk, error, message)}
     except (RecursionError, MemoryError, OverflowError):
@@ -124,40 +122,57 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
 # -- the questions --------------------------------------------------------------------------------------------------
 
 
-class Asked(BaseModel):
-    """A message of the page.  What is left out or null is as the page begins."""
+class Message(BaseModel):
+    """A message of the page, of whatever question.  What is left out or null is as the page begins."""
 
     model_config = ConfigDict(strict=True, frozen=True, allow_inf_nan=False)
 
     language: str | None = None
+    name: str = ""  # of a file, and the mark of its version
+    mark: str = ""
+    text: str = ""  # of a scene, at values of its drivers, with wishes for its figures
+    at: dict[str, float] | None = None
+    figures: list[str] | None = None
+    convention: str | None = None
+    instrument: str = "exact"
+    seed: int = 0
+    scales: Annotated[list[Annotated[float, Field(gt=0)]], Field(min_length=3, max_length=3)] | None = None
+    quick: bool = False
+    point: str = ""  # pulled to a place
+    x: float = 0.0
+    y: float = 0.0
+    lengths: bool = False
+    final: bool = False
+    changes: dict[str, Any] = Field(default_factory=dict)
+    step: dict[str, Any] = Field(default_factory=dict)
+    line: int = 0
+    column: int = 0
+    link: str | None = None
+    new: str | None = None
+    find: list[str] | None = None
+    kind: str = ""
+    count: Annotated[int, Field(ge=1, le=MOST_VARIANTS)] = 1
+
+    @classmethod
+    def of(cls, message: Mapping[str, Any], needed: Collection[str]) -> Message:
+        """A message that has all that its question needs.  Raises CallError, naming what is missing or wrong."""
+        given = {key: value for key, value in message.items() if value is not None}
+        wrong = {key: None for key in cls.model_fields if key in needed and key not in given}
+        try:
+            made = cls.model_validate(given)
+        except ValidationError as error:
+            wrong |= {str(one["loc"][0]): one["input"] for one in error.errors(include_url=False)}
+        if wrong:
+            raise CallError(*(_refused(key, value) for key, value in wrong.items()))
+        return made
 
     @property
     def spoken(self) -> str:
         """The language of the answer, English where the message does not say."""
         return self.language if self.language in LANGUAGES else LANGUAGES[0]
 
-
-class OfFile(Asked):
-    name: str | None = None
-    mark: str | None = None
-
-
-class OfText(OfFile):
-    text: str
-
-
-class OfScene(OfText):
-    """A scene at values of its drivers, with wishes for its figures."""
-
-    at: dict[str, float] | None = None
-    figures: list[str] | None = None
-    convention: str | None = None
-    instrument: str | None = None
-    seed: int | None = None
-    scales: Annotated[list[Annotated[float, Field(gt=0)]], Field(min_length=3, max_length=3)] | None = None
-
     def scene(self, desk: Desk) -> Mechanism:
-        return pictures.scene_of(self.text, safe_name((self.name or "").removesuffix(".toml")), desk.shelf.folder)
+        return pictures.scene_of(self.text, safe_name(self.name.removesuffix(".toml")), desk.shelf.folder)
 
     @property
     def options(self) -> FigureOptions:
@@ -166,46 +181,7 @@ class OfScene(OfText):
         known_words(language=language, convention=convention, instrument=instrument)
         figures = FigureOptions.figures if self.figures is None else tuple(self.figures)
         scales = Scales(*self.scales) if self.scales else None
-        return FigureOptions(figures, language, convention, instrument, self.seed or 0, scales)
-
-
-class Show(OfScene):
-    quick: bool | None = None
-
-
-class Pull(Show):
-    point: str
-    x: float
-    y: float
-    lengths: bool | None = None
-    final: bool | None = None
-
-
-class Change(OfText):
-    changes: dict[str, Any]
-
-
-class Build(OfText):
-    step: dict[str, Any]
-
-
-class Complete(OfText):
-    line: int
-    column: int
-
-
-class Open(OfFile):
-    link: str | None = None
-    new: str | None = None
-
-
-class Diagrams(OfScene):
-    find: list[str] | None = None
-
-
-class Export(OfScene):
-    kind: str
-    count: Annotated[int, Field(ge=1, le=MOST_VARIANTS)] = 1
+        return FigureOptions(figures, language, convention, instrument, self.seed, scales)
 
 
 _PULL, _COMPLETE = ("pull", Phrase("name a point and a place")), ("complete", Phrase("give line and column"))
@@ -221,27 +197,22 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
 """What a key of a message is about, and what it needs."""
 
 
-def _refused(error: ValidationError) -> CallError:
+def _refused(key: str, value: object) -> Problem:
     """What of a message is not as its question needs it."""
-    problems = []
-    for one in error.errors(include_url=False):
-        key = str(one["loc"][0])
-        where, needed = _NEEDED.get(key, (key, ""))
-        value = None if one["type"] == "missing" else one["input"]
-        problems.append(Problem(where, Phrase("found value", value=f"{value!r:.60}"), needed))
-    return CallError(*problems)
+    where, needed = _NEEDED.get(key, (key, ""))
+    return Problem(where, Phrase("found value", value=f"{value!r:.60}"), needed)
 
 
-def _show(desk: Desk, asked: Show) -> Answer:
-    told = pictures.shown(asked.scene(desk), asked.at, asked.options, bool(asked.quick))
+def _show(desk: Desk, asked: Message) -> Answer:
+    told = pictures.shown(asked.scene(desk), asked.at, asked.options, asked.quick)
     return told if asked.quick else {**told, "form": parsed(asked.text)}
 
 
-def _pull(desk: Desk, asked: Pull) -> Answer:
+def _pull(desk: Desk, asked: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
     scene, raw = asked.scene(desk), parsed(asked.text)
     to = complex(asked.x, asked.y) * scene.units.metres
-    found = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, bool(asked.lengths))
+    found = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, asked.lengths)
     now = {**(asked.at or {}), **found.at} or None
     if asked.final:
         text = changed(asked.text, found.changes) if found.changes else asked.text
@@ -253,15 +224,15 @@ def _pull(desk: Desk, asked: Pull) -> Answer:
     return {**pictures.shown(there, now, asked.options, quick=True), "changes": found.changes}
 
 
-def _change(desk: Desk, asked: Change) -> Answer:
+def _change(desk: Desk, asked: Message) -> Answer:
     return {"text": changed(asked.text, asked.changes)}
 
 
-def _build(desk: Desk, asked: Build) -> Answer:
+def _build(desk: Desk, asked: Message) -> Answer:
     return {"text": building.built(asked.text, asked.step)}
 
 
-def _keep(desk: Desk, asked: OfScene) -> Answer:
+def _keep(desk: Desk, asked: Message) -> Answer:
     """The position shown, written into the scene as its own, with its sketch."""
     scene = asked.scene(desk)
     told = pictures.shown(scene, asked.at, FigureOptions(("mechanism",)), quick=True)
@@ -281,14 +252,14 @@ def _keep(desk: Desk, asked: OfScene) -> Answer:
     return {"text": changed(asked.text, changes)}
 
 
-def _complete(desk: Desk, asked: Complete) -> Answer:
+def _complete(desk: Desk, asked: Message) -> Answer:
     language, found = asked.spoken, completions(asked.text, asked.line, asked.column)
     if language != LANGUAGES[0]:
         found = [{**key, "detail": say(from_others(clause_of(key["detail"])), language)} for key in found]
     return {"options": found}
 
 
-def _open(desk: Desk, asked: Open) -> Answer:
+def _open(desk: Desk, asked: Message) -> Answer:
     """The first scene of the page, one of its shelf, a link that carries one, or a new one of a kind."""
     name = asked.name or ("" if desk.text else desk.first)
     fresh: Answer = {"name": "", "text": desk.text, "mark": "", "own": False}
@@ -302,35 +273,35 @@ def _open(desk: Desk, asked: Open) -> Answer:
     return {"name": name, "text": text, "mark": mark_of(text), "own": name in desk.shelf.files()}
 
 
-def _shelf(desk: Desk, asked: Asked) -> Answer:
+def _shelf(desk: Desk, asked: Message) -> Answer:
     found = desk.shelf.listing()
     writes = desk.shelf.folder is not None
     return {"scenes": found, "new": sorted(NEW), "writes": writes, "only": desk.shelf.only}
 
 
-def _thumbnail(desk: Desk, asked: OfFile) -> Answer:
-    name = asked.name or ""
+def _thumbnail(desk: Desk, asked: Message) -> Answer:
+    name = asked.name
     scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
     language = asked.language if asked.language in LANGUAGES else None
     return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(asked.spoken)}
 
 
-def _save(desk: Desk, asked: OfText) -> Answer:
-    return {"mark": desk.shelf.save(asked.name or "", asked.text, asked.mark or "")}
+def _save(desk: Desk, asked: Message) -> Answer:
+    return {"mark": desk.shelf.save(asked.name, asked.text, asked.mark)}
 
 
-def _watch(desk: Desk, asked: OfFile) -> Answer:
-    return {"changed": desk.shelf.changed(asked.name or "", asked.mark or "")}
+def _watch(desk: Desk, asked: Message) -> Answer:
+    return {"changed": desk.shelf.changed(asked.name, asked.mark)}
 
 
-def _diagrams(desk: Desk, asked: Diagrams) -> Answer:
+def _diagrams(desk: Desk, asked: Message) -> Answer:
     from graphkin.api.sweep import sweep
 
     swept = sweep(asked.scene(desk), find=asked.find or None, language=asked.options.language)
     return {"figures": {name: figure.content("svg").decode() for name, figure in islice(swept.figures.items(), 12)}}
 
 
-def _race(desk: Desk, asked: OfScene) -> Answer:
+def _race(desk: Desk, asked: Message) -> Answer:
     from graphkin.api.studied import speed_accuracy
 
     found = speed_accuracy(asked.scene(desk), repeats=1, language=asked.options.language)
@@ -341,7 +312,7 @@ _TYPES = {"svg": "image/svg+xml", "pdf": "application/pdf", "png": "image/png", 
           "zip": "application/zip", "toml": "application/toml"}  # fmt: skip
 
 
-def _export(desk: Desk, asked: Export) -> Answer:
+def _export(desk: Desk, asked: Message) -> Answer:
     """A figure, the papers, a set of variants, or the scene, as a file to be kept."""
     kind, scene, options = asked.kind, asked.scene(desk), asked.options
     if kind in ("svg", "pdf", "png", "dxf"):
@@ -362,7 +333,7 @@ def _export(desk: Desk, asked: Export) -> Answer:
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
 
 
-def _papers(scene: Mechanism, asked: Export, options: FigureOptions, folder: Path) -> None:
+def _papers(scene: Mechanism, asked: Message, options: FigureOptions, folder: Path) -> None:
     from graphkin.api.handouts import handout, papers_of
     from graphkin.api.problem_sets import problem_set
     from graphkin.table import have
@@ -413,22 +384,23 @@ def text_of_link(link: str) -> str:
         ) from None
 
 
-def _link(desk: Desk, asked: OfText) -> Answer:
+def _link(desk: Desk, asked: Message) -> Answer:
     return {"link": scene_link(asked.text)}
 
 
-def _names(desk: Desk, asked: Asked) -> Answer:
+def _names(desk: Desk, asked: Message) -> Answer:
     """The words of the page in a language."""
     spoken = asked.spoken
     names = {key.removeprefix("page "): text for key, text in area("page", spoken).items()}
     return {"words": names, "language": spoken, "languages": LANGUAGES, "figures": list(figure_kinds())}
 
 
-QUESTIONS: Mapping[str, tuple[type[Asked], Callable[[Desk, Any], Answer]]] = {
-    "show": (Show, _show), "pull": (Pull, _pull), "change": (Change, _change), "build": (Build, _build),
-    "keep": (OfScene, _keep), "complete": (Complete, _complete), "open": (Open, _open), "shelf": (Asked, _shelf),
-    "thumbnail": (OfFile, _thumbnail), "save": (OfText, _save), "watch": (OfFile, _watch),
-    "diagrams": (Diagrams, _diagrams), "race": (OfScene, _race), "export": (Export, _export), "link": (OfText, _link),
-    "names": (Asked, _names),
+QUESTIONS: Mapping[str, tuple[tuple[str, ...], Callable[[Desk, Message], Answer]]] = {
+    "show": (("text",), _show), "pull": (("text", "point", "x", "y"), _pull), "change": (("text", "changes"), _change),
+    "build": (("text", "step"), _build), "keep": (("text",), _keep),
+    "complete": (("text", "line", "column"), _complete), "open": ((), _open), "shelf": ((), _shelf),
+    "thumbnail": ((), _thumbnail), "save": (("text",), _save), "watch": ((), _watch), "race": (("text",), _race),
+    "diagrams": (("text",), _diagrams), "export": (("text", "kind"), _export), "link": (("text",), _link),
+    "names": ((), _names),
 }  # fmt: skip
-"""What the page may ask, by name: the form of the message and what it is told."""
+"""What the page may ask, by name: what the message needs, and what it is told."""

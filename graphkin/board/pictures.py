@@ -17,7 +17,7 @@ from graphkin.api.arguments import driver_values, placed
 from graphkin.api.checked import asked_here, checked, hand_of, solved_here
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
-from graphkin.board.moving import movable
+from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.steps import DiagramName

@@ -1,4 +1,5 @@
-"""What a wrong value may be instead: the right value of a common slip, with how common it is.
+"""What a wrong value may be instead: the right value of a common slip, with how common it is; or what follows from
+somebody's own values, the drawing gone on with from them in place of the drawn ones.
 
 The slips are those that teachers of the graphical method name (Sun Huan, Mechanical Principles, ch. 3; Norton, Design
 of Machinery, ch. 6 and 7): a sign, a unit, the Coriolis term, one component in place of the whole, the scale of the
@@ -14,14 +15,13 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction import Plan, Sheet, Slip, execute
-from graphkin.construction.sizes import Component
+from graphkin.construction import GoneOn, Plan, Sheet, Slip, execute
+from graphkin.construction.sizes import Component, Order
 from graphkin.errors import GraphkinError
-from graphkin.plane import unit
+from graphkin.plane import added_up, unit
 from graphkin.scene.contacts import PlacedGear
 from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
 from graphkin.scene.model import Mechanism
@@ -30,7 +30,7 @@ from graphkin.solver import Forces, Motion, forces_of, solve, value_of
 from graphkin.structure import Pair
 from graphkin.words import Phrase
 
-__all__ = ["CANCELLING", "NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
+__all__ = ["CANCELLING", "NOTHING", "Consequences", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
 
 def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
     """Unit vector of the positive sense of a vector symbol, None where nothing gives it one.
@@ -354,6 +354,133 @@ def dimension(symbol: Symbol) -> str:
     if not symbol.is_vector:
         return symbol.kind
     return "v" if symbol.kind == "v" else "a"
+
+
+# -- what follows from somebody's own values ---------------------------------------------------------------------------
+
+
+class Consequences:
+    """What follows on a drawing from somebody's own values of what is drawn before; ``base`` is the plan drawn without
+    them."""
+
+    def __init__(self, plan: Plan, base: Sheet) -> None:
+        self.base = base
+        self.drawing = GoneOn(plan, plan.scales, lambda own: _own_values(plan, base, own))
+        self.steps: dict[Symbol, float] = {}
+
+    def values(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
+        """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
+
+        Parameters
+        ----------
+        own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
+            direction stays as drawn
+        of : what is asked; its own value is not used
+
+        Returns
+        -------
+        The value of the drawing, then for a sum of terms the sum of these
+        """
+        try:
+            polygons = self.drawing.to(of, {s: v for s, v in own.items() if self.before(s, of)})
+        except (GraphkinError, ArithmeticError):
+            return ()  # a drawing that cannot be gone on with
+        if polygons is None:
+            return ()
+        order: Order = "velocity" if of.kind in ("v", "omega") else "acceleration"
+        if not of.is_vector:
+            return (polygons.rates[order][of.link].value,)
+        drawn, scale = polygons.drawn[order], self.base.scales.of(order)
+        values: list[Value] = [drawn[of].span * scale]
+        for equation in polygons.board.equations:
+            if not any(len(side) == 1 and side[0].symbol == of for side in equation.sides):
+                continue
+            for side in equation.sides:
+                spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
+                if len(side) > 1 and len(spans) == len(side):
+                    values.append(added_up(spans, 0j) * scale)
+        return tuple(values)
+
+    def before(self, one: Symbol, other: Symbol) -> bool:
+        """Whether a quantity is known on the drawing before another, which can then follow from it."""
+        return self._step(one) < self._step(other)
+
+    def _step(self, symbol: Symbol) -> float:
+        if symbol not in self.steps:
+            self.steps[symbol] = _step(self.base, symbol)
+        return self.steps[symbol]
+
+
+def _step(sheet: Sheet, symbol: Symbol) -> float:
+    """When a quantity is known on the drawing; a rate follows the vector that it is measured from."""
+    if symbol.scope != "motion":
+        return 0.0
+    if not symbol.is_vector:
+        rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
+        if rate is not None and rate.same_as:
+            return _step(sheet, Symbol(symbol.kind, link=rate.same_as))
+        return _step(sheet, rate.vector) + 0.5 if rate is not None and rate.vector else 0.0
+    return float(sheet.drawn_in.get(symbol, math.inf))
+
+
+def _own_values(plan: Plan, base: Sheet, own: Mapping[Symbol, Value]) -> Slip:
+    """The drawing gone on with from somebody's own values (SI) in place of the drawn ones."""
+
+    def ratio(symbol: Symbol | None) -> float:
+        """The person's value over the drawn one, 1 where there is none."""
+        if symbol is None or symbol not in own:
+            return 1.0
+        if symbol.is_vector:
+            drawn = base.vectors("velocity").get(symbol)
+            size = abs(drawn.span) * base.scales.velocity if drawn else 0.0
+            return abs(own[symbol]) / size if size else 1.0
+        rate = base.omega.get(symbol.link)
+        return float(own[symbol].real) / rate.value if rate and rate.value else 1.0
+
+    def sized(symbol: Symbol, drawn: complex) -> complex:
+        """A vector on paper with the person's own size, or their own components."""
+        value = own[symbol]
+        scale = base.scales.velocity if symbol.kind == "v" else base.scales.acceleration
+        if isinstance(value, complex):
+            return value / scale
+        return drawn / abs(drawn) * (abs(value) / scale) if drawn else drawn
+
+    def term(part: Component) -> Component:
+        """A known term with the person's own size, or made from the person's own velocities."""
+        if part.span is None:
+            return part
+        if part.symbol in own:
+            return replace(part, span=sized(part.symbol, part.span))
+        of, to = part.symbol.of, part.symbol.to
+        drawn = base.vectors("acceleration").get(part.symbol)
+        if of is None or drawn is None or part.role not in ("coriolis", "normal"):
+            return part
+        if part.role == "coriolis":
+            factor = ratio(Symbol("v", of, to)) * ratio(_guide_turns(plan, of, to))
+        else:
+            fixed = to is None or to.point in plan.structure.scene.frame.points
+            factor = (abs(ratio(Symbol("v", of, to))) * abs(ratio(Symbol("v", of)) if fixed else 1)) ** 2
+        return replace(part, span=drawn.span * factor) if factor != 1.0 else part
+
+    def found(symbol: Symbol, tail: complex, tip: complex) -> complex:
+        return tail + sized(symbol, tip - tail) if symbol in own else tip
+
+    def rate(symbol: Symbol, value: float) -> float | None:
+        return float(own[symbol].real) if symbol in own else None
+
+    return Slip(term, found, rate)
+
+
+def _guide_turns(plan: Plan, of: PointRef, to: PointRef | None) -> Symbol | None:
+    """The angular velocity of the guide between two coincident points, or of the link from which one is seen."""
+    links = {r.link for r in (of, to) if r}
+    for slide in plan.structure.slides:
+        if slide.pin == of.point and links & {slide.a, slide.b}:
+            return Symbol("omega", link=slide.b)
+    return Symbol("omega", link=to.link) if to and to.link else None  # a link of a contour, held still
+
+
+# -- slips in forces and gears -----------------------------------------------------------------------------------------
 
 
 def slipped_forces(motion: Motion) -> tuple[Slipped, ...]:

@@ -7,9 +7,9 @@ import json
 import pytest
 
 import graphkin
-from graphkin.api.judging import evidence_at
-from graphkin.checking.consequential_errors import Consequences
+from graphkin.api.audited import evidence_at
 from graphkin.checking.slip_likelihood import transcription_errors
+from graphkin.checking.slips import Consequences
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 from graphkin.scene.printed import stated

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.checking.consequential_errors import Consequences
 from graphkin.checking.readings import read_off
+from graphkin.checking.slips import Consequences
 from graphkin.construction import execute, larger_groups, plan
 from graphkin.construction.instruments import EXACT, nudged
 from graphkin.construction.plan import Redrawn, draw, positioned
