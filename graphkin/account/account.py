@@ -14,7 +14,8 @@ from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rul
 from graphkin.account.in_polygon import alike, measured, rate_name
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
-from graphkin.construction.sheet import Equation, Sheet, Term
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.sizes import Term
 from graphkin.construction.steps import Reason, Step
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.scene.symbol import PointRef, Symbol

@@ -13,11 +13,11 @@ from graphkin.construction.forces.force_sheet import (
     Arm,
     ForceGroup,
     ForceSheet,
-    ForceTerm,
     ForceVector,
     MomentEquation,
 )
 from graphkin.construction.sheet import Sheet
+from graphkin.construction.sizes import Term
 from graphkin.words import Neutral, Phrase
 from graphkin.words.written import FINER, amount, is_quotient, on_paper, pointing, to_lay_off
 
@@ -156,7 +156,7 @@ def _known(group: ForceGroup, vector: ForceVector) -> bool:
     return vector.known or (term is not None and term.size_known and term.direction_known)
 
 
-def _term(group: ForceGroup, vector: ForceVector) -> ForceTerm | None:
+def _term(group: ForceGroup, vector: ForceVector) -> Term | None:
     return next((t for t in group.equation if (t.symbol, t.part) == (vector.symbol, vector.part)), None)
 
 

@@ -4,17 +4,15 @@ equation, and what was read off."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from graphkin.account.force_chain import DIGITS, arm_lines, balance
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Letters, as_vector, force_letters
+from graphkin.account.notation import Letters, force_letters
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
     ForceSheet,
     ForceState,
-    ForceTerm,
     Inertia,
     Lever,
     MomentEquation,
@@ -26,8 +24,8 @@ from graphkin.words import Neutral, Phrase, Wording, about, listed
 from graphkin.words.written import amount, on_paper, product
 
 __all__ = [
-    "ForceSentence", "SumTerm", "couple_sentences", "group_caption", "inertia_line", "lever_sum", "moment_sentences",
-    "read_off", "sum_terms",
+    "ForceSentence", "couple_sentences", "group_caption", "inertia_line", "lever_sum", "moment_sentences",
+    "read_off",
 ]  # fmt: skip
 
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
@@ -149,28 +147,6 @@ def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) ->
     value = number(float(total), DIGITS) if total else "0"
     shown = whole.strip().removeprefix("+ ")
     return f"$ΣM_{{{about}}}$ = {shown} = 0;  {name} = {value} {unit}"
-
-
-@dataclass(frozen=True)
-class SumTerm:
-    """A term of a vector sum as it is written: its symbol, what is known of size and direction, and as what."""
-
-    symbol: str
-    size_known: bool
-    direction_known: bool
-    direction: str = ""
-
-
-def sum_terms(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[SumTerm]:
-    """The terms of the group's vector equation."""
-    return [_sum_term(sheet, one, letters) for one in group.equation]
-
-
-def _sum_term(sheet: Sheet, one: ForceTerm, letters: Letters) -> SumTerm:
-    markup = force_letters(letters.convention, one.symbol, one.part)
-    vector = ("−" if one.turned else "") + as_vector(letters.convention, markup)
-    way = letters.direction(one.direction, sheet.scene.frame.name)
-    return SumTerm(vector, one.size_known, one.direction_known, way)
 
 
 def lever_sum(sheet: Sheet, state: ForceState, lever: Lever, letters: Letters) -> tuple[Phrase, Phrase]:

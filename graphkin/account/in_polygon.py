@@ -21,8 +21,8 @@ from graphkin.account.arithmetic import (
 from graphkin.account.end_letters import SAME
 from graphkin.account.headings import number, term, written
 from graphkin.account.voice import Voice
-from graphkin.construction.sheet import Rate, Sheet, Term
-from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size
+from graphkin.construction.sheet import Rate, Sheet
+from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size, Term
 from graphkin.construction.steps import Reason, Step, end_of
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.plane import dot

@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius
+from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius, Term
 from graphkin.construction.steps import DiagramName
 from graphkin.scene.sheet import Convention
 from graphkin.scene.symbol import PointRef, Symbol
@@ -120,6 +120,11 @@ class Letters:
         marks = _PARTS[self.convention][_ORDER.index(symbol.kind)] if symbol.kind in _ORDER else ""
         marks += f"({symbol.seen})" if symbol.seen else ""
         return f"{letter}^{{{marks}}}_{{{index}}}" if marks else f"{letter}_{{{index}}}"
+
+    def term(self, term: Term) -> str:
+        """A vector as it stands in an equation, of a force its part."""
+        part = force_letters(self.convention, term.symbol, term.part) if term.part else self.vector(term.symbol)
+        return ("−" if term.turned else "") + as_vector(self.convention, part)
 
     def end(self, diagram: DiagramName, ref: PointRef) -> str:
         """The end point of a vector from the pole: small letter, primed in the acceleration polygon; in the us

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
-from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.sizes import plain_in
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.sizes import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, about, say, word

@@ -21,7 +21,7 @@ from graphkin.construction.net import (
     node,
 )
 from graphkin.construction.polygons import RATE, Polygons, letter
-from graphkin.construction.sheet import Equation, Rate, Remark, Term
+from graphkin.construction.sheet import Equation, Rate, Remark
 from graphkin.construction.sizes import (
     Component,
     Direction,
@@ -33,6 +33,7 @@ from graphkin.construction.sizes import (
     RollingCurves,
     Size,
     SquareOverRadius,
+    Term,
 )
 from graphkin.construction.steps import Step
 from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector

@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin.construction.polygons import Polygons, letter
-from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius, Term
 from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 from graphkin.construction.instruments import EXACT_NAME, Exact, Instrument
 from graphkin.construction.links_on_paper import Pose
-from graphkin.construction.sizes import Direction, Size
+from graphkin.construction.sizes import Term
 from graphkin.construction.steps import DIAGRAMS, Cause, DiagramName, Step
 from graphkin.construction.strokes import Aid, Mark, Vector
 from graphkin.errors import Problem, Unsolvable
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
 
 __all__ = [
-    "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Scales", "Sheet", "Term",
+    "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Scales", "Sheet",
     "either_way",
 ]  # fmt: skip
 
@@ -106,20 +106,6 @@ class Scales:
         return {
             "mechanism": self.length, "velocity": self.velocity, "acceleration": self.acceleration, "force": self.force,
         }[diagram]  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Term:
-    """A term of a vector equation: is its size known, is its direction known, and as what.
-
-    ``size`` is the rule that gives the size (None where it was drawn before or is unknown).
-    """
-
-    symbol: Symbol
-    size_known: bool
-    direction_known: bool
-    size: Size | None = None
-    direction: Direction | None = None
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from graphkin.scene.symbol import Symbol
 from graphkin.words import word
 
 __all__ = [
-    "NO_SLIP", "ORDERS", "Component", "Direction", "Given", "OffCurves", "Order", "RateTimes", "Role", "RollingCurves",
-    "Size", "Slip", "SquareOverRadius", "plain_in",
+    "NO_SLIP", "ORDERS", "Component", "Direction", "Given", "OffCurves", "Order", "Part", "RateTimes", "Role",
+    "RollingCurves", "Size", "Slip", "SquareOverRadius", "Term", "plain_in",
 ]  # fmt: skip
 
 Order = Literal["velocity", "acceleration"]
@@ -153,6 +153,27 @@ def plain_in(language: str) -> Callable[[object], str]:
 
 
 # -- terms, and what somebody may take in their place ------------------------------------------------------------------
+
+
+Part = Literal["", "t", "n"]
+"""All of a force, or its part that moments give (t) or its part along the bar or guide (n)."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of a vector equation: is its size known, is its direction known, and as what.
+
+    ``size`` is the rule that gives the size (None where it was drawn before or is unknown); of a force it may be a
+    ``part``, and be ``turned`` where it is the opposite of its symbol's.
+    """
+
+    symbol: Symbol
+    size_known: bool
+    direction_known: bool
+    size: Size | None = None
+    direction: Direction | None = None
+    part: Part = ""
+    turned: bool = False
 
 
 @dataclass(frozen=True)

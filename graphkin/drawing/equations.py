@@ -8,11 +8,10 @@ from functools import cache, cached_property, partial
 
 from graphkin.account.account import WrittenLine, rule_alone
 from graphkin.account.arithmetic import bound, carried_by, factors_of, substituted
-from graphkin.account.forces import SumTerm
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import Letters, rows_of
-from graphkin.construction.sheet import Equation, Sheet, Term
-from graphkin.construction.sizes import Given
+from graphkin.construction.sheet import Equation, Sheet
+from graphkin.construction.sizes import Given, Term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
 from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
@@ -158,22 +157,10 @@ def _written_cells(cells: list[_Cell], letters: Letters, language: str, width: f
 
 
 def write_sum(
-    terms: Sequence[SumTerm], letters: Letters, language: str, width: float, size: float = 3.2
+    sheet: Sheet, terms: Sequence[Term], letters: Letters, language: str, width: float, size: float = 3.2
 ) -> Written:
     """Vectors whose sum is nought, with their rows of sizes and directions, at most ``width`` mm wide."""
-    rows, small = rows_of(letters.convention), _row_size(size)
-    cells: list[_Cell] = []
-    for i, one in enumerate(terms):
-        if i:
-            cells.append(_Cell(symbol("+", size), is_term=False))
-        marks = [("√" if known else "?") for known in (one.size_known, one.direction_known)]
-        whole, way = symbol(one.symbol, size), symbol(one.direction, small) if one.direction else ()
-        if rows == "over":
-            cells.append(_Cell(whole, (), way, over=symbol("".join(marks), small)))
-        elif rows == "underlines":
-            cells.append(_Cell(whole, (), way, underlines=one.direction_known + one.size_known))
-        else:
-            cells.append(_Cell(whole, symbol(marks[0], small), way or symbol(marks[1], small)))
+    cells = _side(sheet, terms, letters, size)
     cells += [_Cell(symbol("=", size), is_term=False), _Cell(rich("0", size), is_term=True)]
     return _written_cells(cells, letters, language, width, size)
 
@@ -204,10 +191,18 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
 def _cells(sheet: Sheet, equation: Equation, letters: Letters, size: float) -> list[_Cell]:
     cells: list[_Cell] = []
     for i, side in enumerate(equation.sides):
-        for j, one in enumerate(side):
-            if i or j:
-                cells.append(_Cell(symbol("+" if j else "=", size), is_term=False))
-            cells.append(_cell(sheet, one, letters, size))
+        if i:
+            cells.append(_Cell(symbol("=", size), is_term=False))
+        cells += _side(sheet, side, letters, size)
+    return cells
+
+
+def _side(sheet: Sheet, terms: Sequence[Term], letters: Letters, size: float) -> list[_Cell]:
+    cells: list[_Cell] = []
+    for i, one in enumerate(terms):
+        if i:
+            cells.append(_Cell(symbol("+", size), is_term=False))
+        cells.append(_cell(sheet, one, letters, size))
     return cells
 
 
@@ -219,7 +214,7 @@ def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
     """A term with its rows; where marks say what is known, the rows only tell how large and along what."""
     rows = rows_of(letters.convention)
     small = _row_size(size)
-    whole = symbol(letters.arrow(one.symbol), size)
+    whole = symbol(letters.term(one), size)
     rule = letters.size(one.size) if one.size and not isinstance(one.size, Given) else ""
     way = letters.direction(one.direction, sheet.scene.frame.name)
     told = symbol(rule, small) if rule else (), symbol(way, small) if way else ()

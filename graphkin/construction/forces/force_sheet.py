@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sizes import Part, Term
 from graphkin.scene.symbol import Symbol
 
 __all__ = [
@@ -20,7 +20,6 @@ __all__ = [
     "ForceLine",
     "ForceSheet",
     "ForceState",
-    "ForceTerm",
     "ForceVector",
     "Inertia",
     "KnownMoment",
@@ -28,12 +27,9 @@ __all__ = [
     "LeverRow",
     "MomentEquation",
     "MomentTerm",
-    "Part",
     "Way",
 ]  # fmt: skip
 
-Part = Literal["", "t", "n"]
-"""All of a force, or its part that moments give (t) or its part along the bar or guide (n)."""
 Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
 
@@ -141,18 +137,6 @@ class ForceVector:
 
 
 @dataclass(frozen=True)
-class ForceTerm:
-    """A force in the equation of a group: is its size known, is its direction known, and as what."""
-
-    symbol: Symbol
-    part: Part
-    size_known: bool
-    direction_known: bool
-    direction: Direction | None = None
-    turned: bool = False
-
-
-@dataclass(frozen=True)
 class ForceLine:
     """The line of action of a force that is known by its direction only, or of a sliding pair's force where its couple
     puts it: ``at`` and ``along`` on the mechanism (mm)."""
@@ -175,7 +159,7 @@ class ForceGroup:
     kind: str
     way: Way
     moments: tuple[MomentEquation, ...] = ()
-    equation: tuple[ForceTerm, ...] = ()
+    equation: tuple[Term, ...] = ()
     polygon: tuple[ForceVector, ...] = ()
     inner: Mapping[str, tuple[ForceVector, ...]] = field(default_factory=dict)
     couples: tuple[MomentEquation, ...] = ()

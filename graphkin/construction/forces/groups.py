@@ -22,15 +22,13 @@ from graphkin.construction.forces.force_sheet import (
     Acting,
     ForceGroup,
     ForceLine,
-    ForceTerm,
     ForceVector,
     KnownMoment,
     MomentEquation,
-    Part,
     Way,
 )
 from graphkin.construction.forces.joints import BalanceForm, opposite
-from graphkin.construction.sizes import Direction
+from graphkin.construction.sizes import Direction, Part, Term
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Weld
@@ -90,7 +88,7 @@ class GroupFigure:
     """What is drawn of a group, as it grows; fields as in `ForceGroup`."""
 
     moments: list[MomentEquation] = field(default_factory=list)
-    terms: list[ForceTerm] = field(default_factory=list)
+    terms: list[Term] = field(default_factory=list)
     chain: Chain = field(default_factory=list)
     inner: dict[str, tuple[ForceVector, ...]] = field(default_factory=dict)
     couples: list[MomentEquation] = field(default_factory=list)
@@ -103,10 +101,10 @@ class GroupFigure:
         )  # fmt: skip
 
     def unknown(self, symbol: Symbol, part: Part, written: Direction | None, turned: bool = False) -> None:
-        self.terms.append(ForceTerm(symbol, part, False, written is not None, written, turned))
+        self.terms.append(Term(symbol, False, written is not None, None, written, part, turned))
 
     def knowns(self, cut: CutFree, links: Sequence[str]) -> None:
-        self.terms += [ForceTerm(f.symbol, "", True, True, None, f.turned) for f in cut.forces_on(links)]
+        self.terms += [Term(f.symbol, True, True, turned=f.turned) for f in cut.forces_on(links)]
 
     def line_of_action(self, cut: CutFree, force: Acting, couple: float) -> None:
         """Where a couple (N m) puts the line of action of its force."""
@@ -154,12 +152,12 @@ class OuterParts:
     mark: Part = ""
     written: Direction | None = None
 
-    def terms(self, symbol: Symbol) -> list[ForceTerm]:
+    def terms(self, symbol: Symbol) -> list[Term]:
         """The part that closes the polygon, then those of known size."""
-        known = [ForceTerm(symbol, mark, True, True, written) for _, mark, written in self.known]
+        known = [Term(symbol, True, True, None, written, mark) for _, mark, written in self.known]
         if self.along is None:
             return known
-        return [ForceTerm(symbol, self.mark, False, self.written is not None, self.written), *known]
+        return [Term(symbol, False, self.written is not None, None, self.written, self.mark), *known]
 
 
 def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> ForceGroup:
@@ -448,7 +446,7 @@ def _at_crank(cut: CutFree, side: CutBody, balance: BalanceForm, figure: GroupFi
         push = _balancing(cut, balance, link)
         equation = cut.by_moments((link,), side.at, letter, push, "")
         figure.moments.append(equation)
-        figure.terms.append(ForceTerm(balance.symbol, "", True, True, None, push.turned))
+        figure.terms.append(Term(balance.symbol, True, True, turned=push.turned))
         cut.balances[balance.symbol] = cut.lay(chain, replace(push, force=push.force * equation.value), "", False)
     figure.knowns(cut, (link,))
     figure.unknown(side.symbol, "", None)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.account.force_chain import corner_at, corners
-from graphkin.account.forces import couple_sentences, inertia_line, moment_sentences, read_off, sum_terms
+from graphkin.account.forces import couple_sentences, inertia_line, moment_sentences, read_off
 from graphkin.account.given_loads import given_loads, spring_lines
 from graphkin.account.headings import figure_title, term
 from graphkin.account.notation import Letters, as_vector, force_letters
@@ -194,7 +194,7 @@ def group_equation(sheet: Sheet, group: ForceGroup, letters: Letters, language: 
     """The equation of a group over its rows of sizes and directions; None where it is drawn by one system."""
     if group.way == "drawn system" or len(group.equation) < 2:
         return None
-    written = write_sum(sum_terms(sheet, group, letters), letters, language, width)
+    written = write_sum(sheet, group.equation, letters, language, width)
     title = term("forces", language)
     return Drawing(written.width, written.height, written.children, title, "", languages(language)[0])
 
