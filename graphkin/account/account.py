@@ -1,7 +1,7 @@
 """The account of a construction: for each step its sentence, what is computed in it and what is written of it, and for
 each equation why it is so, in one school of notation and any language.
 
-What a step tells is a function of its reason, in the tables of `in_position`, `in_polygon` and `in_groups`.
+What a step tells is a function of its reason, in the tables of `in_mechanism` and `in_polygon`.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from graphkin.account import in_groups, in_polygon, in_position
+from graphkin.account import in_mechanism, in_polygon
 from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
 from graphkin.account.in_polygon import alike, measured, rate_name
 from graphkin.account.notation import Letters
@@ -25,8 +25,8 @@ from graphkin.words.written import pointing
 
 __all__ = ["Account", "WrittenLine", "reasons", "rule_alone", "written_lines"]
 
-SENTENCES = {**in_position.SENTENCES, **in_polygon.SENTENCES, **in_groups.SENTENCES}
-LINES = {**in_polygon.LINES, **in_groups.LINES}
+SENTENCES = {**in_mechanism.SENTENCES, **in_polygon.SENTENCES}
+LINES = {**in_mechanism.LINES, **in_polygon.LINES}
 
 
 @dataclass(frozen=True)

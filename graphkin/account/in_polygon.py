@@ -1,14 +1,16 @@
 """Steps of a polygon as they are told: each from a lettered point, in a sense, to a lettered point; rates with the
-quotients that give them."""
+quotients that give them; trial polygons with what is left open, and how it is divided."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial, reduce
 from typing import get_args
 
 from graphkin.account.arithmetic import (
     bound,
+    divisions,
     laid_sum,
     parts_by_rates,
     plan_sum,
@@ -16,23 +18,25 @@ from graphkin.account.arithmetic import (
     rule_sum,
     scale_of,
     times_scale,
+    trials_of,
     unit_of,
 )
-from graphkin.account.end_letters import SAME
 from graphkin.account.headings import number, term, written
-from graphkin.account.voice import Voice
+from graphkin.account.in_mechanism import numeral
+from graphkin.account.voice import SAME, Voice
 from graphkin.construction.sheet import Rate, Sheet
 from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size, Term
-from graphkin.construction.steps import Reason, Step, end_of
+from graphkin.construction.steps import RateTrial, Reason, Step, Superposed, end_of
 from graphkin.construction.strokes import Aid, Bar, Ray, Vector
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, languages
+from graphkin.words import Neutral, Phrase, languages, listed
 from graphkin.words.rich_text import Markup
-from graphkin.words.written import MOST, amount, on_paper, pointing, quotient
+from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 __all__ = ["LINES", "SENTENCES", "SUMS", "alike", "measured", "rate_name"]
 
+SEEN = 0.005  # mm on paper: less than that is not taken off
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
 
 
@@ -52,13 +56,13 @@ def _sides(sheet: Sheet, step: Step) -> tuple[tuple[Term, ...], ...]:
 def _between(voice: Voice, step: Step, vector: Vector | Aid) -> Markup | None:
     """A vector by the letters of its ends: ``pb``; None where the convention has no letters, and where it is so small
     that one letter stands for both."""
-    ends = voice.ends.at(step.diagram, vector.tail), voice.ends.at(step.diagram, vector.tip)
+    ends = voice.end_at(step.diagram, vector.tail), voice.end_at(step.diagram, vector.tip)
     return None if None in ends or ends[0] == ends[1] else _joined(*ends)
 
 
 def _start(voice: Voice, step: Step, at: complex) -> Phrase | None:
     """Where a vector begins: a letter, or the end of a vector."""
-    letter = voice.ends.at(step.diagram, at)
+    letter = voice.end_at(step.diagram, at)
     if letter is not None:
         return Phrase("the pole" if abs(at) < SAME else "the point", (letter,))
     before = _before(voice.sheet, step, None, at)
@@ -98,7 +102,7 @@ def _from_letter(voice: Voice, step: Step, vector: Vector | Aid) -> Phrase | Non
     if start is None:
         return None
     key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(step.reason, "as vector")
-    name, end = _between(voice, step, vector), voice.ends.at(step.diagram, vector.tip)
+    name, end = _between(voice, step, vector), voice.end_at(step.diagram, vector.tip)
     rule = Phrase(key, (_rule(step.symbol, step.size),))
     what = rule, on_paper(step.mm), _pointing(step.direction, vector.span)
     if name is None:
@@ -171,7 +175,7 @@ def _line(voice: Voice, step: Step) -> Phrase | None:
     ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
     if ray is None:
         return None
-    letter, what = voice.ends.at(step.diagram, ray.through), _unknown(voice.sheet, step)
+    letter, what = voice.end_at(step.diagram, ray.through), _unknown(voice.sheet, step)
     if abs(ray.through) < SAME:
         return Phrase("direction from pole", (what, step.direction, letter))
     before = _before(voice.sheet, step, step.symbol, ray.through)
@@ -190,7 +194,7 @@ def _unknown(sheet: Sheet, step: Step) -> Symbol | Phrase:
 
 
 def _end_point(key: str, voice: Voice, step: Step) -> Phrase | None:
-    letter = voice.ends.of(step.diagram, step.ref)
+    letter = voice.end_of(step.diagram, step.ref)
     return Phrase(key, (letter, step.ref)) if letter else None
 
 
@@ -200,7 +204,7 @@ def _join(key: str, voice: Voice, step: Step) -> Phrase | None:
     name = _between(voice, step, vector) if vector is not None else None
     if vector is None or name is None:
         return None
-    ends = voice.ends.at(step.diagram, vector.tail), voice.ends.at(step.diagram, vector.tip)
+    ends = voice.end_at(step.diagram, vector.tail), voice.end_at(step.diagram, vector.tip)
     return Phrase(key, (*ends, name, step.symbol))
 
 
@@ -215,7 +219,7 @@ def _carried(voice: Voice, step: Step) -> Phrase | None:
         return Phrase("zero vector", (step.symbol,))
     rule = _rule(step.symbol, term.size)
     what = (rule, on_paper(abs(bar.b - bar.a)), _pointing(term.direction, bar.b - bar.a))
-    ends = voice.ends.at(step.diagram, bar.a), voice.ends.at(step.diagram, bar.b)
+    ends = voice.end_at(step.diagram, bar.a), voice.end_at(step.diagram, bar.b)
     if None in ends or ends[0] == ends[1]:
         return Phrase("carry from", (start, *what))
     return Phrase("carry lettered", (start, _joined(*ends), *what, ends[1]))
@@ -238,7 +242,7 @@ def _image(voice: Voice, step: Step) -> Phrase | None:
         return None
     refs = (step.ref, *step.refs)
     places = [voice.sheet.points.get(PointRef(ref.point)) for ref in refs]
-    ends = [voice.ends.of(step.diagram, ref) for ref in refs]
+    ends = [voice.end_of(step.diagram, ref) for ref in refs]
     bars = [voice.letters.point(ref.point) for ref in refs]
     if step.reason == "similar":
         return None if None in ends else _triangle(step, places, ends, bars)
@@ -253,7 +257,7 @@ def _image(voice: Voice, step: Step) -> Phrase | None:
     part, bar = (amount(abs(z - a) * unit, 4) for z in (at, b))
     numbers = (written(one) for one in (part, bar, quotient(part, bar, 4)))  # the ratio of what stands there
     whole = (Markup(bars[1] + bars[0]), Markup(bars[1] + bars[2]), *numbers)
-    if None in ends or voice.ends.at(step.diagram, voice.ends.place(step.diagram, step.ref)) is None:
+    if None in ends or voice.end_point(step.diagram, step.ref) is None:
         return Phrase(f"division {where}", (*refs, step.link, *whole))
     names = (ends[0], _joined(*ends[1:]), _joined(ends[1], ends[0]), ends[1], ends[2])
     return Phrase(f"division lettered {where}", (*names, step.link, *whole))
@@ -280,7 +284,7 @@ def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
         yield voice.say(Phrase("written image seen", (step.symbol, step.link)), spoken)
         return
     refs = (*step.refs, step.ref)
-    ends = [voice.ends.of(step.diagram, ref) for ref in refs]
+    ends = [voice.end_of(step.diagram, ref) for ref in refs]
     one, two, three = (voice.letters.point(ref.point) for ref in refs)
     if None in ends:
         vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
@@ -297,7 +301,7 @@ def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
 
 def _by_rates(voice: Voice, step: Step) -> Phrase | None:
     """An end point from another of its link: what the rates give, laid off one behind the other."""
-    letters = [voice.ends.of(step.diagram, ref) for ref in (*step.refs, step.ref)]
+    letters = [voice.end_of(step.diagram, ref) for ref in (*step.refs, step.ref)]
     if not step.held and None in letters:
         return None
     start = end_of(step.begins[0]) if step.held else Phrase("the point", (letters[0],))
@@ -405,6 +409,100 @@ def _turning(value: float, language: str) -> str:
     return "" if value == 0.0 else f",  {term('clockwise' if value < 0 else 'counter-clockwise', language)}"
 
 
+# -- trial polygons ----------------------------------------------------------------------------------------------------
+
+
+def _trial(voice: Voice, step: Step) -> Phrase | None:
+    """A trial polygon: which steps draw it, and in the first one why it is drawn."""
+    trial, sheet = step.data, voice.sheet
+    assert isinstance(trial, RateTrial)
+    told = Phrase("trial lettered", (numeral(trial.number), _assumed(sheet, trial.assumed), *_drawn_by(sheet, step)))
+    if trial.number > 1:
+        return told
+    if trial.far is None:
+        return Phrase("superposed since none", (told,))
+    angle = number(math.degrees(trial.far.crossing), 2)
+    away = f"{trial.far.away / sheet.scales.length:.0f}"
+    return Phrase("superposed since far", (told, *trial.far.links, angle, away))
+
+
+def _drawn_by(sheet: Sheet, step: Step) -> tuple[int, int]:
+    """The first and the last of the steps by which a trial is drawn like the true polygon."""
+    aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
+    later = [s for s in sheet.steps[step.number :] if s.diagram == step.diagram]
+    first = next(s.number for s in later if s.reason == "open ends") + 1
+    own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
+    return first, max((s.number for s in own), default=first)
+
+
+def _superposed(voice: Voice, step: Step) -> Phrase | None:
+    """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
+    divided, sheet = step.data, voice.sheet
+    assert isinstance(divided, Superposed)
+    where = _left_open(voice, step, divided)
+    rows = true_minus("; ".join(
+        f"{numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
+    )) + " mm"  # fmt: skip
+    found, sums = _assumed(sheet, divided.found), divisions(sheet, step, divided)
+    if len(sums) > 1:
+        return Phrase("superposed several", (where, rows, ", ".join(one.part for one in sums), found))
+    return Phrase("superposed one", (where, rows, sums[0].terms, found))
+
+
+def _superposed_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+    """What is measured, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional division."""
+    divided, sheet, spoken = step.data, voice.sheet, languages(language)[0]
+    assert isinstance(divided, Superposed)
+    trials = trials_of(sheet, step, divided)
+    numerals = [Markup(numeral(trial.number)) for trial in trials]
+    opened = _left_open(voice, step, divided)
+    yield voice.say(Phrase("written trials", (listed(numerals), ", ".join(divided.closing), opened)), spoken)
+    for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
+        rates = ", ".join(f"{voice.symbol(s)} = {number(v, 5)} {_unit(sheet, s)}" for s, v in trial.assumed)
+        apart = ", ".join(written(on_paper(mm)) for mm in row)
+        yield voice.say(Phrase("written trial polygon", (mark, Neutral(rates), apart)), spoken)
+    sums = divisions(sheet, step, divided)
+    said = Neutral("; ".join(
+        bound(f"{voice.symbol(s)} = {one.terms} = {one.value} {_unit(sheet, s)}")
+        for (s, _), one in zip(divided.found, sums, strict=True)
+    ))  # fmt: skip
+    told = Phrase("written superposed", (said,))
+    if len(sums) > 1:
+        parts = ", ".join(one.part for one in sums)
+        told = Phrase("written superposed several", (parts, Markup(numeral(1)), listed(numerals[1:]), said))
+    yield voice.say(told, spoken)
+
+
+def _left_open(voice: Voice, step: Step, divided: Superposed) -> object:
+    """From which end points to which, and in which directions, something is left open."""
+    told = []
+    for way, (start, end), less in zip(divided.ways, divided.between, divided.less, strict=True):
+        refs = start, end
+        a, b = (voice.end_of(step.diagram, r) or Phrase("point on link", (r.point, r.link)) for r in refs)
+        across = "square" if way.relation == "square" else "along"
+        if way.names == (start.point, end.point) and start.link == end.link == "":
+            said = Phrase(f"open {across} bar", (a, b, *way.names))
+        elif start.point != end.point:
+            said = Phrase(f"open {across} bar", (a, b, start.point, end.point))
+        else:
+            said = Phrase(f"open {across} guide", (a, b, "".join(way.names)))
+        for one in (one for one in less if abs(one.mm) >= SEEN):
+            rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
+            said = Phrase("open less", (said, rule, true_minus(on_paper(one.mm))))
+        told.append(said)
+    return listed(told)
+
+
+def _unit(sheet: Sheet, symbol: Symbol) -> str:
+    length = sheet.scene.units.rates.length
+    return {"omega": "rad/s", "alpha": "rad/s²", "v": f"{length}/s"}.get(symbol.kind, f"{length}/s²")
+
+
+def _assumed(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> object:
+    """Rates with their units, in a list."""
+    return listed([Phrase("rate is", (s, true_minus(number(value, 5)), _unit(sheet, s))) for s, value in found])
+
+
 # -- words -------------------------------------------------------------------------------------------------------------
 
 
@@ -434,7 +532,7 @@ SENTENCES: Mapping[Reason, Callable[[Voice, Step], Phrase | None]] = {
     **dict.fromkeys(ROLES, _laid_off), "vector": _found, "direction": _line, "lines": partial(_end_point, "meet in"),
     "letter": partial(_end_point, "name letter"), "pole to end": partial(_join, "join"),
     "asked": partial(_join, "asked lettered"), "before its turn": _carried, "similar": _image, "division": _image,
-    "rates": _by_rates,
+    "rates": _by_rates, "polygon": _trial, "open ends": _superposed,
 }  # fmt: skip
 """The step as it is said with the letters of its points, by its reason; None where it has none."""
 SUMS: Mapping[Reason, Callable[[Voice, Step], Iterable[str]]] = {
@@ -445,6 +543,6 @@ SUMS: Mapping[Reason, Callable[[Voice, Step], Iterable[str]]] = {
 LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str]]] = {
     **dict.fromkeys(ROLES, _carried_over_lines), "similar": _image_lines, "division": _image_lines,
     "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _added_lines, "held still": _held_still_lines,
-    "plan": _plan_lines,
+    "plan": _plan_lines, "open ends": _superposed_lines,
 }  # fmt: skip
 """What is written of a step to repeat it, in a language."""

@@ -1,4 +1,5 @@
-"""A voice: how a sheet is spoken of in one school of notation.
+"""A voice: how a sheet is spoken of in one school of notation, and the points of its polygons with the letters that
+they bear in it.
 
 Sentences hold symbols between dollar signs, in the notation of `graphkin.drawing.text`; sums are the same in every
 language.
@@ -6,19 +7,216 @@ language.
 
 from __future__ import annotations
 
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphkin.account.end_letters import EndLetters, names_in_letters
-from graphkin.account.notation import Letters
+from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
+from graphkin.construction.steps import DiagramName, Step
+from graphkin.construction.strokes import Aid, Bar, Mark, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, word
 from graphkin.words.rich_text import Markup, as_markup, rich_text
 from graphkin.words.written import in_markup
 
-__all__ = ["Voice", "capital", "whole_sentence"]
+__all__ = [
+    "SAME", "ZERO", "Foot", "NamedPoint", "Place", "PolygonPoints", "Voice", "capital", "link_of_vector",
+    "whole_sentence",
+]  # fmt: skip
+
+SAME = 0.02  # mm: nearer end points fall together on paper
+ZERO = 0.02  # mm: a shorter vector is drawn as a dot
+KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
+_POINT = r"[A-Z][a-z]*\d*"
+_POINT_NAMES = re.compile(f"(?:{_POINT})+")
+
+
+def names_in_letters(letters: Letters, text: str) -> list[str] | None:
+    """A list of points or bars, ``O4A, B``, each in the letters of a convention; None where it is none."""
+    names = text.split(", ")
+    if not all(map(_POINT_NAMES.fullmatch, names)):
+        return None
+    return ["".join(letters.point(name) for name in re.findall(_POINT, bar)) for bar in names]
+
+
+@dataclass(frozen=True)
+class Place:
+    """A place of the polygon (mm from the pole) with the end points that fall together in it."""
+
+    at: complex
+    refs: list[PointRef]
+
+
+@dataclass(frozen=True)
+class NamedPoint:
+    """A point of a polygon (mm from the pole) and its letter; ``ref`` is the point of the mechanism whose end it is,
+    None of the pole and of the feet between components."""
+
+    at: complex
+    letter: str
+    ref: PointRef | None = None
+
+
+@dataclass(frozen=True)
+class Foot:
+    """The end of a component (mm from the pole) that the step of a number draws; ``aid`` of one that leads to a special
+    point or is laid off before its turn."""
+
+    symbol: Symbol
+    role: str
+    at: complex
+    step: int
+    aid: bool = False
+
+
+def _everywhere(_: complex) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class PolygonPoints:
+    """End points, feet between components and the pole of a polygon, with their letters; ``seen`` tells of the place of
+    a special point (mm from the pole) whether it is on the paper."""
+
+    sheet: Sheet
+    diagram: DiagramName
+    letters: Letters
+    seen: Callable[[complex], bool] = _everywhere
+
+    @cached_property
+    def _steps(self) -> tuple[Step, ...]:
+        return tuple(step for step in self.sheet.steps if step.diagram == self.diagram)
+
+    @cached_property
+    def _vectors(self) -> Mapping[Symbol, tuple[int, Vector]]:
+        return {s.symbol: (step.number, s) for step in self._steps for s in step.strokes if isinstance(s, Vector)}
+
+    @cached_property
+    def named(self) -> tuple[NamedPoint, ...]:
+        """All that have letters, the pole first; where the convention names vectors, only that."""
+        ends = [NamedPoint(p.at, self.letters.end(self.diagram, ref), ref) for p in self.places for ref in p.refs]
+        feet = [NamedPoint(foot.at, letter) for foot, letter in self.feet]
+        return (NamedPoint(0j, pole(self.letters.convention, self.diagram)), *(p for p in (*ends, *feet) if p.letter))
+
+    @cached_property
+    def places(self) -> tuple[Place, ...]:
+        """End points by place, in the order in which they were found; the pole first, with all points at rest."""
+        fixed = [PointRef(p) for p in self.sheet.scene.frame.points]
+        places = [Place(0j, list(fixed))]
+        known: set[PointRef] = set(fixed)
+        of_vectors = {symbol.of for symbol in self._vectors if symbol.to is None} | set(self._special())
+        for mark in self._marks():
+            if mark.ref in known or mark.ref not in of_vectors:
+                continue
+            known.add(mark.ref)
+            place = next((place for place in places if abs(place.at - mark.at) <= SAME), None)
+            if place:
+                place.refs.append(mark.ref)
+            else:
+                places.append(Place(mark.at, [mark.ref]))
+        return tuple(places)
+
+    def _marks(self) -> Iterator[Mark]:
+        return (stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark))
+
+    def _special(self) -> Iterator[PointRef]:
+        """End points of special points, those that are on the paper."""
+        points = {point for group in self.sheet.groups for point, _ in group.points}
+        return (mark.ref for mark in self._marks() if mark.ref.point in points and self.seen(mark.at))
+
+    @cached_property
+    def feet(self) -> tuple[tuple[Foot, str], ...]:
+        """Points between components, where one ends and no end point lies, with their letters."""
+        return tuple(self._lettered_feet())
+
+    def _lettered_feet(self) -> Iterator[tuple[Foot, str]]:
+        found = self._between()
+        special = {s.point: s.link for s in self.sheet.steps if s.reason == "special point"}
+        per_role = Counter(foot.role for foot in found)
+        per_end: Counter[str] = Counter()
+        used: set[str] = set()
+        for foot in found:
+            of, to = foot.symbol.of, foot.symbol.to
+            assert of is not None
+            # counted by the letter that is written: B and B@2 are one end point
+            end = self.letters.end(self.diagram, of)
+            per_end[end] += 1
+            link = next((special[r.point] for r in (of, to) if r and r.point in special), "")
+            link = link or link_of_vector(self.sheet, foot.symbol)
+            alone = per_role[foot.role] == 1
+            markup = self.letters.foot(foot.role, of, per_end[end], link, alone)
+            if markup in used:
+                index = self.letters.ref(of) + (self.letters.ref(to) if to else "")
+                markup = self.letters.foot(foot.role, of, per_end[end], index, alone=False)
+            used.add(markup)
+            yield foot, markup
+
+    def _between(self) -> list[Foot]:
+        """Components that end where no end point lies and no other component has ended."""
+        taken = [place.at for place in self.places]
+        found = []
+        for foot in (*self._components(), *self._aids()):
+            if all(abs(foot.at - z) > SAME for z in taken):
+                taken.append(foot.at)
+                found.append(foot)
+        return found
+
+    def _components(self) -> Iterator[Foot]:
+        for step, vector in self._vectors.values():
+            if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
+                yield Foot(vector.symbol, vector.role, vector.tip, step)
+
+    def _aids(self) -> Iterator[Foot]:
+        """Known components that lead to a special point, or are laid off before their turn."""
+        known = set(self._vectors)
+        for step in self._steps:
+            for stroke in step.strokes:
+                if isinstance(stroke, Aid) and not stroke.trial:
+                    symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
+                elif isinstance(stroke, Bar) and step.reason == "before its turn":
+                    symbol, tail, tip = step.symbol, stroke.a, stroke.b
+                else:
+                    continue
+                if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:
+                    known.add(symbol)
+                    yield Foot(symbol, KNOWN[symbol.kind], tip, step.number, aid=True)
+
+
+def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:
+    """The link whose motion a vector shows: that of its point, the common link of two points, or the sliding link of
+    two coincident points."""
+    scene = sheet.scene
+    of, to = symbol.of, symbol.to
+    if of is None:
+        return symbol.link
+    mine = _links(scene.holders, of)
+    if to is None:
+        moving = [name for name in mine if name != scene.frame.name]
+        pivoted = [n for n in moving if any(scene.frame.name in scene.holders[p] for p in scene.by_name[n].points)]
+        return (pivoted or moving or [scene.frame.name])[0]
+    theirs = _links(scene.holders, to)
+    common = [name for name in mine if name in theirs and name != scene.frame.name]
+    if of.point != to.point and common:
+        return common[0]
+    bars = [c.block for c in scene.contacts if not c.flat and {of.point, to.point} <= {d.centre for d in c.round}]
+    if bars and of.point != to.point:
+        return bars[0]
+    sliding = {s.a for s in sheet.structure.slides} | {p.of for p in scene.pins}
+    for name in (*mine, *theirs):
+        if name in sliding:
+            return name
+    return (mine or theirs or [scene.frame.name])[0]
+
+
+def _links(holders: Mapping[str, tuple[str, ...]], ref: PointRef) -> list[str]:
+    return [ref.link] if ref.link else list(holders.get(ref.point, ()))
+
+
+# -- sentences ---------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -66,10 +264,29 @@ class Voice:
         """A vector or a rate, between dollar signs."""
         return f"${self.letters.vector(symbol)}$"
 
+    def end_at(self, diagram: DiagramName, at: complex | None) -> Markup | None:
+        """The letter of a place of a polygon (mm from the pole); None where the convention names vectors instead."""
+        named = self._named.get(diagram, ())
+        letter = next((p.letter for p in named if at is not None and abs(p.at - at) <= SAME), "")
+        return Markup(letter) if letter else None
+
+    def end_of(self, diagram: DiagramName, ref: PointRef) -> Markup | None:
+        """The letter of an end point; what is at rest is the pole."""
+        if ref.point in self.sheet.scene.frame.points and ref.link in ("", self.sheet.scene.frame.name):
+            return Markup(pole(self.letters.convention, diagram))
+        point = self.end_point(diagram, ref)
+        return None if point is None else Markup(point.letter)
+
+    def end_point(self, diagram: DiagramName, ref: PointRef) -> NamedPoint | None:
+        """An end point with its place and its letter."""
+        # where coincident points are told apart the point alone is that of its block
+        refs = (ref, PointRef(ref.point)) if self.letters.blocks.get(ref.point) == ref.link else (ref,)
+        return next((p for one in refs for p in self._named.get(diagram, ()) if p.ref == one), None)
+
     @cached_property
-    def ends(self) -> EndLetters:
-        """The letters of the end points in the polygons."""
-        return EndLetters(self.sheet, self.letters)
+    def _named(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
+        diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
+        return {diagram: PolygonPoints(self.sheet, diagram, self.letters).named for diagram in diagrams}
 
 
 def whole_sentence(text: str, language: str) -> str:

@@ -7,17 +7,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.account.force_chain import closed_by, laid_lines, laid_off
 from graphkin.account.forces import (
     ForceSentence,
+    closed_by,
     couple_sentences,
     group_caption,
     inertia_line,
+    laid_lines,
+    laid_off,
     lever_sum,
     moment_sentences,
     read_off,
+    spring_lines,
 )
-from graphkin.account.given_loads import spring_lines
 from graphkin.account.notation import Letters, force_letters, pole
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, LeverRow
 from graphkin.construction.scales import Extent, fitting_scale

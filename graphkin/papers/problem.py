@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from graphkin.account.given_loads import given_loads
+from graphkin.account.forces import given_loads
 from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles
 from graphkin.account.notation import pole
 from graphkin.account.voice import whole_sentence

@@ -9,8 +9,8 @@ import pytest
 
 from graphkin import draw
 from graphkin.account.account import Account, written_lines
-from graphkin.account.end_letters import EndLetters
 from graphkin.account.notation import letters_of
+from graphkin.account.voice import Voice
 from graphkin.construction import draft
 from graphkin.construction.sheet import Equation
 from graphkin.construction.steps import TrialPositions
@@ -90,7 +90,7 @@ def test_what_trial_polygons_leave_open_is_told_with_its_sense():
 @pytest.mark.parametrize(("name", "triangles"), [("double-butterfly", 6), ("single-flier", 8), ("loader-cylinder", 4)])
 def test_triangles_that_are_told_are_similar_in_one_sense(name, triangles):
     sheet, _ = drafted(name)
-    ends = EndLetters(sheet, letters_of(sheet, "chinese"))
+    ends = Voice(sheet, letters_of(sheet, "chinese"))
     found = [pair for line in told(name) for pair in re.findall(r"△\$([^$]+)\$ ∽ △\$([^$]+)\$", line)]
     assert triangles <= len(found)
     for image, link in found:
@@ -103,8 +103,8 @@ def test_triangles_that_are_told_are_similar_in_one_sense(name, triangles):
 
 def _end(sheet, ends, diagram, letter):
     named = (PointRef(p, n) for p in sheet.scene.holders for n in ("", *sheet.structure.links))
-    at = {str(ends.of(diagram, ref)): ends.place(diagram, ref) for ref in (*(PointRef("S"),), *named)}
-    return at[letter]
+    points = [ends.end_point(diagram, ref) for ref in (PointRef("S"), *named)]
+    return next(point.at for point in points if point is not None and point.letter == letter)
 
 
 def test_links_seen_from_a_held_one_are_told_with_the_rates_that_add_up():
@@ -188,9 +188,9 @@ def test_writing_that_no_panel_needs_room_for_goes_on_one_page():
 def test_an_open_end_on_a_block_is_told_by_its_letter():
     # a pin of link 5 in the block 7 of a guide on 6: the block has a letter, c7, that bears its index
     sheet, _ = drafted("loader-cylinder")
-    ends = EndLetters(sheet, letters_of(sheet, "chinese"))
-    assert "e_{7}" == ends.of("velocity", PointRef("E", "7")) == ends.of("velocity", PointRef("E"))
-    assert "e_{6}" == ends.of("velocity", PointRef("E", "6"))
+    ends = Voice(sheet, letters_of(sheet, "chinese"))
+    assert "e_{7}" == ends.end_of("velocity", PointRef("E", "7")) == ends.end_of("velocity", PointRef("E"))
+    assert "e_{6}" == ends.end_of("velocity", PointRef("E", "6"))
 
 
 def test_chinese_lists_break_after_their_commas():

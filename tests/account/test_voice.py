@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from graphkin import read
-from graphkin.account import in_groups, in_polygon, in_position
+from graphkin.account import in_mechanism, in_polygon
 from graphkin.account.account import Account
 from graphkin.account.notation import letters_of
 from graphkin.api.handouts import handout
@@ -253,7 +253,7 @@ def test_a_page_of_one_position_says_one():
 
 
 def test_what_is_told_in_a_way_of_its_own_is_told_of_steps_of_the_board():
-    told = [*in_position.SENTENCES, *in_polygon.SENTENCES, *in_groups.SENTENCES]
+    told = [*in_mechanism.SENTENCES, *in_polygon.SENTENCES]
     reasons = {reason for verb in get_args(Reason) for reason in get_args(verb) or (verb,)}
-    assert set() == {*told, *in_polygon.SUMS, *in_polygon.LINES, *in_groups.LINES} - reasons
+    assert set() == {*told, *in_polygon.SUMS, *in_polygon.LINES, *in_mechanism.LINES} - reasons
     assert len(set(told)) == len(told)

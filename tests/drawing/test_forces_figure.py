@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.account.force_chain import balance
+from graphkin.account.forces import balance
 from graphkin.account.notation import force_letters, letters_of
 from graphkin.drawing import svg_bytes
 from graphkin.drawing.force_stages import ForceStage, force_stages

@@ -9,9 +9,16 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from graphkin.account.force_chain import corner_at, corners
-from graphkin.account.forces import couple_sentences, inertia_line, moment_sentences, read_off
-from graphkin.account.given_loads import given_loads, spring_lines
+from graphkin.account.forces import (
+    corner_at,
+    corners,
+    couple_sentences,
+    given_loads,
+    inertia_line,
+    moment_sentences,
+    read_off,
+    spring_lines,
+)
 from graphkin.account.headings import figure_title, term
 from graphkin.account.notation import Letters, as_vector, force_letters
 from graphkin.checking.report import Report

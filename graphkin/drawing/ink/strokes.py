@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphkin.account.end_letters import link_of_vector
+from graphkin.account.voice import link_of_vector
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.ink.primitives import Primitive, Stroke, Text, map_tree
 from graphkin.scene.model import Mechanism

@@ -15,9 +15,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
-from graphkin.account.end_letters import ZERO
 from graphkin.account.headings import term
 from graphkin.account.notation import Letters
+from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.sheet import Scales, Sheet

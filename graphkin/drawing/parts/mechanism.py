@@ -13,8 +13,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.account.end_letters import SAME
 from graphkin.account.notation import Letters
+from graphkin.account.voice import SAME
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.strokes import Bar, CompassArc, TrialCurve
 from graphkin.drawing.box import Box

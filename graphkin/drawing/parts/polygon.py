@@ -16,10 +16,10 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.account.end_letters import SAME, Foot, Place, PolygonPoints
 from graphkin.account.headings import spoken_ref, spoken_vector
-from graphkin.account.in_groups import numeral
+from graphkin.account.in_mechanism import numeral
 from graphkin.account.notation import Letters, pole
+from graphkin.account.voice import SAME, Foot, Place, PolygonPoints
 from graphkin.construction.scales import SERIES
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet

@@ -1,31 +1,21 @@
-"""Steps of groups larger than a dyad as they are told, so that they can be drawn again from the sheet alone: trial
-positions with the way from point to point, special points, trial polygons with what is left open, how it is divided,
-links seen from a held one."""
+"""Steps of the mechanism in its position as they are told: each point with the lengths and the side by which a ruler
+and a compass find it; trial positions of larger groups with the way from point to point, and what is divided; special
+points.  A group can be drawn again from the sheet alone."""
 
 from __future__ import annotations
 
+import cmath
 import math
-from cmath import phase
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import reduce
 
-from graphkin.account.arithmetic import bound, divisions, trials_of
-from graphkin.account.headings import number, written
+from graphkin.account.headings import number
 from graphkin.account.voice import Voice
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import (
-    Missed,
-    Moved,
-    RateTrial,
-    Reason,
-    Step,
-    Superposed,
-    TrialPositions,
-    TrialRow,
-    TrialTable,
-)
-from graphkin.construction.strokes import Aid
-from graphkin.scene.symbol import Symbol
+from graphkin.construction.steps import FINDS_A_POINT, Missed, Moved, Reason, Step, TrialPositions, TrialRow, TrialTable
+from graphkin.construction.strokes import Bar, CompassArc, Mark
+from graphkin.plane import cross, dot, unit
+from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair
 from graphkin.words import Neutral, Phrase, languages, listed
 from graphkin.words.rich_text import Markup
@@ -33,9 +23,194 @@ from graphkin.words.written import in_markup, on_paper, true_minus
 
 __all__ = ["LINES", "SENTENCES", "numeral"]
 
+SAME = 1e-6  # mm
+STRAIGHT = 1e-6  # of a length: so little beside a line a point lies on it
+IN_LINE = 1e-9  # rad, or of a length: so near to an axis or a guide its own points lie
 NUMERALS = "I", "II", "III", "IV", "V"
-SEEN = 0.005  # mm on paper: less than that is not taken off
-STRAIGHT = 1e-9  # rad
+
+
+def _at(sheet: Sheet, point: str) -> complex | None:
+    return sheet.points.get(PointRef(point))
+
+
+def _fixed(voice: Voice, step: Step) -> Phrase | None:
+    """Fixed points and guides by their places on paper."""
+    sheet = voice.sheet
+    places = [(p, _at(sheet, p)) for p in step.points]
+    told = [Phrase("place of a point", (p, *_coordinates(z))) for p, z in places if z is not None]
+    for guide in sheet.scene.frame.guides.values():
+        if guide.name:
+            through = guide.through / sheet.scales.length
+            angle = math.degrees(cmath.phase(guide.direction))
+            told.append(Phrase("place of a guide", (guide.name, *_coordinates(through), _degrees(angle))))
+    return Phrase("fixed on paper", (step.link, reduce(_listed, told))) if told else None
+
+
+def _angle(voice: Voice, step: Step) -> Phrase:
+    key = "lay off angle from link" if step.base else "lay off angle from x"
+    return Phrase(key, (step.link, true_minus(f"{math.degrees(step.value):.6g}"), step.point, step.base))
+
+
+# -- the points of a link ----------------------------------------------------------------------------------------------
+
+
+def _link_points(voice: Voice, step: Step) -> Phrase | None:
+    """Each new point of a link from those that stand there already."""
+    sheet, link = voice.sheet, step.link
+    own = sheet.structure.links[link].points if link in sheet.structure.links else {}
+    standing, found = _points_before(sheet, step)
+    known = [p for p in own if p in standing]
+    told: list[Phrase] = []
+    for name in sorted(step.points, key=lambda p: p not in found):
+        if name not in found:
+            said = _marked(sheet, step, known, name)
+        else:
+            said = Phrase("place joined", (known[0], name, link)) if known else Phrase("place alone", (name, link))
+        if said is None:
+            return None
+        told.append(said)
+        known.append(name)
+    return reduce(_in_turn, told) if told else None
+
+
+def _marked(sheet: Sheet, step: Step, known: list[str], name: str) -> Phrase | None:
+    """A new point of a link by its known points, as far as there are some."""
+    link, at = step.link, _at(sheet, name)
+    places = {p: z for p in known if (z := _at(sheet, p)) is not None}
+    if at is None:
+        return None
+    if not places:
+        if link not in sheet.scene.by_name:  # what only stands for a pin in a slot
+            return Phrase("pin by coordinates", (name, *_coordinates(at)))
+        return Phrase("place by coordinates", (link, name, *_coordinates(at)))
+    bars = [(p, q) for p in places for q in places if abs(places[p] - places[q]) > SAME]
+    if bars:
+        p, q = max(bars, key=lambda b: abs(places[b[0]] - places[b[1]]))
+        return _from_two((p, places[p]), (q, places[q]), name, at)
+    (pivot, start), *_ = places.items()
+    through = _guide_through(sheet, step, pivot)
+    if through is not None:
+        return _along((pivot, start), through, name, at)
+    laid = any(s.reason == "angle" and s.link == link for s in sheet.before(step))
+    span = at - start
+    if abs(span) < SAME:
+        return None
+    own = sheet.structure.links[link].points
+    if laid and abs(cmath.phase(own[name] - own[pivot])) < STRAIGHT:
+        return Phrase("points at", (link, name, pivot + name, on_paper(abs(span))))
+    angle = _degrees(math.degrees(cmath.phase(span)))
+    return Phrase("place polar", (pivot, angle, pivot + name, on_paper(abs(span)), name))
+
+
+def _guide_through(sheet: Sheet, step: Step, pivot: str) -> tuple[str, complex] | None:
+    """The pin that has directed a link's guide from its pivot."""
+    for s in reversed(sheet.before(step)):
+        if s.reason == "guide" and s.points[0] == pivot and step.link in s.pairs[0].split("/"):
+            at = _at(sheet, s.points[1])
+            return (s.points[1], at) if at is not None else None
+    return None
+
+
+def _points_before(sheet: Sheet, step: Step) -> tuple[frozenset[str], frozenset[str]]:
+    """Points that stand on the paper before a step, and those of them that were found but are on no link yet."""
+    before = [one for one in sheet.before(step) if one.diagram == "mechanism"]
+    standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
+    found = {one.point for one in before if one.reason in FINDS_A_POINT}
+    return frozenset(standing), frozenset(found - standing)
+
+
+# -- points that are found ---------------------------------------------------------------------------------------------
+
+
+def _arcs(voice: Voice, step: Step) -> Phrase | None:
+    one, other, at = (_at(voice.sheet, p) for p in (*step.points, step.point))
+    if one is None or other is None or at is None or abs(other - one) < SAME:
+        return None
+    return _from_arcs(step.points, step.radii, step.point, cross(other - one, at - one))
+
+
+def _arc_on_path(voice: Voice, step: Step) -> Phrase | None:
+    """Which of the crossings of an arc with a straight path is meant, as it is seen on the paper."""
+    centre, at = (_at(voice.sheet, p) for p in (*step.points, step.point))
+    path = next(_path(voice.sheet, step), None)
+    if centre is None or at is None or path is None:
+        return None
+    half = dot(at - centre, path) * path  # from the middle between the crossings
+    if abs(half) < SAME:
+        return None
+    upright = abs(half.imag) > abs(half.real)
+    side = ("upper" if half.imag > 0 else "lower") if upright else ("right" if half.real > 0 else "left")
+    return Phrase(f"crossing {side}", (step.phrase,))
+
+
+def _path(sheet: Sheet, step: Step) -> Iterator[complex]:
+    """The direction of the straight path of the point of a step."""
+    for one in sheet.steps:
+        if one.reason == "path" and one.point == step.point:
+            yield from (unit(s.b - s.a) for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME)
+
+
+def _tangent(voice: Voice, step: Step) -> Phrase | None:
+    """Which of the two tangents: the side of the crossing of its circles."""
+    arcs = [s for s in step.strokes if isinstance(s, CompassArc)]
+    one, other = (_at(voice.sheet, p) for p in step.points)
+    if one is None or other is None or not arcs:
+        return None
+    side = "left" if cross(other - one, arcs[0].at - one) > 0 else "right"
+    return Phrase(f"tangent {side}", (step.phrase, *step.points))
+
+
+def _from_two(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
+    """A point from two others: on their line, or by arcs about both."""
+    (one, a), (two, b) = p, q
+    if abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) ** 2:
+        return _on_line(p, q, name, at)
+    return _from_arcs((one, two), (abs(at - a), abs(at - b)), name, cross(b - a, at - a))
+
+
+def _from_arcs(about: Sequence[str], radii: Sequence[float], name: str, side: float) -> Phrase:
+    """A point where two arcs meet, ``side`` positive to the left of the line between their centres."""
+    one, two = map(on_paper, radii)
+    return Phrase(f"place by arcs {'left' if side > 0 else 'right'}", (about[0], one, about[1], two, name))
+
+
+def _along(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
+    """A point of a bar whose direction is that of a line through its pivot: on it, or at an angle to it."""
+    (one, a), (_, b) = p, q
+    if abs(at - a) < SAME or abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) * abs(at - a):
+        return _on_line(p, q, name, at)
+    turn = math.degrees(cmath.phase((at - a) / (b - a)))
+    sense = "ccw" if turn > 0 else "cw"
+    return Phrase(f"place turned {sense}", (one, number(abs(turn), 4), one + q[0], one + name,
+                                            on_paper(abs(at - a)), name))  # fmt: skip
+
+
+def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
+    (one, a), (two, b) = p, q
+    along = dot(at - a, b - a) / abs(b - a) ** 2
+    if 0.0 <= along <= 1.0:
+        return Phrase("place within", (one + two, name, one + name, on_paper(abs(at - a))))
+    return Phrase("place beyond", (one + two, name, one + name, on_paper(abs(at - a)), one if along < 0.0 else two))
+
+
+def _listed(one: Phrase, other: Phrase) -> Phrase:
+    return Phrase("listed", (one, other))
+
+
+def _in_turn(one: Phrase, other: Phrase) -> Phrase:
+    return Phrase("in turn", (one, other))
+
+
+def _coordinates(z: complex) -> tuple[str, str]:
+    return true_minus(on_paper(_clean(z.real))), true_minus(on_paper(_clean(z.imag)))
+
+
+def _clean(mm: float) -> float:
+    return 0.0 if abs(mm) < SAME else mm
+
+
+def _degrees(angle: float) -> str:
+    return true_minus(number(round(angle, 2) + 0.0))
 
 
 # -- trial positions ---------------------------------------------------------------------------------------------------
@@ -150,9 +325,6 @@ def _numbered(rows: Sequence[str]) -> str:
     return "; ".join(f"{numeral(i)} {row}" for i, row in enumerate(rows, 1))
 
 
-# -- special points, trial polygons ------------------------------------------------------------------------------------
-
-
 def _special_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     """Where the special point lies."""
     joints = map(Markup, map(voice.letters.point, (step.point, *step.points)))
@@ -160,97 +332,6 @@ def _special_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     told = Phrase(key, (*joints, step.base, step.link))
     told = Phrase("written sliding leg", (told,)) if voice.sheet.structure.slides else told
     yield voice.say(told, languages(language)[0])
-
-
-def _trial(voice: Voice, step: Step) -> Phrase | None:
-    """A trial polygon: which steps draw it, and in the first one why it is drawn."""
-    trial, sheet = step.data, voice.sheet
-    assert isinstance(trial, RateTrial)
-    told = Phrase("trial lettered", (numeral(trial.number), _rates(sheet, trial.assumed), *_drawn_by(sheet, step)))
-    if trial.number > 1:
-        return told
-    if trial.far is None:
-        return Phrase("superposed since none", (told,))
-    angle = number(math.degrees(trial.far.crossing), 2)
-    away = f"{trial.far.away / sheet.scales.length:.0f}"
-    return Phrase("superposed since far", (told, *trial.far.links, angle, away))
-
-
-def _drawn_by(sheet: Sheet, step: Step) -> tuple[int, int]:
-    """The first and the last of the steps by which a trial is drawn like the true polygon."""
-    aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
-    later = [s for s in sheet.steps[step.number :] if s.diagram == step.diagram]
-    first = next(s.number for s in later if s.reason == "open ends") + 1
-    own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
-    return first, max((s.number for s in own), default=first)
-
-
-def _superposed(voice: Voice, step: Step) -> Phrase | None:
-    """What the trials leave open, measured from letter to letter, and the proportional division in numbers."""
-    divided, sheet = step.data, voice.sheet
-    assert isinstance(divided, Superposed)
-    where = _left_open(voice, step, divided)
-    rows = true_minus("; ".join(
-        f"{numeral(i)} " + ", ".join(on_paper(mm) for mm in row) for i, row in enumerate(divided.apart, 1)
-    )) + " mm"  # fmt: skip
-    found, sums = _rates(sheet, divided.found), divisions(sheet, step, divided)
-    if len(sums) > 1:
-        return Phrase("superposed several", (where, rows, ", ".join(one.part for one in sums), found))
-    return Phrase("superposed one", (where, rows, sums[0].terms, found))
-
-
-def _superposed_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
-    """What is measured, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional division."""
-    divided, sheet, spoken = step.data, voice.sheet, languages(language)[0]
-    assert isinstance(divided, Superposed)
-    trials = trials_of(sheet, step, divided)
-    numerals = [Markup(numeral(trial.number)) for trial in trials]
-    opened = _left_open(voice, step, divided)
-    yield voice.say(Phrase("written trials", (listed(numerals), ", ".join(divided.closing), opened)), spoken)
-    for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
-        rates = ", ".join(f"{voice.symbol(s)} = {number(v, 5)} {_unit(sheet, s)}" for s, v in trial.assumed)
-        apart = ", ".join(written(on_paper(mm)) for mm in row)
-        yield voice.say(Phrase("written trial polygon", (mark, Neutral(rates), apart)), spoken)
-    sums = divisions(sheet, step, divided)
-    said = Neutral("; ".join(
-        bound(f"{voice.symbol(s)} = {one.terms} = {one.value} {_unit(sheet, s)}")
-        for (s, _), one in zip(divided.found, sums, strict=True)
-    ))  # fmt: skip
-    told = Phrase("written superposed", (said,))
-    if len(sums) > 1:
-        parts = ", ".join(one.part for one in sums)
-        told = Phrase("written superposed several", (parts, Markup(numeral(1)), listed(numerals[1:]), said))
-    yield voice.say(told, spoken)
-
-
-def _left_open(voice: Voice, step: Step, divided: Superposed) -> object:
-    """From which end points to which, and in which directions, something is left open."""
-    told = []
-    for way, (start, end), less in zip(divided.ways, divided.between, divided.less, strict=True):
-        refs = start, end
-        a, b = (voice.ends.of(step.diagram, r) or Phrase("point on link", (r.point, r.link)) for r in refs)
-        across = "square" if way.relation == "square" else "along"
-        if way.names == (start.point, end.point) and start.link == end.link == "":
-            said = Phrase(f"open {across} bar", (a, b, *way.names))
-        elif start.point != end.point:
-            said = Phrase(f"open {across} bar", (a, b, start.point, end.point))
-        else:
-            said = Phrase(f"open {across} guide", (a, b, "".join(way.names)))
-        for one in (one for one in less if abs(one.mm) >= SEEN):
-            rule = one.symbol if one.size is None else Phrase("rule of size", (one.symbol, one.size))
-            said = Phrase("open less", (said, rule, true_minus(on_paper(one.mm))))
-        told.append(said)
-    return listed(told)
-
-
-def _unit(sheet: Sheet, symbol: Symbol) -> str:
-    length = sheet.scene.units.rates.length
-    return {"omega": "rad/s", "alpha": "rad/s²", "v": f"{length}/s"}.get(symbol.kind, f"{length}/s²")
-
-
-def _rates(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> object:
-    """Rates with their units, in a list."""
-    return listed([Phrase("rate is", (s, true_minus(number(value, 5)), _unit(sheet, s))) for s, value in found])
 
 
 # -- trials in words ---------------------------------------------------------------------------------------------------
@@ -279,7 +360,7 @@ def _along_guide(slide: Pair, points: Mapping[str, complex]) -> str:
     guide = slide.guide
     off = {p: (z - guide.through) * guide.direction.conjugate() for p, z in points.items()}
     size = max(map(abs, off.values()), default=0.0)
-    on = sorted((along.real, p) for p, along in off.items() if abs(along.imag) <= STRAIGHT * size)
+    on = sorted((along.real, p) for p, along in off.items() if abs(along.imag) <= IN_LINE * size)
     return on[0][1] + on[-1][1] if len(on) > 1 else guide.name
 
 
@@ -299,7 +380,7 @@ def _moved(sheet: Sheet, moved: Moved) -> Phrase:
 def _along_axis(points: Mapping[str, complex]) -> str:
     """A bar of a link that lies along its axis, in its sense; "" where none does."""
     pairs = ((p, q, w - z) for p, z in points.items() for q, w in points.items() if z != w)
-    return next((p + q for p, q, span in pairs if abs(phase(span)) < STRAIGHT), "")
+    return next((p + q for p, q, span in pairs if abs(cmath.phase(span)) < IN_LINE), "")
 
 
 def _told_in(table: TrialTable, row: TrialRow) -> tuple[str, str]:
@@ -326,10 +407,11 @@ def numeral(number_of: int) -> str:
 
 
 SENTENCES: Mapping[Reason, Callable[[Voice, Step], Phrase | None]] = {
-    "positions": _positions, "polygon": _trial, "open ends": _superposed,
+    "frame": _fixed, "angle": _angle, "points": _link_points, "whole link": _link_points, "arcs": _arcs,
+    "arc on path": _arc_on_path, "tangent": _tangent, "positions": _positions,
 }  # fmt: skip
-"""The step as it is said with what is measured in it, by its reason."""
+"""The step as it is said with the lengths and sides of the paper, by its reason."""
 LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str]]] = {
-    "positions": _positions_lines, "special point": _special_lines, "open ends": _superposed_lines,
+    "positions": _positions_lines, "special point": _special_lines,
 }  # fmt: skip
 """What is written of a step to repeat it, in a language."""
