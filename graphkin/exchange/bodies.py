@@ -1,19 +1,19 @@
 """A mechanism as other programs keep it: bodies with points at places, joined by pins and slides, and the scene that it
-makes; or a list of joints, each with the links that it joins, as in PMKS and pyslvs."""
+makes."""
 
 from __future__ import annotations
 
 import cmath
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
-__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "FileJoint", "bodies_of", "number"]
+__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number", "refused"]
 
 FRAME = "0"
 FARTHEST = 1e12
@@ -64,13 +64,8 @@ class Bodies:
         """A point by a name that a scene may have, which is returned."""
         made = _fresh(_point_name(name), self.places)
         if not abs(place) <= FARTHEST:
-            raise CallError(
-                Problem(
-                    Phrase("point", point=made),
-                    Phrase("lies at", place=place),
-                    Phrase("its coordinates are finite numbers"),
-                )
-            )
+            found = Phrase("lies at", place=place)
+            raise refused(Phrase("point", point=made), found, Phrase("its coordinates are finite numbers"))
         self.places[made] = place
         return made
 
@@ -91,7 +86,7 @@ class Bodies:
         self._tidy()
         moving = [name for name in self.bodies if name != FRAME]
         if not moving:
-            raise CallError(Problem(self.title, Phrase("holds no moving link"), Phrase("draw one link at least")))
+            raise refused(self.title, Phrase("holds no moving link"), Phrase("draw one link at least"))
         shift, tables = self._lines()
         frame: dict[str, Json] = {"name": FRAME}
         frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
@@ -217,13 +212,8 @@ class Bodies:
         if before is None:
             return {"on": ref} | ({"angle_on": angle} if angle else {})
         if isinstance(before, list):
-            raise CallError(
-                Problem(
-                    Phrase("link of name", name=slide.body),
-                    Phrase("slides on more than two others"),
-                    Phrase("a scene has two at most"),
-                )
-            )
+            where = Phrase("link of name", name=slide.body)
+            raise refused(where, Phrase("slides on more than two others"), Phrase("a scene has two at most"))
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
     def _driver(self, drive: BodyDrive) -> dict[str, Json]:
@@ -234,6 +224,11 @@ class Bodies:
             return {"slide": f"{name}/{slide.on}", "travel": number(at.real), "velocity": number(drive.rate)}
         angle = _degrees(cmath.phase(self._axis(drive.body)[1]))
         return {"link": drive.body, "angle": angle, "omega": number(drive.rate)}
+
+
+def refused(where: Wording, found: Wording, wanted: Wording) -> CallError:
+    """What is raised of a file that cannot be read."""
+    return CallError(Problem(where, found, wanted))
 
 
 def number(value: float) -> float:
@@ -267,48 +262,3 @@ def _fresh(name: str, taken: Iterable[str]) -> str:
     if name not in used:
         return name
     return next(made for k in range(2, len(used) + 3) if (made := f"{name}x{k}") not in used)
-
-
-@dataclass(frozen=True)
-class FileJoint:
-    """A joint of so many links.
-
-    kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
-        runs on a line of the first link
-    angle : of the line in the world (rad)
-    """
-
-    name: str
-    kind: str
-    place: complex
-    links: tuple[str, ...]
-    angle: float = 0.0
-
-
-def bodies_of(title: str, joints: Sequence[FileJoint]) -> Bodies:
-    """Bodies with the points of their joints; ``ground`` is the frame."""
-    made = Bodies(title)
-    names: dict[str, str] = {}
-    for link in dict.fromkeys(link for joint in joints for link in joint.links):
-        names[link] = made.body(FRAME if link.lower() == "ground" else link, [])
-    made.bodies.setdefault(FRAME, [])
-    for number, joint in enumerate(joints):
-        point = made.point(joint.name or _letter(number), joint.place)
-        first, *others = joint.links
-        if joint.kind == "P" and others and names[others[0]] == FRAME:
-            first, others = others[0], [first]  # who slides on whom makes no difference where neither turns
-        if joint.kind == "R" or not others:
-            for link in joint.links:
-                made.bodies[names[link]].append(point)
-            continue
-        for link in others:
-            made.bodies[names[link]].append(point)
-        turns = joint.kind == "RP"
-        made.slides.append(BodySlide(names[others[0]], point, names[first], joint.place, joint.angle, turns))
-    return made
-
-
-def _letter(number: int) -> str:
-    """A, B, ... Z, A1, B1, ..."""
-    turn, letter = divmod(number, 26)
-    return chr(65 + letter) + (str(turn) if turn else "")

@@ -14,6 +14,7 @@ import pytest
 import graphkin
 from graphkin.api.converted import convert
 from graphkin.errors import CallError
+from graphkin.exchange import read_bodies
 
 from ..command import run
 
@@ -372,3 +373,15 @@ def test_the_command_writes_the_scene_and_names_what_is_left(tmp_path: Path) -> 
     assert 0 == answer.returncode
     assert "graphkin: not carried over: connector F (no link has it)\n" == answer.stderr
     assert graphkin.read(tmp_path / "scene.toml") == convert(tmp_path / "c.linkage2").scene
+
+
+def test_what_runs_on_the_line_of_a_link_of_pylinkage_is_a_pin_in_its_slot(tmp_path: Path) -> None:
+    joints = [
+        *OLDER["joints"][:4],
+        {"type": "Fixed", "name": "F", "joint0": "B", "joint1": "C", "distance": 100.0, "angle": 0.5},
+        {"type": "Linear", "name": "S", "joint0": "F", "joint1": "D", "joint2": "C", "x": 435.0, "y": 150.0},
+    ]  # fmt: skip
+    (tmp_path / "a.json").write_text(json.dumps({"joints": joints}))
+    made = read_bodies(str(tmp_path / "a.json"))
+    assert {"0": ["A", "D"], "AB": ["A", "B"], "BCF": ["B", "C", "F"], "DC": ["D", "C"], "FS": ["F", "S"]} == made.bodies
+    assert {"S": {"of": "FS", "in": "DC.s1"}} == made.scene()["pins"]

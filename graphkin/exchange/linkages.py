@@ -1,25 +1,33 @@
-"""Files of the program Linkage (.linkage2): connectors with places, elements that join them, anchors, sliders, motors.
+"""Files of links with connectors: Linkage (.linkage2), and mechanisms of pylinkage (JSON).
 
-The form is that of its own reader and writer (``LinkageDoc.cpp``): ``connector`` with id, x, y, anchor, input, rpm,
-slider with two ``slidelimit``; ``element`` (also ``Link``) with its connectors; an actuator is a bar whose length is
-driven.  Coordinates are in millimetres whatever units are shown.  An anchor that is an input turns, once a minute times
-rpm, counter-clockwise positive, the element that has it.
+- Linkage: connectors with places, elements that join them, anchors, sliders, motors, in the form of its own reader and
+  writer (``LinkageDoc.cpp``): ``connector`` with id, x, y, anchor, input, rpm, slider with two ``slidelimit``;
+  ``element`` (also ``Link``) with its connectors; an actuator is a bar whose length is driven.  Coordinates are in
+  millimetres whatever units are shown.  An anchor that is an input turns, once a minute times rpm, counter-clockwise
+  positive, the element that has it.
+- pylinkage (``mechanism_to_dict``): joints with their places (ground, revolute, prismatic with axis and line, tracker)
+  and links with the joints that they have; one of the type driver turns about its motor joint.
 """
 
 from __future__ import annotations
 
 import cmath
+import json
 import math
 from xml.etree import ElementTree
 
-from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number, refused
+from graphkin.exchange.constructions import STEP, construct_linkage
+from graphkin.files import OwnTables, Tables
 from graphkin.words import Phrase
 
-__all__ = ["read_linkage2", "write_linkage2"]
+__all__ = ["read_linkage2", "read_pylinkage", "write_linkage2", "write_pylinkage"]
 
 RPM = 15.0
-"""Where a motor says no speed."""
+"""Where a motor of Linkage says no speed."""
+
+
+# -- Linkage -----------------------------------------------------------------------------------------------------------
 
 
 def read_linkage2(text: str, title: str) -> Bodies:
@@ -27,13 +35,9 @@ def read_linkage2(text: str, title: str) -> Bodies:
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
-        raise CallError(
-            Problem(title, Phrase("is not xml", error=error), Phrase("save it from linkage anew"))
-        ) from None
+        raise refused(title, Phrase("is not xml", error=error), Phrase("save it from linkage anew")) from None
     if root.tag != "linkage2":
-        raise CallError(
-            Problem(title, Phrase("begins with", tag=root.tag), Phrase("a file of linkage begins with linkage2"))
-        )
+        raise refused(title, Phrase("begins with", tag=root.tag), Phrase("a file of linkage begins with linkage2"))
     made = Bodies(title)
     elements = [e for e in root if e.tag in ("element", "Link", "link")]
     used = {c.get("id") for e in elements for c in e}
@@ -81,9 +85,7 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CallError(
-            Problem(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', Phrase("a number is wanted"))
-        )
+        raise refused(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', Phrase("a number is wanted"))
     return value
 
 
@@ -171,3 +173,100 @@ def write_linkage2(bodies: Bodies) -> str:
 def _on_line(place: complex, slide: BodySlide) -> bool:
     off = (place - slide.through) * cmath.rect(1.0, -slide.angle)
     return abs(off.imag) <= 1e-9 * max(1.0, abs(off))
+
+
+# -- pylinkage ---------------------------------------------------------------------------------------------------------
+
+
+def read_pylinkage(text: str, title: str) -> Bodies:
+    """The bodies of a file.  Raises CallError where it is none."""
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise refused(title, Phrase("is not json", error=error), Phrase("save it from pylinkage anew")) from None
+    if not isinstance(data, dict) or not isinstance(data.get("joints"), list):
+        raise refused(title, Phrase("has no list of joints"), Phrase("a file of pylinkage has joints"))
+    made = Bodies(str(data.get("name") or title)[:200])
+    try:
+        if isinstance(data.get("links"), list):
+            _mechanism(made, data)
+        else:
+            construct_linkage(made, data["joints"])
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
+        found = Phrase("is no mechanism of pylinkage", error=f"{error!r:.100}")
+        raise refused(title, found, Phrase("save it anew")) from None
+    return made
+
+
+def _mechanism(made: Bodies, data: Tables) -> None:
+    points: dict[str, str] = {}
+    sliding: dict[str, OwnTables] = {}
+    fixed = {j["id"] for j in data["joints"] if j.get("type") == "ground"}
+    fixed |= {str(link.get("motor_joint")) for link in data["links"] if "driver" in str(link.get("type"))}
+    fixed |= {key for link in data["links"] if link.get("type") == "ground" for key in link.get("joints", ())}
+    trackers = [j for j in data["joints"] if j.get("type") == "tracker"]
+    for joint in data["joints"]:
+        x, y = joint.get("position") or (None, None)
+        if x is None or y is None:
+            raise ValueError(Phrase("joint has no place", joint=joint['id']))
+        points[joint["id"]] = made.point(str(joint.get("name") or joint["id"]), complex(float(x), float(y)))
+        if joint.get("type") == "prismatic":
+            sliding[joint["id"]] = joint
+    made.body(FRAME, [points[k] for k in points if k in fixed])
+    for link in data["links"]:
+        if link.get("type") == "ground":
+            continue
+        own = [points[k] for k in link.get("joints", ()) if k in points]
+        own += [points[t["id"]] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= set(link["joints"])]
+        name = made.body(str(link.get("name") or link["id"]), dict.fromkeys(own))
+        if "driver" in str(link.get("type")):
+            made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
+            if link["type"] == "arc_driver":
+                made.left.append(f"ends of the arc of {name}")
+    for key, joint in sliding.items():
+        line = complex(*map(float, joint.get("line_point", (0, 0))))
+        axis = complex(*map(float, joint.get("axis", (1, 0))))
+        holders = [n for n, own in made.bodies.items() if n != FRAME and points[key] in own]
+        if holders:
+            made.slides.append(BodySlide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
+        else:
+            made.lost.append(f"slide of joint {key} (no link has it)")
+
+
+def write_pylinkage(bodies: Bodies) -> str:
+    """The JSON of a mechanism; what it cannot hold is added to ``lost`` or ``left``."""
+    bodies = bodies.with_pins()
+    fixed = set(bodies.bodies.get(FRAME, ()))
+    slides = {s.point: s for s in bodies.slides}
+    joints: list[OwnTables] = []
+    for point, place in bodies.places.items():
+        slide = slides.get(point)
+        at = {"id": point, "position": [number(place.real), number(place.imag)]}
+        if slide is None:
+            joints.append(at | {"type": "ground" if point in fixed else "revolute"})
+            continue
+        if slide.on != FRAME:
+            bodies.lost.append(f"slide of {slide.body} on {slide.on} (its line moves)")
+        axis = cmath.rect(1.0, slide.angle)
+        line = [number(slide.through.real), number(slide.through.imag)]
+        at |= {"type": "prismatic", "axis": [axis.real, axis.imag]}
+        joints.append(at | {"line_point": line, "slide_distance": 0})
+    pivots = [p for p in bodies.places if p in fixed]
+    links: list[OwnTables] = [{"id": "ground", "type": "ground", "joints": pivots}]
+    bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
+    driven = {d.body: d for d in bodies.drives if not d.point}
+    bodies.lost += [f"driver of {d.body}" for d in bodies.drives if d.point]
+    for name, own in bodies.bodies.items():
+        if name == FRAME or (len(own) < 2 and name not in driven):
+            continue
+        link: OwnTables = {"id": name, "type": "link", "joints": own}
+        pivot = next((p for p in own if p in fixed), None)
+        if name in driven and (pivot is None or len(own) < 2):
+            bodies.lost.append(f"driver of {name} (it has no two points)")
+        elif name in driven and pivot is not None:
+            way = next(bodies.places[p] - bodies.places[pivot] for p in own if p != pivot)
+            link |= {"type": "driver", "motor_joint": pivot, "angular_velocity": number(driven[name].rate),
+                     "initial_angle": cmath.phase(way)}  # fmt: skip
+        links.append(link)
+    data = {"name": bodies.title, "joints": joints, "links": links, "ground": "ground"}
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"

@@ -1,0 +1,267 @@
+"""Mechanisms that are constructed point by point, each from those before it: linkages in GeoGebra (.ggb), and the older
+linkages of pylinkage.
+
+- A file of GeoGebra is a ZIP archive with ``geogebra.xml``: elements with their coordinates (homogeneous), commands
+  with inputs and outputs.  Free points are the frame, a point on a circle is a crank's end, crossings of circles and
+  lines are joints, segments say which points belong together.
+- A linkage of pylinkage has joints that refer to those before them: Static, Crank (distance, angle a step), Fixed
+  (distance and angle from one, against the line to another), Revolute or Pivot (two distances), Linear (a distance from
+  one, on the line of two others).
+
+Each kept distance is a bar; bars that share two points, and three points with all their distances kept, are one plate.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+import zlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from io import BytesIO
+from itertools import combinations
+from xml.etree import ElementTree
+from zipfile import BadZipFile, ZipFile
+
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, refused
+from graphkin.files import Tables
+from graphkin.plane import cross_arcs
+from graphkin.words import Phrase
+
+__all__ = ["STEP", "construct_linkage", "read_geogebra"]
+
+STEP = math.tau / 360
+"""rad: what a driver of pylinkage turns in a step, where nothing is said; a step is taken for a second."""
+INPUT_SPEED = 1.0
+"""rad/s: a construction of GeoGebra says no speed."""
+LARGEST = 20_000_000
+DAMAGED = (BadZipFile, LookupError, ElementTree.ParseError, OSError, ValueError, RuntimeError, EOFError, zlib.error)
+
+
+@dataclass
+class _Construction:
+    """Points, each constructed from others, and what holds them, all by the labels of the file.
+
+    points : by label, as ``made`` has them
+    moving : points that do
+    bars : points that keep their distances
+    slid : a point, the two points of the line it runs on, and what is said where no link has that line
+    driven : pivot and end of a crank, and its rate (rad/s)
+    """
+
+    made: Bodies
+    points: dict[str, str] = field(default_factory=dict)
+    moving: set[str] = field(default_factory=set)
+    bars: list[list[str]] = field(default_factory=list)
+    slid: list[tuple[str, tuple[str, str], str]] = field(default_factory=list)
+    driven: list[tuple[str, str, float]] = field(default_factory=list)
+
+    def place(self, label: str) -> complex:
+        """Where a point lies."""
+        return self.made.places[self.points[label]]
+
+    def bodies(self, frame: Sequence[str]) -> Bodies:
+        """The bodies that the bars make beside the frame, what slides on them, and what drives."""
+        self.made.body(FRAME, [self.points[p] for p in frame])
+        for bar in self._plates():
+            if not set(bar) <= set(frame):
+                own = [self.points[p] for p in bar]
+                self.made.body("".join(own)[:20], own)
+        holders = self.made.bodies
+        for label, line, otherwise in self.slid:
+            point, ends = self.points[label], {self.points[p] for p in line}
+            on = next((n for n, own in holders.items() if ends <= set(own)), None)
+            body = next((n for n, own in holders.items() if n != on and point in own), None)
+            if on is None or body is None:
+                self.made.lost.append(otherwise)
+            else:
+                one, two = map(self.place, line)
+                self.made.slides.append(BodySlide(body, point, on, one, cmath.phase(two - one), turns=True))
+        for pivot, end, rate in self.driven:
+            ends = {self.points[pivot], self.points[end]}
+            crank = next((n for n, own in holders.items() if n != FRAME and ends <= set(own)), None)
+            if crank is not None:
+                self.made.drives.append(BodyDrive(crank, rate))
+        return self.made
+
+    def _plates(self) -> list[list[str]]:
+        """Bars that share two points are one body; three bars that close a triangle of moving points too."""
+        bodies = [list(dict.fromkeys(bar)) for bar in self.bars]
+        changed = True
+        while changed:
+            changed = False
+            for i, one in enumerate(bodies):
+                for k in range(len(bodies) - 1, i, -1):
+                    if len(set(one) & set(bodies[k])) > 1:
+                        one += [p for p in bodies.pop(k) if p not in one]
+                        changed = True
+            for triangle in combinations(bodies, 3):
+                whole = list(dict.fromkeys(p for bar in triangle for p in bar))
+                if _closed(*triangle) and len(self.moving & set(whole)) > 1:
+                    bodies = [bar for bar in bodies if bar not in triangle] + [whole]
+                    changed = True
+                    break
+        return bodies
+
+
+def _closed(a: list[str], b: list[str], c: list[str]) -> bool:
+    """Whether three bars meet in three points."""
+    shared = [set(one) & set(other) for one, other in ((a, b), (a, c), (b, c))]
+    return all(len(points) == 1 for points in shared) and len(set().union(*shared)) == 3
+
+
+# -- GeoGebra ----------------------------------------------------------------------------------------------------------
+
+
+def read_geogebra(data: bytes, title: str) -> Bodies:
+    """The bodies of a construction.  Raises CallError where it is none."""
+    try:
+        with ZipFile(BytesIO(data)) as archive:
+            entry = archive.getinfo("geogebra.xml")
+            if entry.file_size > LARGEST:
+                raise refused(title, Phrase("is too large to be a linkage"), Phrase("save the construction alone"))
+            root = ElementTree.fromstring(archive.read(entry)).find("construction")
+            elements = list(root) if root is not None else []
+            made = _Construction(Bodies(title))
+            for element in elements:
+                if element.tag == "element" and element.get("type") == "point":
+                    label = element.get("label", "")
+                    made.points[label] = made.made.point(label, _place(element))
+    except DAMAGED as error:
+        raise refused(title, Phrase("is no file of geogebra", error=error), Phrase("save it as ggb")) from None
+    circles: dict[str, str] = {}
+    lines: dict[str, tuple[str, str]] = {}
+    for command in (element for element in elements if element.tag == "command"):
+        given, got = (_arguments(command, tag) for tag in ("input", "output"))
+        _follow(command.get("name", ""), given, got, made, circles, lines)
+    used = {p for held in (*made.bars, *lines.values()) for p in held}
+    frame = [p for p in made.points if p not in made.moving and p in used]
+    for label in [p for p in made.points if p not in used]:
+        made.made.left.append(f"point {label} (nothing holds it)")
+        del made.made.places[made.points[label]]
+    return made.bodies(frame)
+
+
+def _follow(
+    name: str, given: list[str], got: list[str], made: _Construction, circles: dict[str, str],
+    lines: dict[str, tuple[str, str]],
+) -> None:  # fmt: skip
+    """Follow a command: ``circles`` have their centre by name, ``lines`` two points."""
+    out, points = got[0] if got else "", made.points
+
+    def slide(point: str, line: str) -> None:
+        made.slid.append((point, lines[line], f"point {point} on {line} (no link has that line)"))
+
+    if name == "Circle" and len(given) == 2 and given[0] in points:
+        circles[out] = given[0]
+    elif name in ("Segment", "Line", "Ray") and len(given) == 2 and set(given) <= set(points):
+        lines[out] = (given[0], given[1])
+        if name == "Segment":
+            made.bars.append(list(given))
+    elif name == "Polygon" and len(got) > 1:
+        ends = [p for p in given if p in points]
+        made.bars += [[a, b] for a, b in zip(ends, [*ends[1:], *ends[:1]], strict=True)]
+        made.bars.append(ends)
+    elif name == "Point" and given and out in points and given[0] in circles:
+        made.moving.add(out)
+        made.bars.append([circles[given[0]], out])
+        made.driven.append((circles[given[0]], out, INPUT_SPEED))
+    elif name == "Point" and given and out in points and given[0] in lines:
+        made.moving.add(out)
+        slide(out, given[0])
+    elif name == "Intersect" and len(given) > 1:
+        for point in (p for p in got if p in points):
+            made.moving.add(point)
+            for curve in given[:2]:
+                if curve in circles:
+                    made.bars.append([circles[curve], point])
+                elif curve in lines:
+                    slide(point, curve)
+                else:
+                    made.made.lost.append(f"curve {curve} through {point}")
+    elif name == "Midpoint" and len(given) == 2 and set(given) <= set(points) and out in points:
+        made.moving.add(out)
+        made.bars += [[*given, out]]
+    elif name not in ("Slider", "Locus", "Distance", "Angle", "Length", "Text"):
+        found = {p for p in got if p in points}
+        (made.made.lost if found else made.made.left).append(f"{name} {', '.join(filter(None, got))}")
+        made.moving |= found
+
+
+def _arguments(command: ElementTree.Element, tag: str) -> list[str]:
+    """The inputs or the outputs of a command, a0, a1, ..., in their order."""
+    found = command.find(tag)
+    given = found.attrib if found is not None else {}
+    return [given[key] for key in sorted(given, key=lambda key: int(re.sub(r"\D", "", key) or 0))]
+
+
+def _place(element: ElementTree.Element) -> complex:
+    coords = element.find("coords")
+    given = coords.attrib if coords is not None else {}
+    z = float(given.get("z", 1)) or 1.0
+    return complex(float(given.get("x", 0)) / z, float(given.get("y", 0)) / z)
+
+
+# -- linkages of pylinkage ---------------------------------------------------------------------------------------------
+
+
+def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
+    """Add the bodies of a list of joints.  Raises ValueError, LookupError, TypeError where it is none."""
+    made = _Construction(bodies)
+    fixed: list[str] = []
+
+    def put(label: str, place: complex) -> None:
+        made.points[label] = bodies.point(label, place)
+
+    def refer(value: object) -> str:
+        if isinstance(value, dict) and "ref" not in value and "x" in value:  # a static one that stands here alone
+            label = f"S{len(made.points)}"
+            put(label, complex(float(value["x"]), float(value["y"])))
+            fixed.append(label)
+            return label
+        label = str(value["ref"] if isinstance(value, dict) else value)
+        if label not in made.points:
+            raise ValueError(Phrase("joint is not there", name=label))
+        return label
+
+    for joint in joints:
+        kind, label = str(joint["type"]).lower(), str(joint.get("name") or f"J{len(made.points)}")
+        first = refer(joint["joint0"]) if joint.get("joint0") is not None else ""
+        second = refer(joint["joint1"]) if joint.get("joint1") is not None else ""
+        here = complex(float(joint.get("x") or 0.0), float(joint.get("y") or 0.0))
+        if kind == "static":
+            put(label, here)
+            fixed.append(label)
+            continue
+        if not first or (not second and kind != "crank"):
+            raise ValueError(Phrase("joint refers to no other", name=label))
+        one = made.place(first)
+        if kind == "crank":
+            way = here - one if joint.get("x") is not None else complex(float(joint["distance"]))
+            put(label, one + float(joint.get("distance", abs(way))) * way / abs(way))
+            made.bars.append([first, label])
+            made.driven.append((first, label, float(joint.get("angle", STEP))))
+        elif kind == "fixed":
+            turn = cmath.phase(made.place(second) - one) + float(joint["angle"])
+            put(label, one + cmath.rect(float(joint["distance"]), turn))
+            if {first, second} <= set(fixed):
+                fixed.append(label)
+                continue
+            made.bars.append([first, second, label])
+        elif kind in ("revolute", "pivot"):
+            both = cross_arcs(one, float(joint["distance0"]), made.place(second), float(joint["distance1"]))
+            if both is None:
+                raise ValueError(Phrase("the bars of do not meet", name=label))
+            put(label, min(both, key=lambda z: abs(z - here)))
+            made.bars += [[first, label], [second, label]]
+        elif kind in ("linear", "prismatic"):
+            line = second, refer(joint["joint2"])
+            put(label, here)
+            made.bars.append([first, label])
+            made.slid.append((label, line, f"joint {label} (its line belongs to no link)"))
+        else:
+            bodies.lost.append(f"joint {label} of the kind {joint['type']}")
+            continue
+        made.moving.add(label)
+    made.bodies(list(dict.fromkeys(fixed)))

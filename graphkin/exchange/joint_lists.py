@@ -1,0 +1,327 @@
+"""Files that list joints, each with the links that it joins: PMKS, PMKS+ and pyslvs.
+
+- A row of the table of PMKS names the links of a joint, its kind (R, P or RP), x, y and, of a slide, the angle of its
+  line in degrees; rows are lines, or parted by "|" in an address.  The link called ``ground`` is fixed, one called
+  ``input`` drives.
+- The address of PMKS+ holds, parted by points, its settings, joints, links and forces in a numeral system of base 64,
+  lengths in thousandths (``string-transcoder.ts``).
+- An expression of pyslvs, ``M[J[R, P[0, 0], L[ground, link_1]], ...]``, stands alone or in a project, which also says
+  what drives.  A joint has its kind (R, P, RP), of a slide the angle ``A[90]`` of its line in degrees on the first of
+  its links, any colour, its place and its links (grammar of ``pyslvs.expression_parser``).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from urllib.parse import parse_qs, unquote, urlparse
+
+from graphkin.errors import CallError, Problem
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number, refused
+from graphkin.words import Phrase
+
+__all__ = ["is_address", "read_address", "read_pyslvs", "read_table", "write_pyslvs"]
+
+DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+UNITS = ("in", "cm", "m")
+MOST_DIGITS = 12
+INPUT_SPEED = 1.0
+"""rad/s, where a table or an expression says none."""
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_JOINT = re.compile(
+    rf"J\[\s*(RP|R|P)\s*(?:,\s*A\[\s*({_NUMBER})\s*\])?\s*(?:,\s*color\[[^\]]*\])?\s*,\s*"
+    rf"P\[\s*({_NUMBER})\s*,\s*({_NUMBER})\s*\]\s*,\s*L\[([^\]]*)\]\s*\]"
+)
+
+
+@dataclass(frozen=True)
+class _Joint:
+    """A joint of so many links.
+
+    kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
+        runs on a line of the first link
+    angle : of the line in the world (rad)
+    """
+
+    name: str
+    kind: str
+    place: complex
+    links: tuple[str, ...]
+    angle: float = 0.0
+
+
+def _bodies_of(title: str, joints: Sequence[_Joint]) -> Bodies:
+    """Bodies with the points of their joints; ``ground`` is the frame."""
+    made = Bodies(title)
+    names: dict[str, str] = {}
+    for link in dict.fromkeys(link for joint in joints for link in joint.links):
+        names[link] = made.body(FRAME if link.lower() == "ground" else link, [])
+    made.bodies.setdefault(FRAME, [])
+    for k, joint in enumerate(joints):
+        point = made.point(joint.name or _letter(k), joint.place)
+        first, *others = joint.links
+        if joint.kind == "P" and others and names[others[0]] == FRAME:
+            first, others = others[0], [first]  # who slides on whom makes no difference where neither turns
+        if joint.kind == "R" or not others:
+            for link in joint.links:
+                made.bodies[names[link]].append(point)
+            continue
+        for link in others:
+            made.bodies[names[link]].append(point)
+        turns = joint.kind == "RP"
+        made.slides.append(BodySlide(names[others[0]], point, names[first], joint.place, joint.angle, turns))
+    return made
+
+
+def _letter(number: int) -> str:
+    """A, B, ... Z, A1, B1, ..."""
+    turn, letter = divmod(number, 26)
+    return chr(65 + letter) + (str(turn) if turn else "")
+
+
+# -- PMKS and PMKS+ ----------------------------------------------------------------------------------------------------
+
+
+def is_address(text: str) -> bool:
+    """Whether a text is a shared link of PMKS+, or what stands behind its question mark."""
+    body = _payload(text)
+    return body.count(".") > 6 and re.fullmatch(r"[0-9A-Za-z_\-.,# %+*]+", body) is not None and ".." in body
+
+
+def _payload(text: str) -> str:
+    text = unquote(text.strip())
+    return text.partition("?")[2] if "?" in text else text
+
+
+def read_table(text: str, title: str) -> Bodies:
+    """The bodies of a table of joints.  Raises CallError naming every row that is none."""
+    try:
+        query = parse_qs(urlparse(text.strip()).query)
+    except ValueError:
+        query = {}
+    rows = query["mech"][0].split("|") if "mech" in query else text.replace("|", "\n").splitlines()
+    joints, problems = [], []
+    for count, row in enumerate(rows, 1):
+        cells = [c for c in re.split(r"[,\t; ]+", row.strip()) if c]
+        if not cells or row.lstrip().startswith("#"):
+            continue
+        at = next((k for k, c in enumerate(cells) if c.upper() in ("R", "P", "RP")), None)
+        numbers = [float(c) for c in cells[at + 1 :] if _is_number(c)] if at is not None else []
+        if at is None and not any(map(_is_number, cells)):
+            continue  # the head
+        if not at or len(numbers) < 2 or (cells[at].upper() != "R" and len(numbers) < 3):
+            where, found = Phrase("row", name=title, number=count), Phrase("is no joint", joint=row.strip()[:60])
+            problems.append(Problem(where, found, Phrase("write links r p or rp x y")))
+            continue
+        angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
+        joints.append(_Joint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
+    if problems:
+        raise CallError(*problems)
+    made = _bodies_of(title, joints)
+    moved = next((n for n in made.bodies if n.lower() == "input"), None)
+    if moved is not None:
+        made.drives.append(BodyDrive(moved, INPUT_SPEED))
+    return made
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def _whole(text: str, title: str) -> int:
+    """A whole number of the address: a leading 0 is its minus sign."""
+    value = 0
+    for sign in text:
+        if sign not in DIGITS or len(text) > MOST_DIGITS:
+            raise refused(title, Phrase("is no number of pmks", text=text[:20]), Phrase("copy the whole link"))
+        value = value * 64 + DIGITS.index(sign)
+    return -value if text.startswith("0") else value
+
+
+def read_address(text: str, title: str) -> Bodies:
+    """The bodies of a shared link of PMKS+.  Raises CallError where it is none."""
+    body = _payload(text)
+    if "*" in body:
+        found = Phrase("is a link of today's pmks with a")
+        raise refused(title, found, Phrase("draw it anew as a scene"))
+    parts = body.split(".")
+    heads, rest = parts[:4], parts[4:]
+    sections: list[list[str]] = [[]]
+    for part in rest:
+        if part:
+            sections[-1].append(part)
+        else:
+            sections.append([])
+    if len(sections) < 3 or not sections[0] or not sections[1]:
+        raise refused(title, Phrase("is no link of pmks with joints and"), Phrase("copy the whole link"))
+    flags, speeds = _whole(heads[0], title), heads[2].split(",")
+    decimals = heads[1].split(",")
+    made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
+    turning = (-1.0 if flags & 1 else 1.0) * _whole(speeds[0], title) * math.tau / 60
+    sliding = _whole(decimals[1], title) / 1000 if len(decimals) > 1 else 1.0
+    joints = {j.id: j for j in (_SharedJoint(text, title) for text in sections[0])}
+    names = {key: made.point(j.name or key, j.place) for key, j in joints.items() if not j.slides}
+    made.body(FRAME, [names[k] for k, j in joints.items() if j.grounded and not j.slides])
+    links: dict[str, str] = {}
+    blocks: list[list[str]] = []
+    for piece in sections[1]:
+        cells = piece.split(",")
+        own = cells[7:]
+        if len(own) < 1 or len(piece) < 2:
+            raise refused(title, Phrase("is no link of pmks", piece=piece[:30]), Phrase("copy the whole address"))
+        ends = own[: own.index("")] if "" in own else own
+        if piece[:2] == "NR":
+            continue  # a part of a welded link, which is there as a whole
+        if piece[1] == "P":
+            blocks.append(ends)
+        else:
+            links[cells[0][2:]] = made.body(cells[1] or cells[0][2:], [names[k] for k in ends if k in names])
+    made.lost += [f"force {piece.split(',')[2]}" for piece in sections[2] if piece.count(",") > 5]
+    held = {key for ends in blocks for key in ends}
+    loose = [j for key, j in joints.items() if j.slides and key not in held]
+    made.lost += [f"slider {j.name or j.id} (no block has it)" for j in loose]
+    for ends in blocks:
+        _block(made, ends, joints, names, links, sliding)
+    for key, joint in joints.items():
+        if joint.driven and not joint.slides:
+            turned = [n for n, own in made.bodies.items() if n != FRAME and names[key] in own]
+            if turned and joint.grounded:
+                made.drives.append(BodyDrive(turned[0], turning))
+            else:
+                made.lost.append(f"input at {joint.name or key} (it is no pivot of the frame)")
+    return made
+
+
+class _SharedJoint:
+    """A joint of the address: flags (slides, driven, grounded, welded), name, place, angle of its line and what carries
+    it."""
+
+    def __init__(self, text: str, title: str) -> None:
+        cells = text[1:].split(",")
+        if len(cells) < 5:
+            raise refused(title, Phrase("is no joint of pmks", text=text[:30]), Phrase("copy the whole link"))
+        flags = _whole(text[:1], title)
+        self.slides, self.driven, self.grounded, self.welded = (bool(flags >> k & 1) for k in range(4))
+        self.id, self.name = cells[0], cells[1]
+        self.place = complex(_whole(cells[2], title), _whole(cells[3], title)) / 1000
+        self.angle = _whole(cells[4], title) / 1000
+        self.carrier, self.ends = (cells[5], cells[6:8]) if len(cells) > 7 else ("", [])
+
+
+def _block(
+    made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], names: dict[str, str], links: dict[str, str],
+    rate: float,
+) -> None:  # fmt: skip
+    """A block that slides on a line of the frame or of its carrier; welded to a link it is part of that."""
+    line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
+    pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
+    if line is None or pin is None or not (line.grounded or line.carrier in links):
+        made.lost.append(f"block {''.join(ends)} (it slides on nothing)")
+        return
+    angle, through, on = line.angle, line.place, FRAME
+    if not line.grounded:
+        one, two = (made.places[names[k]] for k in line.ends)
+        angle, through, on = cmath.phase(two - one), one, links[line.carrier]
+    else:
+        angle = _exact(angle)
+    point = names[pin.id]
+    holders = [n for n, own in made.bodies.items() if n not in (FRAME, on) and point in own]
+    block = holders[0] if pin.welded and holders else made.body("".join(ends), [point])
+    made.slides.append(BodySlide(block, point, on, through, angle))
+    if line.driven:
+        made.drives.append(BodyDrive(block, rate, point))
+
+
+def _exact(angle: float) -> float:
+    """An angle that was rounded to a thousandth of a radian, of which whole degrees are meant."""
+    near = math.radians(round(math.degrees(angle)))
+    return near if abs(near - angle) <= 6e-4 else angle
+
+
+# -- pyslvs ------------------------------------------------------------------------------------------------------------
+
+
+def read_pyslvs(text: str, title: str) -> Bodies:
+    """The bodies of an expression or a project.  Raises CallError where there is none, or it cannot be read."""
+    plain = re.sub(r"#\[[\s\S]*?#\][^\n]*|#[^\n]*", "", text)
+    begin = re.search(r"\bM\s*\[", plain)
+    if begin is None:
+        raise refused(title, Phrase("holds no expression m"), Phrase("copy the expression from pyslvs"))
+    inner, end = _inside(plain, begin.end(), title)
+    joints: list[_Joint] = []
+    rest = _JOINT.sub("", inner)
+    if re.sub(r"[\s,]+", "", rest):
+        found = Phrase("is no joint", joint=rest.strip(" ,")[:60])
+        raise refused(title, found, Phrase("write j r p 0 0 l ground"))
+    for kind, angle, x, y, links in _JOINT.findall(inner):
+        names = tuple(filter(None, (n.strip() for n in links.split(","))))
+        if not names:
+            raise refused(title, Phrase("the joint at has no link", value=x, other=y), Phrase("write l ground link_1"))
+        place, turn = complex(float(x), float(y)), math.radians(float(angle or 0))
+        joints.append(_Joint(f"P{len(joints)}", kind, place, names, turn))
+    made = _bodies_of(title, joints)
+    points = list(made.places)
+    pairs = re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", plain[end:]) or re.findall(
+        r"base\W+(\d+)\D+?drive\W+(\d+)", plain[: begin.start()]
+    )
+    if not pairs and len(re.findall(r"\bM\s*\[", plain)) == 1:
+        pairs = _first_crank(made)
+    for base, drive in pairs:
+        ends = [points[int(k)] for k in (base, drive) if int(k) < len(points)]
+        turned = [n for n, own in made.bodies.items() if n != FRAME and len(ends) == 2 and set(ends) <= set(own)]
+        if turned:
+            made.drives.append(BodyDrive(turned[0], INPUT_SPEED))
+        else:
+            made.lost.append(f"input from {base} to {drive} (no link has both)")
+    return made
+
+
+def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
+    """What stands in the brackets that open before ``begin``, and where they close."""
+    depth = 1
+    for k in range(begin, len(text)):
+        depth += {"[": 1, "]": -1}.get(text[k], 0)
+        if not depth:
+            return text[begin:k], k + 1
+    raise refused(title, Phrase("a bracket is not closed"), Phrase("copy the whole expression"))
+
+
+def _first_crank(made: Bodies) -> list[tuple[str, str]]:
+    """The first bar about a fixed pivot, where nothing says what drives."""
+    points = list(made.places)
+    for name, own in made.bodies.items():
+        fixed = [p for p in own if p in made.bodies[FRAME]]
+        free = [p for p in own if p not in made.bodies[FRAME]]
+        if name != FRAME and fixed and free:
+            return [(str(points.index(fixed[0])), str(points.index(free[0])))]
+    return []
+
+
+def write_pyslvs(bodies: Bodies) -> str:
+    """The expression of bodies; what it cannot hold is added to ``left``."""
+    joints = []
+
+    def joint(kind: str, place: complex, names: Iterable[str], angle: float | None = None) -> None:
+        turned = "" if angle is None else f", A[{number(math.degrees(angle))}]"
+        links = ", ".join("ground" if n == FRAME else f"link_{n}" for n in names)
+        joints.append(f"J[{kind}{turned}, P[{number(place.real)!r}, {number(place.imag)!r}], L[{links}]]")
+
+    for point, place in bodies.places.items():
+        own = [n for n, points in bodies.bodies.items() if point in points]
+        slot = next((s for s in bodies.slides if s.point == point and s.turns), None)
+        kept = [s for s in bodies.slides if s.point == point and not s.turns]
+        if slot is not None:
+            joint("RP", place, [slot.on, *(n for n in own if n != slot.on)], slot.angle)
+        elif len(own) > 1 or not kept:
+            joint("R", place, own)
+        for slide in kept:
+            joint("P", place, [slide.on, slide.body], slide.angle)
+    bodies.left += [f"unit of length {bodies.unit}"] if bodies.unit != "mm" else []
+    bodies.left += [f"speed of {drive.body}" for drive in bodies.drives]
+    return "M[" + ", ".join(joints) + "]\n"
