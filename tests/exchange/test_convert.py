@@ -383,5 +383,5 @@ def test_what_runs_on_the_line_of_a_link_of_pylinkage_is_a_pin_in_its_slot(tmp_p
     ]  # fmt: skip
     (tmp_path / "a.json").write_text(json.dumps({"joints": joints}))
     made = read_bodies(str(tmp_path / "a.json"))
-    assert {"0": ["A", "D"], "AB": ["A", "B"], "BCF": ["B", "C", "F"], "DC": ["D", "C"], "FS": ["F", "S"]} == made.bodies
+    assert {"0": [*"AD"], "AB": [*"AB"], "BCF": [*"BCF"], "DC": [*"DC"], "FS": [*"FS"]} == made.bodies
     assert {"S": {"of": "FS", "in": "DC.s1"}} == made.scene()["pins"]
