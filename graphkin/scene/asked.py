@@ -136,7 +136,6 @@ def stated_values(
 ) -> tuple[StatedValues, ...]:  # fmt: skip
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; what
     is wrong with them is noted."""
-    spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
     found = []
 
     def how(table: str, by: object) -> Literal["drawing", "computation"] | None:
@@ -147,7 +146,7 @@ def stated_values(
         return "computation" if by == "computation" else "drawing"
 
     usual = how("printed", printed.get("by", "drawing")) or "drawing"
-    own = _values("printed", printed, reading, positions, spelling)
+    own = _values("printed", printed, reading, positions)
     if own:
         found.append(StatedValues(None, own, usual))
     for number, row in enumerate(rows, 1):
@@ -160,14 +159,14 @@ def stated_values(
             wanted = did_you_mean(at, positions) if positions else unnamed
             reading.say(f"{where}.at", Phrase("there is no position", at=at), wanted)
         elif by := how(where, row.get("by", usual)):
-            found.append(StatedValues(at, _values(where, row, reading, positions, spelling), by))
+            found.append(StatedValues(at, _values(where, row, reading, positions), by))
     if csv is not None:
         found.append(StatedValues(None, {}, csv.by, csv.file))
     return tuple(found)
 
 
 def _values(
-    table: str, values: Mapping[str, Stated], reading: Reading, positions: Sequence[str], spelling: Spelling
+    table: str, values: Mapping[str, Stated], reading: Reading, positions: Sequence[str]
 ) -> dict[Symbol, Printed]:
     """Stated values by symbol, each as a number or as people write it in a cell (``"0.483 m/s"``, ``"2.82 cw"``).
 
@@ -180,6 +179,7 @@ def _values(
         where = path_name((*table.split("."), text))
         symbol, unit = _symbol(where, text, reading, positions), ""
         if isinstance(symbol, Problem):
+            spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
             name, unit = spelling.head(text)
             meant = spelling.symbol(name)
             symbol = symbol if meant is None else _symbol(where, str(meant), reading, positions)

@@ -226,7 +226,7 @@ def mechanism_said(
                              local, pairs, sliding)  # fmt: skip
     wish = file.sheet.background
     under = background_of(wish, {**drawn, **fixed}, reading) if wish else None
-    scans = scans_of(file.scans, reading)
+    scans = scans_of(file.scans, reading) if file.scans else ()
     hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
     drivers = [placed_driver(where, d, position.value_of(d), metres, [] if hopeless else problems)
                for where, d in driven.items()]
