@@ -128,23 +128,20 @@ def written(plain: str) -> str:
 def drivers(sheet: Sheet, letters: Letters) -> str:
     """Driver values with their rates, as words with symbols between dollar signs."""
     scene = sheet.scene
-    unit, rates = scene.units, scene.units.rates
+    rates = scene.units.rates
     parts = [f"$t$ = {number(asked_time(scene))} s"] if moves_by_law(scene) else []
     for driver in scene.drivers:
-        value = sheet.drivers[driver.key]
+        parts.append(_stands(sheet, driver, sheet.drivers[driver.key]))
+        index = _index(sheet, driver)
         _, rate, second = driver.values
         if driver.turns:
-            index = driver.link if driver.relative_to == scene.frame.name else driver.link + driver.relative_to
-            parts.append(f"$φ_{{{index}}}$ = {number(math.degrees(value))}°")
             if driver.rpm is not None and math.isclose(driver.rpm * math.pi / 30, rate):
                 parts.append(f"$n_{{{index}}}$ = {number(driver.rpm)} r/min")
             parts.append(f"$ω_{{{index}}}$ = {number(rate)} rad/s")
             if second:
                 parts.append(f"$α_{{{index}}}$ = {number(second)} rad/s²")
         else:
-            index = slide_index(sheet, driver.key)
             v, a = ("V", "A") if letters.convention == "us" else ("v", "a")
-            parts.append(f"$s_{{{index}}}$ = {number(value / unit.metres)} {unit.length}")
             parts.append(f"${v}_{{{index}}}$ = {number(rate / rates.metres)} {rates.length}/s")
             if second:
                 parts.append(f"${a}_{{{index}}}$ = {number(second / rates.metres)} {rates.length}/s²")
@@ -167,11 +164,14 @@ def rolling_starts(sheet: Sheet) -> list[str]:
 
 
 def _stands(sheet: Sheet, driver: Driver, value: float) -> str:
-    if driver.turns:
-        index = driver.link if driver.relative_to == sheet.scene.frame.name else driver.link + driver.relative_to
-        return f"$φ_{{{index}}}$ = {number(math.degrees(value))}°"
-    unit = sheet.scene.units
-    return f"$s_{{{slide_index(sheet, driver.key)}}}$ = {number(value / unit.metres)} {unit.length}"
+    unit = sheet.scene.unit_of(driver)
+    return f"${'φ' if driver.turns else 's'}_{{{_index(sheet, driver)}}}$ = {unit.beside(number(unit.of(value)))}"
+
+
+def _index(sheet: Sheet, driver: Driver) -> str:
+    if driver.slide:
+        return slide_index(sheet, driver.slide)
+    return driver.link if driver.turns_about(sheet.scene.frame.name) else driver.link + driver.relative_to
 
 
 def slide_index(sheet: Sheet, key: str) -> str:
@@ -184,11 +184,7 @@ def facts(sheet: Sheet, figure: str) -> dict[str, object]:
     """What a program may want to know of a figure, in scene units: for the metadata of the file."""
     scene = sheet.scene
     metres = scene.units.metres
-    at = {
-        d.key: round(value if not d.turns else math.degrees(sheet.drivers[d.key]), 9)
-        for d in scene.drivers
-        for value in (sheet.drivers[d.key] / metres,)
-    }
+    at = {d.key: round(scene.unit_of(d).of(sheet.drivers[d.key]), 9) for d in scene.drivers}
     scales = {
         "length": float(f"{sheet.scales.length / metres:.12g}"),
         "velocity": float(f"{sheet.scales.velocity / scene.units.rates.metres:.12g}"),

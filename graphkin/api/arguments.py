@@ -149,12 +149,11 @@ def as_scene(scene: SceneLike) -> Mechanism:
     """A scene from a file, a name of one that comes along, a mapping, or a scene itself; a value of its driver that is
     given from a dead point is found, and its rate from the speed of a point."""
     given = mechanism_of(scene)
-    if any(d.turns and d.position for d in given.drivers):
+    if any(d.position for d in given.drivers):
         from graphkin.solver.named_positions import standing
 
         given = standing(given)
-    if any((d.dead_point and not d.dead_point.exact) or (d.turns and d.given_speed)
-           for d in given.drivers):  # fmt: skip
+    if any((d.dead_point and not d.dead_point.exact) or d.given_speed for d in given.drivers):
         from graphkin.solver import structure_of
 
         return structure_of(given).scene

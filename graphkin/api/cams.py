@@ -70,7 +70,7 @@ class CamMade:
     @property
     def _rate(self) -> float:
         """How fast the degree of the law grows (rad/s), where the cam is driven steadily about the frame; else 0."""
-        own = (d for d in self.mechanism.drivers if d.turns and d.link == self.cam.link)
+        own = (d for d in self.mechanism.drivers if d.key == self.cam.link)
         driver = next(own, None)
         if driver is None or driver.relative_to != self.mechanism.frame.name or driver.second or driver.law is not None:
             return 0.0

@@ -243,7 +243,7 @@ class Centred(OfScene, Result):
         from graphkin.drawing.figures.centres_in_motion import centres_in_motion
         from graphkin.study.centre_paths import centre_paths
 
-        frame, whole = self.mechanism.frame.name, self.mechanism.instead_of or self.mechanism
+        frame, whole = self.mechanism.frame.name, self.mechanism.whole
         few = len(self.centres.links.names) <= MOST_PLAYED
         # what stands for a cam at one position is none of the links that move
         standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}

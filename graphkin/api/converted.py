@@ -175,7 +175,7 @@ def _bodies(scene: Mechanism) -> Bodies:
     made.lost += [f"load {load.name}" for load in scene.loading.loads]
     made.lost += [f"spring {spring.name}" for spring in scene.loading.springs]
     for driver in scene.drivers:
-        if driver.turns and driver.relative_to == scene.frame.name:
+        if driver.turns_about(scene.frame.name):
             made.drives.append(BodyDrive(driver.link, driver.rate))
         else:
             made.lost.append(f"driver {driver.key}")

@@ -91,9 +91,9 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
     written = mechanism_of(source)
     for driver in written.drivers:
         found = "the driver is given from a dead point, which moves with each" if driver.dead_point else ""
-        if driver.turns and driver.given_speed:
+        if driver.given_speed:
             found = "the driver's rate is given by the speed of a point, and is another with each"
-        elif driver.turns and driver.position:
+        elif driver.position:
             found = "the driver is given by a position, which moves with each"
         if found:
             raise CallError(Problem("designs", found, Phrase("give its value instead")))

@@ -205,10 +205,7 @@ def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
     given = as_scene(scene)
     given, found = placed(given, at)
     values = found or {}
-    driver = {
-        d.key: values.get(d.key, d.values[0]) / (given.units.metres if not d.turns else 1.0)
-        for d in given.drivers
-    }
+    driver = {d.key: given.unit_of(d, radians=True).of(values.get(d.key, d.value)) for d in given.drivers}
     return {
         "title": given.title,
         "units": {"length": given.units.length, "time": "s", "angle": "rad"},

@@ -121,8 +121,7 @@ def reach(scene: Mechanism) -> Reach:
     """How far the first driver of a scene moves.  Raises GraphkinError where that cannot be found."""
     over = _range_of(scene)
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
-    unit = np.pi / 180 if over.driver.turns else scene.units.metres
-    low, high = (0.0, 360.0) if over.full else (v / unit for v in values)
+    low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
     return Reach(low, high, over.full, over.limit_why)
 
 

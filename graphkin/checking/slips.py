@@ -249,7 +249,7 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
             yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
-    by_rpm = any(d.turns and d.rpm for d in case.plan.structure.scene.drivers)
+    by_rpm = any(d.rpm for d in case.plan.structure.scene.drivers)
     for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
         yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
     for factor in _other_lengths(case, symbol):

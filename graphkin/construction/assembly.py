@@ -459,10 +459,7 @@ class _Sketch:
         self.mm = known.mm
         # links whose directions tell each other's: the second's is the first's times this
         self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
-        self.joined += [
-            (d.relative_to, d.link, cmath.rect(1.0, known.values[d.key]))
-            for d in cluster.drivers if d.turns
-        ]  # fmt: skip
+        self.joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in cluster.drivers if d.turns]
 
     def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:
         """Every position from the links and directions known already."""

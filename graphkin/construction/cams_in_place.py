@@ -42,8 +42,8 @@ def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool 
         return analyse(_replaced(scene, values, {}, bars))
     first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
     way = next(iter(ways(scene.drivers, first, goal)), goal)
-    far = max((abs(b - a) / (1.0 if d.turns else scene.size)
-               for d, a, b in zip(scene.drivers, first, way, strict=True)), default=0.0)  # fmt: skip
+    moved = zip(scene.drivers, first, way, strict=True)
+    far = max((abs(b - a) / d.span(scene.size) for d, a, b in moved), default=0.0)
     count = math.ceil(far / STEP)
     seen: Mapping[str, complex] = {}
     for k in range(count):
@@ -58,8 +58,8 @@ def _replaced(
     """The scene with all cams replaced; their angles come from the drivers, or are drawn."""
     turns: dict[str, float] = {}
     for cam in scene.cams:
-        driver = next((d for d in scene.drivers if d.turns and d.link == cam.link), None)
-        if driver is not None and driver.relative_to == scene.frame.name:
+        driver = next((d for d in scene.drivers if d.key == cam.link), None)
+        if driver is not None and driver.turns_about(scene.frame.name):
             turns[cam.link] = values[driver.key]
         else:
             turns[cam.link] = _drawn_turn(scene, cam, values, seen)

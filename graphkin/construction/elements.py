@@ -67,8 +67,7 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
     coordinate = "angle" if driver.turns else "travel", driver.key
     which = 0 if order == "velocity" else 1
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
-    turns += [(d.link, d.relative_to, d.values[1 + which]) for d in plot.structure.scene.drivers
-              if d.turns]  # fmt: skip
+    turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
     known = {name: rate.value for name, rate in plot.rates[order].items()}
     before = plot.wheels
     plot.wheels, value, mm = before.found(

@@ -98,9 +98,7 @@ def _walk(
 ) -> tuple[dict[str, Pose], float]:
     """The last position that the motion reaches on its way, and at what part of this it lies."""
     scene = choices.structure.scene
-    length = max(
-        abs(target[d.key] - own[d.key]) / (1.0 if d.turns else scene.size) for d in scene.drivers
-    )
+    length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
     longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
     # nothing says yet where the links go: the first step is small
     pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)

@@ -6,7 +6,6 @@ over to the mechanism as a driver at their common pair, and what is left of the 
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from itertools import product
 from graphkin.construction.assembly import assembly_at
 from graphkin.construction.dyads import assembled, drive, meant, meet
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, start_board, travel
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading, start_board, travel
 from graphkin.construction.position import place
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver, Mechanism
@@ -58,10 +57,7 @@ class Inversion:
 
     def read(self, paper: PlacedLinks) -> float:
         """The stand-in's value (rad, m) off the links as they lie."""
-        pair, equivalent = self.triangle.pair, self.triangle.equivalent
-        if equivalent.turns:
-            return cmath.phase(paper.poses[equivalent.link].axis / paper.poses[equivalent.relative_to].axis)
-        return travel(pair, paper.poses, paper.mm) / paper.mm
+        return reading(self.structure, self.triangle.equivalent, paper.poses, paper.mm)
 
 
 def opened_at_triangles(structure: Structure) -> Structure:

@@ -49,7 +49,7 @@ from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Pair, Weld, driver_pair
+from graphkin.structure import Cluster, Weld, driver_pair
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -362,7 +362,7 @@ def _rests_on(plot: Polygons, group: Cluster, contour: Sequence[str]) -> list[tu
     outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
     found = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
-        rest = _on(group, held, contour, plot.structure.slides)
+        rest = _on(group, held, contour)
         made = with_held(plot, group, held)
         plan = next(_plans(made, rest), None)
         if plan is not None and not plan.tried:
@@ -415,17 +415,12 @@ def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> Non
             plot.board.do(step)
 
 
-def _on(group: Cluster, held: str, contour: Sequence[str], slides: Sequence[Pair]) -> Cluster:
+def _on(group: Cluster, held: str, contour: Sequence[str]) -> Cluster:
     """The links of a contour besides the held one, as a group of their own."""
     rest = tuple(n for n in contour if n != held)
     within = set(contour)
-    joined = {s.key: {s.a, s.b} for s in slides}
-    drivers = tuple(
-        d for d in group.drivers
-        if (d.turns and {d.link, d.relative_to} <= within)
-        or (not d.turns and joined[d.key] <= within)
-    )  # fmt: skip
-    pairs = tuple(p for p in group.pairs if {p.a, p.b} <= within)
+    drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
+    pairs = tuple(p for p in group.pairs if within.issuperset(p.links))
     return Cluster(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
 
 

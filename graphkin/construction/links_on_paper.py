@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -169,6 +170,13 @@ def travel(slide: Pair, poses: Poses, mm: float) -> float:
     guide = poses[slide.b]
     start = guide.place(slide.guide.through * mm)
     return dot(poses[slide.a].origin - start, guide.axis * slide.guide.direction)
+
+
+def reading(structure: Structure, driver: Driver, poses: Poses, mm: float) -> float:
+    """The value of a driver off the links as they lie (rad, m); ``mm`` of paper for one m."""
+    if driver.turns:
+        return cmath.phase(poses[driver.link].axis / poses[driver.relative_to].axis)
+    return travel(structure.slide(driver.slide), poses, mm) / mm
 
 
 def across(slide: Pair, link: str, other: Pose, travel: float, mm: float) -> Pose:

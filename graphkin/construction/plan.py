@@ -535,7 +535,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
 def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:
     """The position with each driver's value alone growing at a unit rate, where one driver's motion alone is not drawn
     already."""
-    scene = task.structure.scene.instead_of or task.structure.scene
+    scene = task.structure.scene.whole
     if len(scene.drivers) == 1 and scene.drivers[0].values[1]:
         return ()
     made = []

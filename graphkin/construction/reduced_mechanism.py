@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import cmath
 import math
-from cmath import phase
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
@@ -83,7 +82,7 @@ class ReducedMechanism:
 
     def opened(self, known: PlacedLinks, values: Sequence[float]) -> PlacedLinks:
         """The board before the group is drawn, the trial drivers at values (rad, or travel in the mechanism's size)."""
-        here = {d.key: v * self._unit(d) for d, v in zip(self.trial, values, strict=True)}
+        here = {d.key: v * d.span(self.structure.scene.size) for d, v in zip(self.trial, values, strict=True)}
         here |= {key: known.values[own] + more for key, (own, more) in self.held.items()}
         return PlacedLinks(
             known.links, known.mm, {**known.values, **here}, dict(known.poses), known.instrument, dict(known.pricked)
@@ -91,15 +90,8 @@ class ReducedMechanism:
 
     def values(self, poses: Mapping[str, Pose], mm: float) -> list[float]:
         """The trial drivers' values in a position (rad, or travel in the mechanism's size)."""
-        return [self._value(d, poses, mm) / self._unit(d) for d in self.trial]
-
-    def _unit(self, driver: Driver) -> float:
-        return 1.0 if driver.turns else self.structure.scene.size
-
-    def _value(self, driver: Driver, poses: Mapping[str, Pose], mm: float) -> float:
-        if driver.turns:
-            return phase(poses[driver.link].axis / poses[driver.relative_to].axis)
-        return travel(self.structure.slide(driver.key), poses, mm) / mm
+        size = self.structure.scene.size
+        return [reading(self.structure, d, poses, mm) / d.span(size) for d in self.trial]
 
 
 def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 0) -> list[ReducedMechanism]:
@@ -127,7 +119,7 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
 def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:
     rolling = tuple(_rolling(structure, cluster))
     own = {d.key: d for d in structure.scene.drivers}
-    driven = {n for d in structure.scene.drivers if d.turns for n in (d.link, d.relative_to)}
+    driven = {n for d in structure.scene.drivers if d.turns for n in d.links}
     # what the driver moves is rather left in its place
     removable = sorted(_removable(structure, cluster, driven), key=lambda r: r.left_out in driven)
     for others in combinations(removable, count - len(rolling)):
@@ -182,10 +174,7 @@ def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iter
         elif not hinges and len(slides) == 2:
             yield RemovedConstraint(name, (), slides[0], slides[1])
     for driver in cluster.drivers:
-        if driver.turns:
-            yield RemovedConstraint("", driver=driver)
-        else:
-            yield RemovedConstraint("", slide=structure.slide(driver.key), driver=driver)
+        yield RemovedConstraint("", slide=None if driver.turns else structure.slide(driver.key), driver=driver)
 
 
 def _within(structure: Structure, cluster: Cluster, point: str, name: str) -> str:

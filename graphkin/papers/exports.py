@@ -91,7 +91,7 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
     built = tuple(
-        (each, word("between sentences", each).join(structure_words(scene.instead_of or scene, each)))
+        (each, word("between sentences", each).join(structure_words(scene.whole, each)))
         for each in languages(lesson.language)
     )
     paragraphs = [built, *(p.words for p in given(lesson))]

@@ -464,7 +464,7 @@ def motion_data(
     ``points``, ``centres`` : places with their names; ``fixed`` : places that stand; ``velocity``, ``acceleration`` :
     vectors as pairs of places and names of ends
     """
-    scene = sheet.scene.instead_of or sheet.scene  # what stands for a cam does so at one position only
+    scene = sheet.scene.whole  # what stands for a cam does so at one position only
     motion = solve(scene, at=values, sweep=count)
     rows = _in_order(motion)
     if len(rows) < 2:

@@ -194,6 +194,14 @@ class Driver:
         """What its values are measured by where they shall have no unit: 1 rad, or a size (m)."""
         return 1.0 if self.turns else size
 
+    def turns_about(self, link: str) -> bool:
+        """Whether it gives an angle from that of a link, as of the frame."""
+        return self.turns and self.relative_to == link
+
+    def wrapped(self, change: float) -> float:
+        """A change of its value (rad, m), of an angle but for whole turns: from half a turn back to half a turn on."""
+        return math.remainder(change, math.tau) if self.turns else change
+
     def at_value(self, value: float) -> Driver:
         """The same driver at another value (rad, m)."""
         return replace(self, value=value, dead_point=None, position="")
@@ -331,6 +339,11 @@ class Mechanism:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
 
     @property
+    def whole(self) -> Mechanism:
+        """The mechanism itself: that with cams, in whose place this one may stand."""
+        return self if self.instead_of is None else self.instead_of
+
+    @property
     def printed(self) -> dict[Symbol, float | complex]:
         """What is printed of this position, by symbol in SI: a float, or a complex number for two components."""
         here = (own for own in self.stated if own.at is None)
@@ -372,7 +385,7 @@ class Mechanism:
     def size(self) -> float:
         """A length that says how large the mechanism is (m): the largest distance given in the file."""
         if self.instead_of is not None:
-            return self.instead_of.size
+            return self.whole.size
         spans = [abs(z) for link in self.links for z in link.points.values()]
         fixed = list(self.frame.points.values()) + [g.through for n, g in self.frame.guides.items() if n]
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]

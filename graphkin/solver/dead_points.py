@@ -75,9 +75,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
 
 
 def _same(structure: Structure, one: DeadPoint, two: DeadPoint) -> bool:
-    off = float(one.value - two.value)
-    turning = structure.scene.drivers[0].turns
-    return abs(math.remainder(off, 2 * math.pi) if turning else off) < SAME
+    return abs(structure.scene.drivers[0].wrapped(float(one.value - two.value))) < SAME
 
 
 def not_searched(structure: Structure) -> tuple[str, ...]:
@@ -89,7 +87,7 @@ def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float],
     """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
     if len(structure.scene.drivers) != 1 or in_stages(structure.elements[: i + 1]):
         return None
-    unit = 1.0 if structure.scene.drivers[0].turns else structure.scene.size
+    unit = structure.scene.drivers[0].span(structure.scene.size)
     grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)
     found = list(_of_group(structure, i, signs, grid))
     return min(found, key=lambda p: abs(float(p.value) - value), default=None)
@@ -260,9 +258,9 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
         return ""
     one = np.ones((1, len(values)))
     size = structure.scene.size
-    for driver, turns in enumerate(d.turns for d in structure.scene.drivers):
+    for k, driver in enumerate(structure.scene.drivers):
         nudged = values[None].copy()
-        nudged[0, driver] += HAIR * (1.0 if turns else size)
+        nudged[0, k] += HAIR * driver.span(size)
         solved = positions(structure, Drive(nudged, one, 0 * one), forms, i + 1, rates=False).groups[i]
         assert isinstance(solved, DyadSolution)
         if max(abs(complex(np.ravel(pose.z)[0])) for pose in (solved.first, solved.second)) > FAR_OFF * size:

@@ -81,7 +81,7 @@ def disc_cams(structure: Structure) -> tuple[DiscCam, ...]:
 def _sides(scene: Mechanism, contact: PlacedContact) -> tuple[int, str] | None:
     """Which side of a contact is the cam (0 or 1), and what tells the follower's motion: its sliding pair or link."""
     driver = scene.drivers[0] if scene.drivers else None
-    if driver is None or not driver.turns or driver.relative_to != scene.frame.name or contact.rolling:
+    if driver is None or not driver.turns_about(scene.frame.name) or contact.rolling:
         return None
     if driver.link not in contact.links:
         return None

@@ -117,18 +117,17 @@ class ExtendedPrecision:
         given: dict[Name, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
             value = float(self.value[k, j])
-            turns = driver.turns
-            number, exact = meant_angle(value) if turns else meant(value)
+            number, exact = meant_angle(value) if driver.turns else meant(value)
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
                 number, exact = Decimal(dead.exact), True
             if at and j in at:
                 number, exact = at[j], True
-            if turns:
+            if driver.turns:
                 given["cos", j], given["sin", j] = cos_sin(number)
             else:
                 given["travel", j] = number
-            given["error", "angle" if turns else "travel", j] = Decimal(0 if exact else GIVEN * abs(value))
+            given["error", "angle" if driver.turns else "travel", j] = Decimal(0 if exact else GIVEN * abs(value))
             for name, rate in (("rate", float(self.rate[j])), ("second", float(self.second[j]))):
                 given[name, j], exact = meant(rate)
                 given["error", name, j] = Decimal(0 if exact else GIVEN * abs(rate))

@@ -295,15 +295,14 @@ class Rows:
                 rows += [_turning(one, two, order), _sliding(one, two, order) / size]
         for driver in self.system.group.drivers:
             i = structure.drivers.index(driver)
-            turns = driver.turns
             first = len(structure.drivers) - len(self.led)
             given: float | Array
             if i >= first:
                 given = self.led[i - first].off(order, structure, self.poses, self.before, self.given)
             else:
-                given = self.given(("error", ("angle" if turns else "travel", "rate", "second")[order], i))
+                given = self.given(("error", ("angle" if driver.turns else "travel", "rate", "second")[order], i))
             if driver.turns:
-                one, two = (_Joint(self.poses[k], self._errors(k)) for k in (driver.link, driver.relative_to))
+                one, two = (_Joint(self.poses[k], self._errors(k)) for k in driver.links)
                 rows.append(_turning(one, two, order) + given)
             else:
                 pair = structure.slide(driver.key)

@@ -8,7 +8,6 @@ links that hang on it reach each other only the other way round, and in one way 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
@@ -22,7 +21,7 @@ from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_forms, new_places
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
-from graphkin.solver.decimals import PI, meant_value, working
+from graphkin.solver.decimals import meant_value, working
 from graphkin.solver.drivers import Drive, own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
@@ -62,7 +61,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 
         structure = from_dead_point(structure)
     structure = with_sensible_slots(structure)
-    if any(d.turns and d.given_speed for d in scene.drivers):
+    if any(d.given_speed for d in scene.drivers):
         return at_given_speed(structure)
     return structure
 
@@ -70,8 +69,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
 def _diagnosis(scene: Mechanism) -> Problem | None:
     tried: list[tuple[str, Fit, bool]] = []
     pins = {pin.key: pin.of for pin in scene.pins}
-    driven = {n for d in scene.drivers for n in (*d.key.split("/"), pins.get(d.key))}
-    driven |= {d.relative_to for d in scene.drivers if d.turns}
+    driven = {name for d in scene.drivers for name in (pins.get(d.key), *d.links)}
     for link in reversed(scene.links):
         if link.redundant or link.name in driven:
             continue
@@ -288,11 +286,9 @@ def from_dead_point(structure: Structure) -> Structure:
         names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
         raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
                                                Phrase("write near to tell which one")))
-    turn = float(2 * PI) if driver.turns else math.inf
 
     def away(point: DeadPoint) -> float:
-        off = abs(float(point.value) - (dead.near or 0.0))
-        return min(off, abs(turn - off))
+        return abs(driver.wrapped(float(point.value) - (dead.near or 0.0)))
 
     taken = min(found, key=lambda pair: away(pair[0]))
     nearest, way = min(known, key=lambda pair: (away(pair[0]), pair[1] != side))

@@ -106,7 +106,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
     def value(symbol: Symbol) -> Value:
         if symbol in of_turn:
             return of_turn[symbol]
-        if symbol.scope == "force" and no_force(scene.instead_of or scene, str(symbol), symbol) is None:
+        if symbol.scope == "force" and no_force(scene.whole, str(symbol), symbol) is None:
             return of_forces()(symbol)
         found = value_of(motion, symbol)[0]
         if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
@@ -469,20 +469,16 @@ def head(motion: Motion) -> dict[str, Json]:
 def _change_point(scene: Mechanism, one: ChangePoint) -> dict[str, Json]:
     """A change point on the way: the links whose two assemblies meet, and the drivers' values there."""
     values = zip(scene.drivers, one.values, strict=True)
-    at = {d.key: v / (scene.units.metres if not d.turns else 1.0) for d, v in values}
+    at = {d.key: scene.unit_of(d, radians=True).of(v) for d, v in values}
     return {"links": list(one.links), "driver": at}
 
 
 def entries(motion: Motion, forces: Forces | None = None) -> Iterator[dict[str, Json]]:
     """What is said of each position, one after the other; some thousand are made at a time."""
     scene = motion.scene
-    metres = scene.units.metres
     flywheel = _flywheel(motion)
     angles = {link.name: motion.angle(link.name) for link in scene.links}
-    drivers = {
-        d.key: motion.values[:, i] / (metres if not d.turns else 1.0)
-        for i, d in enumerate(scene.drivers)
-    }
+    drivers = {d.key: scene.unit_of(d, radians=True).of(motion.values[:, i]) for i, d in enumerate(scene.drivers)}
     for first in range(0, len(motion), BLOCK):
         some = slice(first, first + BLOCK)
         columns = _columns(motion.rows(some), {name: angle[some] for name, angle in angles.items()})

@@ -8,14 +8,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
+from itertools import islice, product
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure.constraints import Constraints, Node, Unknown
 from graphkin.structure.groups import components, element_of, match
-from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Structure
+from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Pair, Structure
 from graphkin.structure.rolling import start_drivers, unrolled
-from graphkin.structure.triangles import triangles_of
 from graphkin.words import Phrase, Wording, about, clauses
 
 __all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]
@@ -160,13 +160,58 @@ def _in_order(
     return tuple(elements)
 
 
+def _triangles(structure: Structure, group: Cluster, taken: set[str]) -> tuple[DrivenTriangle, ...]:
+    """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
+    found: list[DrivenTriangle] = []
+    for driver in group.drivers:
+        if driver.slide and {*driver.links} <= {*group.members}:
+            fitting = (t for t in _closed_by(structure, group, driver) if t.equivalent.key not in taken)
+            for triangle in islice(fitting, 1):
+                taken.add(triangle.equivalent.key)
+                found.append(triangle)
+    return tuple(found)
+
+
+def _closed_by(structure: Structure, group: Cluster, driver: Driver) -> Iterator[DrivenTriangle]:
+    """The triangles that a driven slide closes with a pair of two links not yet known: of tippers, scissor lifts,
+    excavators.
+
+    The rod and the cylinder hang on two links that a pair joins.  Seen with one of these held still, the other, the rod
+    and the cylinder are a dyad with a given travel between: the triangle is rigid at the moment, and the motion at the
+    common pair follows at once, whatever the rest of the mechanism does.
+    """
+    ends = [_hung_on(structure, group, link, driver.slide) for link in driver.links]
+    if any(len(joints) != 1 for joints in ends):
+        return
+    for a, b in product(ends[0][0], ends[1][0]):
+        if a == b or {a, b} & {*driver.links}:
+            continue
+        joints = [Pair(point, b, a) for point, names in structure.hinges.items() if a in names and b in names]
+        joints += [pair for pair in group.pairs if not pair.turns and {*pair.links} == {a, b}]
+        first, second = sorted((a, b), key=group.members.index)
+        for held, other in ((first, second), (second, first)) if len(joints) == 1 else ():
+            (pair,) = joints
+            ends_of_driver, slide = ((other, held), "") if pair.turns else (pair.links, pair.key)
+            equivalent = Driver(*ends_of_driver, 0.0, 0.0, 0.0, slide)
+            yield DrivenTriangle(held, (other, *driver.links), pair, driver, equivalent)
+
+
+def _hung_on(structure: Structure, group: Cluster, link: str, slide: str) -> list[tuple[str, ...]]:
+    """For each pair of a link besides a slide the members of the group on its other side, which at a hinge may be
+    several."""
+    points = {pair.point for pair in group.pairs if pair.point in structure.links[link].points}
+    joints = [{*structure.hinges[point]} - {link} for point in sorted(points)]
+    joints += [{p.other(link)} for p in group.pairs if not p.turns and p.key != slide and link in p.links]
+    return [tuple(name for name in group.members if name in names) for names in joints]
+
+
 def _in_parts(structure: Structure) -> Structure:
     """Larger groups that driven triangles turn into dyads, told as such: of class II."""
     taken = {d.key for d in structure.drivers}
     found: dict[Element, tuple[DrivenTriangle, ...]] = {}
     for group in structure.larger_groups:
-        if triangles := triangles_of(group, structure.links, structure.hinges, taken):
-            found[group] = tuple(triangles)
+        if triangles := _triangles(structure, group, taken):
+            found[group] = triangles
     if not found:
         return structure
     instead: dict[Driver, Driver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}

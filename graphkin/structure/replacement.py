@@ -101,7 +101,7 @@ def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
         if not contact.rolling:
             links, lower = links + 1, lower + 2
     said += [Phrase("structure gear", (*g.wheels, g.name)) for g in scene.gears]
-    replaced = len((scene.instead_of or scene).pins) + len(scene.cams)
+    replaced = len(scene.whole.pins) + len(scene.cams)
     links, lower = links + replaced, lower + 2 * replaced
     if scene.cams or any(not c.rolling for c in scene.contacts):
         m = structure.mobility

@@ -328,8 +328,7 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
     if reach.full:
         ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
     else:
-        angle = reach.driver.turns
-        values = np.radians(axis.ticks) if angle else axis.ticks * scene.units.metres
+        values = np.radians(axis.ticks) if reach.driver.turns else axis.ticks * scene.units.metres
         ticks = (values - reach.start[0]) * reach.sense
     at = reach.motion(ticks).position(point, link)
     here = reach.known

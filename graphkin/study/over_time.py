@@ -182,7 +182,7 @@ def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
         named = ((f"diagram-{q.name.replace('/', '-').replace('@', '')}", (q,)) for q in asked)
         return TimeStudy(scene, tuple(named))
     pages: list[tuple[str, tuple[Quantity, ...]]] = []
-    turning = [d.link for d in scene.drivers if d.turns and d.relative_to == scene.frame.name]
+    turning = [d.link for d in scene.drivers if d.turns_about(scene.frame.name)]
     sliding = [d.key for d in scene.drivers if not d.turns]
     start = over_time(scene, np.array(time_span(scene)[:1]))
     turning += [name for name in output_links(scene) if name not in turning]

@@ -176,7 +176,7 @@ def study_turn(reach: DriverRange, asked: Sequence[Quantity] = (), everything: b
 def output_links(scene: Mechanism) -> tuple[str, ...]:
     """Links pivoted to the frame that no driver turns about it."""
     frame = scene.frame
-    driven = {d.link for d in scene.drivers if d.turns and d.relative_to == frame.name}
+    driven = {d.link for d in scene.drivers if d.turns_about(frame.name)}
     sliding = {s.link for s in scene.slidings}
     return tuple(
         link.name

@@ -85,7 +85,7 @@ def _driven(centres: Centres, driver: Driver) -> dict[str, Turning]:
     frame = scene.frame.name
     rate = driver.values[1]
     if driver.turns:
-        a, b = driver.link, driver.relative_to
+        a, b = driver.links
         place = _place(centres, a, b)
         if place is None or place[2] == 0.0:
             return {}

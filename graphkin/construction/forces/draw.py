@@ -190,10 +190,10 @@ class _Pairs:
 
     def sheet_of(self, scene: Mechanism) -> Sheet:
         """The drawing with these pairs instead of what touches."""
-        links = tuple(self.links[link.name] for link in (scene.instead_of or scene).links)  # without bars for cams
+        links = tuple(self.links[link.name] for link in scene.whole.links)  # without bars for cams
         other = replace(
             scene, frame=self.links[scene.frame.name], links=links, pins=(*_own_pins(scene), *self.pins), contacts=(),
-            gears=(), cams=(), slots=(scene.instead_of or scene).slots,
+            gears=(), cams=(), slots=scene.whole.slots,
         )  # fmt: skip
         structure: Structure = analyse(other)
         poses: Mapping[str, Pose] = {**self.sheet.poses, **self.blocks}
@@ -202,7 +202,7 @@ class _Pairs:
 
 def _own_pins(scene: Mechanism) -> tuple[PinInSlot, ...]:
     """The pins in slots of a scene, those left out that stand for cams in its motion."""
-    return (scene.instead_of or scene).pins
+    return scene.whole.pins
 
 
 TURN = -1j

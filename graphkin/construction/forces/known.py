@@ -15,13 +15,13 @@ from dataclasses import replace
 from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
 from graphkin.construction.forces.joints import Images
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import Poses
+from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot, unit
+from graphkin.plane import unit
 from graphkin.scene.loads import LinkMass, LoadOn, Phase, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Pair, Structure
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
 __all__ = ["acting_loads", "from_outside", "inertias", "strokes_of_loads"]
@@ -78,7 +78,7 @@ def _acts(sheet: Sheet, growing: Sheet, phase: Phase | None) -> bool | None:
 def _on_stroke(sheet: Sheet, growing: Sheet, phase: Phase) -> bool | None:
     slide = sheet.structure.slide(phase.stroke)
     limits = sheet.limits[phase.stroke]
-    here, low, high = (_travel(slide, poses) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
+    here, low, high = (travel(slide, poses, 0.0) for poses in (sheet.poses, limits.low.poses, limits.high.poses))
     part = (here - low) / (high - low) if high > low else 0.0
     if phase.sense < 0:
         part = 1.0 - part
@@ -89,11 +89,6 @@ def _on_stroke(sheet: Sheet, growing: Sheet, phase: Phase) -> bool | None:
         if abs(part - edge) < EDGE and (running or edge < EDGE or edge > 1.0 - EDGE):
             return None
     return running and phase.start < part < phase.end
-
-
-def _travel(slide: Pair, poses: Poses) -> float:
-    guide = poses[slide.b]
-    return dot(poses[slide.a].origin - guide.origin, guide.axis * slide.guide.direction)
 
 
 def against(growing: Sheet, pair: str) -> tuple[complex, float]:

@@ -142,7 +142,7 @@ def _crank_end(sheet: Sheet) -> tuple[complex, complex] | None:
         return None
     link = sheet.structure.links[driver.link]
     pivot = next((p for p in link.points if p in sheet.scene.frame.points), None)
-    own = (sheet.scene.instead_of or sheet.scene).by_name[driver.link].points  # of a cam none of what stands for it
+    own = sheet.scene.whole.by_name[driver.link].points  # of a cam none of what stands for it
     far = [p for p in own if p != pivot and len(sheet.scene.holders[p]) > 1]
     if pivot is None or not far:
         return None

@@ -84,7 +84,7 @@ def _diagram(sheet: Sheet, letters: Letters, spoken: str, panel: Box) -> Piece:
         if count > 2 and point in here.places:
             labels.append(Label.of(rich(f"{count} − 1", 2.4, bold=True), on_page(here.places[point]), f"badge-{point}",
                                    colour=strokes.GREY, rank=1))
-    pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in (sheet.scene.instead_of or sheet.scene).pins]
+    pairs = [(f"{pin.point}-{pin.on}", pin.point) for pin in sheet.scene.whole.pins]
     pairs += [(c.name, c.name) for c in sheet.scene.contacts if c.carrier or not c.rolling]
     higher = [(name, here.places[point]) for name, point in pairs if point in here.places]
     for name, place in (*higher, *((cam.cam.link, cam.contact) for cam in here.cams)):
@@ -117,7 +117,7 @@ def _counted(structure: Structure, spoken: str) -> list[tuple[str, bool]]:
         for point, count in compound.items():
             if count > 2:
                 lines.append((say(Phrase("structure compound", (point, count, count - 1)), each), False))
-        for pin in (structure.scene.instead_of or structure.scene).pins:
+        for pin in structure.scene.whole.pins:
             lines.append((say(Phrase("structure high pair", (pin.point, pin.on)), each), False))
         for cam in structure.scene.cams:
             lines.append((say(Phrase("structure cam", (cam.link, cam.follower)), each), False))

@@ -109,7 +109,7 @@ def _placed(
 def _bars(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts | Label]:
     """Lengths of bars, and of further points from them: as many as it takes, round ones first."""
     places = {ref.point: z for ref, z in sheet.points.items() if not ref.link}
-    scene = sheet.scene.instead_of or sheet.scene
+    scene = sheet.scene.whole
     for link in scene.links:
         if link.redundant:
             continue
@@ -357,7 +357,7 @@ LEVEL = 1e-9
 
 def guide_dimensions(sheet: Sheet, room: DimensionClearance) -> Iterator[Parts]:
     """Those for which there is room: of the frame's guides, then of links."""
-    scene = sheet.scene.instead_of or sheet.scene
+    scene = sheet.scene.whole
     shown = _shown(sheet)
     tried: list[Parts | None] = []
     slanted: set[str] = set()
@@ -395,7 +395,7 @@ def driven_value(sheet: Sheet, key: str, runs: tuple[Run, ...], mark: Mark) -> L
 
 def _shown(sheet: Sheet) -> list[Slider]:
     """The sliding pairs of the scene, not those that stand for something else."""
-    scene = sheet.scene.instead_of or sheet.scene
+    scene = sheet.scene.whole
     keys = {pair.key for pair in scene.slidings} | {pin.key for pin in scene.pins}
     return [one for one in sliders(sheet) if one.slide.key in keys]
 

@@ -26,7 +26,7 @@ def given_shapes(scene: Mechanism, letters: Letters, language: str) -> list[str]
     Angles are those of lines, from -90 to 90 degrees, counter-clockwise positive; places are along the guide on which
     the link slides and to the left of it.
     """
-    whole = scene.instead_of or scene
+    whole = scene.whole
     found = [phrase for link in whole.links if not link.redundant for phrase in _shape(whole, link, letters)]
     return [once(_BETWEEN_CHINESE.sub("", say(phrase, each)) for each in languages(language)) for phrase in found]
 
@@ -107,7 +107,7 @@ def _ridden(scene: Mechanism) -> set[tuple[str, str]]:
 
 def _axis_counts(scene: Mechanism, link: PlacedLink) -> bool:
     """Whether anything is told from a link's own axis."""
-    turned = any(link.name in (d.link, d.relative_to) for d in scene.drivers if d.turns)
+    turned = any(link.name in d.links for d in scene.drivers if d.turns)
     return turned or _carries_its_axis(scene, link) or bool(used_guides(scene, link))
 
 

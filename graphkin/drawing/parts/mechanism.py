@@ -559,7 +559,7 @@ def found_rates(here: MechanismOnPaper, clear: RateArrowClearance) -> Piece:
     pieces = [Piece({"answers": ()})]
     drawn = [step for step in here.sheet.steps if step.finds_rate or step.reason == "given on plan"]
     found = {(step.kind, step.link): step.number for step in drawn}
-    named = (here.scene.instead_of or here.scene).by_name  # not of bars that stand for cams
+    named = here.scene.whole.by_name  # not of bars that stand for cams
     for sign, kind, own, heads in (("ω", "omega", here.sheet.omega, 1), ("α", "alpha", here.sheet.alpha, 2)):
         for link, rate in own.items():
             if not rate.is_own or link not in named or abs(rate.value) < 1e-12:

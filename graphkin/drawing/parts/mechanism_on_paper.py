@@ -170,7 +170,7 @@ class MechanismOnPaper:
     def curved(self) -> tuple[CurvedSlot, ...]:
         """The circular slots between links that stand on paper."""
         found = []
-        for slot in (self.scene.instead_of or self.scene).slots:  # what stands for a cam is no slot
+        for slot in self.scene.whole.slots:  # what stands for a cam is no slot
             if slot.on not in self.sheet.poses or not {slot.centre, slot.point} <= set(self.places):
                 continue
             centre, at = self.places[slot.centre], self.places[slot.point]
@@ -300,7 +300,7 @@ def shapes(sheet: Sheet) -> tuple[LinkShape, ...]:
     found = []
     centres = {slot.bar: slot.centre for slot in sheet.scene.slots}
     replaced = {slot.bar for slot in sheet.scene.slots if not slot.block}
-    for link in (sheet.scene.instead_of or sheet.scene).links:
+    for link in sheet.scene.whole.links:
         points = {p: places[p] for p in link.points if p in places and p != centres.get(link.name)}
         if link.name in replaced:  # it stands for a slot, which is drawn in its place
             points = {}

@@ -156,7 +156,7 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
             drawn.append(Line(on_page(spots[0] - reach), on_page(spots[0] + reach), strokes.DIRECTION))
         else:
             drawn += _dashed(spots[0], spots[1], colour, clear)
-    whole = here.scene.instead_of or here.scene
+    whole = here.scene.whole
     own = {slot.bar for slot in whole.slots}
     for slot in here.scene.slots:
         if slot.bar not in own and {slot.centre, slot.point} <= here.places.keys():
