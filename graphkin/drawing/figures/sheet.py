@@ -19,19 +19,15 @@ from graphkin.account.headings import (
     facts,
     figure_title,
     punctuation,
-    term,
     titles,
 )
-from graphkin.account.notation import Letters, letters_of, scale_statement
 from graphkin.checking.report import Compared, Report
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
-from graphkin.drawing.boxes import MARGIN
+from graphkin.drawing.boxes import MARGIN, FigurePage
 from graphkin.drawing.equations import LEAST_LETTERS, LineToSet, equations_in_room, equations_on_page, line_to_set
-from graphkin.drawing.figures import Figure
-from graphkin.drawing.figures.loops import loops_figure
-from graphkin.drawing.figures.train import train_figure
+from graphkin.drawing.figures import Figure, figure_kinds
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Group, Line, Polygon, Primitive, Run, Text, moved, walk
 from graphkin.drawing.parts.insets import (
@@ -52,12 +48,19 @@ from graphkin.drawing.text import fitted, plain, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, about, languages, say, word
 
-__all__ = ["FIGURES", "sheet_page"]
+__all__ = ["FIGURES"]
 
 GIVEN = (2.8, 2.5)  # mm, letters of the given data: usual, and where room is short
 NAMES = 7.0  # mm above and below a polygon that gives room to the equations
 POLYGONS: tuple[DiagramName, DiagramName] = ("velocity", "acceleration")
 EQUATIONS_ROOM = 20.0  # least height of the equations above insets of Coriolis terms
+GAP, LEAST_GAP = 6.0, 2.0  # mm between two parts, and where room is short
+CAPTION = 5.5
+HEAD = 15.0  # mm for the heading
+NARROWEST = 209.0  # mm: the narrower side of A4, about
+LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
+TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
+TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
 def sheet_page(
@@ -72,61 +75,57 @@ def sheet_page(
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    scene = sheet.scene
-    spoken = language or scene.sheet.language
-    letters = letters_of(sheet, convention or scene.sheet.convention)  # type: ignore[arg-type]
+    page = FigurePage.of(sheet, "sheet", language, convention)
     plan = sheet_plan(sheet)
-    polygons = _Polygons(sheet, letters, spoken)
-    velocity, acceleration, homeless = polygons.on(plan)
-    lines = [line_to_set(line, sheet, letters, spoken) for line in written_lines(sheet, letters, spoken)]
+    velocity, acceleration, homeless = _polygons(page, plan)
+    written = written_lines(sheet, page.letters, page.language)
+    lines = [line_to_set(line, sheet, page.letters, page.language) for line in written]
     rows = table_rows(sheet, report)
-    words = _Writing(sheet, rows, letters, spoken, lines, homeless)
+    words = _Writing(page, rows, lines, homeless)
     writing, rest = words.on(plan, GIVEN[0])
     if rest and plan.equations:
         usual = (plan, *with_less_mechanism(plan, sheet))
-        closer = (*usual, *(less for each in usual for less in with_less_polygons(each, polygons.heights(plan))))
+        closer = (*usual, *(less for each in usual for less in with_less_polygons(each, _heights(page, plan))))
         for each, size in islice(product(closer, GIVEN), 1, None):
             there, left = words.on(each, size)
             if left:
                 continue
-            drawn = polygons.on(each) if each.beside else (velocity, acceleration, homeless)
+            drawn = _polygons(page, each) if each.beside else (velocity, acceleration, homeless)
             if drawn[2] == homeless and _insets(drawn) == _insets((velocity, acceleration)):
                 plan, writing, rest = each, there, left
                 velocity, acceleration, _ = drawn
                 break
-    drawn_diagrams: list[DiagramName] = ["mechanism", "velocity"]
+    shown: tuple[DiagramName, ...] = ("mechanism", "velocity")
     pieces = []
     if acceleration is not None:
-        drawn_diagrams.append("acceleration")
-        pieces += [_panel(plan.acceleration, _caption(sheet, letters, spoken, "acceleration")), acceleration]
+        shown = (*shown, "acceleration")
+        pieces += [_panel(plan.acceleration, _caption(page, "acceleration")), acceleration]
     pieces += [
-        heading(sheet, letters, spoken, plan.page),
-        _panel(plan.mechanism, _caption(sheet, letters, spoken, "mechanism")),
-        _panel(plan.velocity, _caption(sheet, letters, spoken, "velocity")),
-        _mechanism(sheet, letters, spoken, plan.mechanism),
+        heading(page, plan.page),
+        _panel(plan.mechanism, _caption(page, "mechanism")),
+        _panel(plan.velocity, _caption(page, "velocity")),
+        _mechanism(page, plan.mechanism),
         velocity,
         *writing,
-        _step_number(spoken, plan.page),
-        title_block(sheet, [row.compared for row in rows if row.compared], letters, spoken, plan.block),
+        _step_number(page, plan.page),
+        title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]
-    further = overleaf(sheet, rest, letters, spoken, plan.page)
-    figures = [train_figure(sheet, language=spoken, convention=letters.convention)]
-    if scene.sheet.loops:
-        figures.append(loops_figure(sheet, language=spoken, convention=letters.convention))
-    for one in (page for figure in figures if figure is not None for page in (figure, *figure.further)):
-        further += (_as_page(sheet, one, plan, len(further) + 2),)
+    further = overleaf(page, rest, plan.page)
+    for kind in ("plan", "loops") if sheet.scene.sheet.loops else ("plan",):
+        figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)
+        for one in (figure, *figure.further) if figure is not None else ():
+            further += (_as_page(sheet, one, plan, len(further) + 2),)
     if further:
-        pieces.append(_goes_on(spoken, plan.page))
-    return Drawing(
-        plan.width,
-        plan.height,
-        layer_groups(joined(pieces)),
-        figure_title(sheet, "sheet", spoken),
-        describe(sheet, tuple(drawn_diagrams), spoken),
-        languages(spoken)[0],
-        facts(sheet, "sheet"),
-        further,
-    )
+        pieces.append(_in_corner(word("goes on", languages(page.language)[0]), plan.page))
+    made = _drawn_page(page, plan.width, plan.height, pieces, "")
+    return replace(made, desc=describe(sheet, shown, page.language), further=further)
+
+
+def _drawn_page(page: FigurePage, width: float, height: float, pieces: Sequence[Piece], number: str) -> Drawing:
+    """A page of the sheet; ``number`` stands behind its title."""
+    title = figure_title(page.sheet, "sheet", page.language) + number
+    return Drawing(width, height, layer_groups(joined(pieces)), title, "", languages(page.language)[0],
+                   facts(page.sheet, "sheet"))  # fmt: skip
 
 
 class _Writing:
@@ -134,63 +133,75 @@ class _Writing:
     set once for each of its rooms, however many plans are tried."""
 
     def __init__(
-        self, sheet: Sheet, rows: list[TableRow], letters: Letters, language: str, lines: Sequence[LineToSet],
-        senses: list[CoriolisTerm],
-    ) -> None:  # fmt: skip
-        self.sheet, self.rows, self.letters, self.language = sheet, rows, letters, language
-        self.lines, self.senses = lines, senses
+        self, page: FigurePage, rows: list[TableRow], lines: Sequence[LineToSet], senses: list[CoriolisTerm]
+    ) -> None:
+        self.page, self.rows, self.lines, self.senses = page, rows, lines, senses
         self._given = cache(self._set_given)
         self._equations = cache(self._set_equations)
         self._readings = cache(self._set_readings)
 
     def on(self, plan: SheetPlan, size: float) -> tuple[list[Piece], Remainder]:
         """All of it on a plan, given data in letters of at most a size; and what is left for further pages."""
-        sheet, letters, language = self.sheet, self.letters, self.language
+        page = self.page
         if plan.equations is None or plan.given is None or plan.readings is None:
-            given = given_lines(sheet, letters, language, plan.page.width, GIVEN[0])
+            given = given_lines(page.sheet, page.letters, page.language, plan.page.width, GIVEN[0])
             return [], Remainder(self.lines, self.senses, given, self.rows)
         data, given_rest, shown = self._given(plan.given, size)
         equations, lines_left, senses = self._equations(plan.equations, shown)
-        readings, count = self._readings(plan.readings)
+        readings, count = self._readings(plan.readings, 0)
         rest = Remainder(lines_left, senses, given_rest, self.rows[count:])
         places = (plan.given, data), (plan.equations, equations), (plan.readings, readings)
         rooms = [below(box, piece.drawn) for box, piece in places]
         if plan.beside is not None:  # what is written there goes on from the equations
             rooms.insert(0, plan.beside)
-        more = continued(sheet, rest, rooms, letters, language)
+        more = continued(page, rest, rooms)
         if more is None:
             return [data, equations, readings], rest
         # rooms that are left lie before that of the readings: they take the first of them
         before = len(rest.readings)
         if before:
             first = replace(rest, readings=self.rows[:before], readings_begin=True)
-            turned = continued(sheet, first, rooms[:-1], letters, language)
-            last, count = self._set_last(plan.readings, before)
+            turned = continued(page, first, rooms[:-1])
+            last, count = self._readings(plan.readings, before)
             if turned is not None and count == len(self.rows) - before:
                 readings, more = last, turned
         return [data, equations, readings, more], Remainder()
 
     def _set_given(self, box: Box, size: float) -> tuple[Piece, Sequence[tuple[Run, ...]], int]:
         """The given data, what is left of it, and how many of the insets stand below it."""
-        given, rest = given_data(self.sheet, self.letters, self.language, box, size)
-        data = captioned(box, term("given", self.language), "labels", given)
-        spare = _spare(box, given)
-        if spare is None or rest:
+        page = self.page
+        given, rest = given_data(page.sheet, page.letters, page.language, box, size)
+        data = captioned(box, page.term("given"), "labels", given)
+        ink, top = ink_box(given), box.bottom - INSET[1]
+        if rest or (ink is not None and ink.bottom + GUTTER >= top):
             return data, rest, 0
         first = self.senses[:1]
-        return joined((data, coriolis_row(self.sheet, first, self.letters, spare))), rest, len(first)
+        room = Box(box.left, top, box.right, box.bottom)
+        return joined((data, coriolis_row(page.sheet, first, page.letters, room))), rest, len(first)
 
     def _set_equations(self, box: Box, shown: int) -> tuple[Piece, Sequence[LineToSet], list[CoriolisTerm]]:
-        return _equations(self.sheet, self.letters, self.language, box, self.lines, self.senses[shown:])
+        """The equations, and below them the insets of Coriolis terms that are not shown yet; and what of both is left
+        for another page."""
+        page, lines, senses, count = self.page, self.lines, self.senses[shown:], 0
+        insets = INSET[1] + GUTTER if senses else 0.0
+        if senses and box.height >= insets + EQUATIONS_ROOM:
+            blocks, count = equations_in_room(lines, box.width, box.height - insets)
+        below_them = senses[: per_row(box.width)] if count == len(lines) else []  # the equations come first
+        if not below_them:
+            blocks, count = equations_in_room(lines, box.width, box.height)
+        written = Group(moved(blocks, complex(box.left, box.top)), id="equations")
+        parts = [captioned(box, page.term("equations"), "labels", (written,))]
+        if below_them:
+            row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
+            parts.append(coriolis_row(page.sheet, below_them, page.letters, row))
+        return joined(parts), lines[count:], senses[len(below_them) :]
 
-    def _set_readings(self, box: Box) -> tuple[Piece, int]:
-        table, count = readings_table(self.sheet, self.rows, self.letters, self.language, box)
-        return captioned(box, term("readings", self.language), "answers", table), count
-
-    def _set_last(self, box: Box, before: int) -> tuple[Piece, int]:
-        """The readings but for some that stand before them."""
-        table, count = readings_table(self.sheet, self.rows[before:], self.letters, self.language, box)
-        return captioned(box, term("readings continued", self.language), "answers", table), count
+    def _set_readings(self, box: Box, before: int) -> tuple[Piece, int]:
+        """The readings but for some that stand before them, and how many there is room for."""
+        page = self.page
+        table, count = readings_table(page.sheet, self.rows[before:], page.letters, page.language, box)
+        caption = "readings continued" if before else "readings"
+        return captioned(box, page.term(caption), "answers", table), count
 
 
 def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Drawing:
@@ -201,28 +212,21 @@ def _as_page(sheet: Sheet, figure: Drawing, plan: SheetPlan, number: int) -> Dra
                    title=f"{figure.title} ({number})", metadata=facts(sheet, "sheet"), further=())  # fmt: skip
 
 
-def _goes_on(language: str, page: Box) -> Piece:
-    words = plain(word("goes on", languages(language)[0]), 2.6)
-    return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
+def _in_corner(words: str, frame: Box) -> Piece:
+    """Words below the right lower corner of a page."""
+    return Piece({"labels": (Text(complex(frame.right, frame.bottom + 4.0), plain(words, 2.6), "end"),)})
 
 
-def _step_number(spoken: str, page: Box) -> Piece:
+def _step_number(page: FigurePage, frame: Box) -> Piece:
     """What the numbers in brackets at the vectors are."""
-    words = fitted(term("step number", spoken), 2.4, 0.7 * page.width)
-    return Piece({"labels": (Text(complex(page.left, page.bottom + 4.0), words),)})
+    words = fitted(page.term("step number"), 2.4, 0.7 * frame.width)
+    return Piece({"labels": (Text(complex(frame.left, frame.bottom + 4.0), words),)})
 
 
-def _spare(box: Box, written: tuple[Primitive, ...]) -> Box | None:
-    """Room for an inset at the foot of a box in which something is written; None where there is none."""
-    ink = ink_box(written)
-    top = box.bottom - INSET[1]
-    return Box(box.left, top, box.right, box.bottom) if ink is None or ink.bottom + GUTTER < top else None
-
-
-def _caption(sheet: Sheet, letters: Letters, language: str, diagram: DiagramName) -> str:
-    unit = dimensions_in(sheet, language) if diagram == "mechanism" else ""
-    parts = term(FIGURE_WORDS[diagram], language), scale_statement(sheet, letters.convention, diagram), unit
-    return punctuation("list comma", language).join(filter(None, parts))
+def _caption(page: FigurePage, diagram: DiagramName) -> str:
+    unit = dimensions_in(page.sheet, page.language) if diagram == "mechanism" else ""
+    parts = page.term(FIGURE_WORDS[diagram]), page.scale(diagram), unit
+    return punctuation("list comma", page.language).join(filter(None, parts))
 
 
 def _panel(box: Box, caption: str) -> Piece:
@@ -231,73 +235,36 @@ def _panel(box: Box, caption: str) -> Piece:
     return Piece({"construction": (Group((frame,), classes=("panel",)),), "labels": (words,)})
 
 
-def _mechanism(sheet: Sheet, letters: Letters, language: str, panel: Box) -> Piece:
+def _mechanism(page: FigurePage, panel: Box) -> Piece:
     room = panel.grown(-0.8)
-    piece, content = mechanism_piece(sheet, letters, (room.width, room.height))
-    return mechanism_with_inset(sheet, letters, language, piece, panel.centre - content.centre, room)
+    piece, content = mechanism_piece(page.sheet, page.letters, (room.width, room.height))
+    return mechanism_with_inset(page.sheet, page.letters, page.language, piece, panel.centre - content.centre, room)
 
 
-class _Polygons:
-    """Both polygons of a sheet, as they stand on its plans."""
+def _polygons(page: FigurePage, plan: SheetPlan) -> tuple[Piece, Piece | None, list[CoriolisTerm]]:
+    """The polygons on a plan, that of accelerations where there is one, and the Coriolis terms for whose insets there
+    was no room."""
+    velocity, _ = _polygon(page, "velocity", plan.velocity)
+    if not page.sheet.vectors("acceleration"):
+        return velocity, None, []
+    return velocity, *_polygon(page, "acceleration", plan.acceleration)
 
-    def __init__(self, sheet: Sheet, letters: Letters, language: str) -> None:
-        self.sheet, self.letters, self.language = sheet, letters, language
 
-    def on(self, plan: SheetPlan) -> tuple[Piece, Piece | None, list[CoriolisTerm]]:
-        """The polygons on a plan, that of accelerations where there is one, and the Coriolis terms for whose insets
-        there was no room."""
-        velocity, _ = self._in("velocity", plan.velocity)
-        if not self.sheet.vectors("acceleration"):
-            return velocity, None, []
-        return velocity, *self._in("acceleration", plan.acceleration)
+def _polygon(page: FigurePage, diagram: DiagramName, panel: Box) -> tuple[Piece, list[CoriolisTerm]]:
+    origin = panel.centre - extent(page.sheet, diagram, panel.grown(-3.0)).centre
+    return polygon_with_insets(page.sheet, diagram, page.letters, page.language, panel.grown(-0.8), origin)
 
-    def _in(self, diagram: DiagramName, panel: Box) -> tuple[Piece, list[CoriolisTerm]]:
-        content = extent(self.sheet, diagram, panel.grown(-3.0))
-        origin = panel.centre - content.centre
-        return polygon_with_insets(self.sheet, diagram, self.letters, self.language, panel.grown(-0.8), origin)
 
-    def heights(self, plan: SheetPlan) -> tuple[float, float]:
-        """How high (mm) the polygons are on a plan with their names."""
-        panels = plan.velocity, plan.acceleration
-        one, other = (
-            extent(self.sheet, d, box.grown(-3.0)).height + 2 * NAMES for d, box in zip(POLYGONS, panels, strict=True)
-        )
-        return one, other
+def _heights(page: FigurePage, plan: SheetPlan) -> list[float]:
+    """How high (mm) the polygons are on a plan with their names."""
+    panels = zip(POLYGONS, (plan.velocity, plan.acceleration), strict=True)
+    return [extent(page.sheet, diagram, box.grown(-3.0)).height + 2 * NAMES for diagram, box in panels]
 
 
 def _insets(pieces: Sequence[object]) -> list[str]:
     """The insets that stand in polygons."""
     drawn = (piece.drawn for piece in pieces if isinstance(piece, Piece))
     return [one.id for each in drawn for one in walk(each) if isinstance(one, Group) and "inset" in one.classes]
-
-
-def _equations(
-    sheet: Sheet, letters: Letters, language: str, box: Box, lines: Sequence[LineToSet], senses: list[CoriolisTerm]
-) -> tuple[Piece, Sequence[LineToSet], list[CoriolisTerm]]:
-    """The equations, and below them the insets of Coriolis terms that found no room in their panel; and what of both
-    is left for another page."""
-    count = 0
-    insets = INSET[1] + GUTTER if senses else 0.0
-    if senses and box.height >= insets + EQUATIONS_ROOM:
-        blocks, count = equations_in_room(lines, box.width, box.height - insets)
-    shown = senses[: per_row(box.width)] if count == len(lines) else []  # the equations come first
-    if not shown:
-        blocks, count = equations_in_room(lines, box.width, box.height)
-    written = Group(moved(blocks, complex(box.left, box.top)), id="equations")
-    parts = [captioned(box, term("equations", language), "labels", (written,))]
-    if shown:
-        row = Box(box.left, box.bottom - INSET[1], box.right, box.bottom)
-        parts.append(coriolis_row(sheet, shown, letters, row))
-    return joined(parts), lines[count:], senses[len(shown) :]
-
-
-GAP, LEAST_GAP = 6.0, 2.0  # mm between two parts, and where room is short
-CAPTION = 5.5
-HEAD = 15.0  # mm for the heading
-NARROWEST = 209.0  # mm: the narrower side of A4, about
-LEAST_TABLE = 20.0  # mm: a table of fewer rows is none
-TABLE_WIDTH = 80.0  # mm: a narrower one has no room for its columns
-TWO_LINES = 3.4  # mm: letters of titles that stand below each other, where one line would have them smaller
 
 
 @dataclass(frozen=True)
@@ -313,73 +280,62 @@ class Remainder:
     readings: Sequence[TableRow] = ()
     readings_begin: bool = False
 
-    def __bool__(self) -> bool:
-        return bool(self.equations or self.senses or self.given or self.readings)
-
     @property
     def count(self) -> int:
         return len(self.equations) + len(self.senses) + len(self.given) + len(self.readings)
 
+    def __bool__(self) -> bool:
+        return self.count > 0
 
-def continued(
-    sheet: Sheet, rest: Remainder, rooms: Sequence[Box], letters: Letters, language: str
-) -> Piece | None:
+
+def _into(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> tuple[list[Piece], Remainder]:
+    """What of the rest a room holds, one kind of part below the other; ``begun`` where it goes on from the first
+    page."""
+    pieces: list[Piece] = []
+    for part in (_equations, _senses, _given, _readings):
+        piece, rest, room = part(page, rest, room, begun)
+        pieces.append(piece)
+    return pieces, rest
+
+
+def continued(page: FigurePage, rest: Remainder, rooms: Sequence[Box]) -> Piece | None:
     """The rest in rooms that other writing has left on the first page; None where they do not hold all of it."""
     pieces: list[Piece] = []
     for room in rooms:
-        for part in (_equations_left, _senses, _given, _readings):
-            piece, rest, room = part(sheet, rest, letters, language, room, True)
-            pieces.append(piece)
+        more, rest = _into(page, rest, room, True)
+        pieces += more
     return None if rest else joined(pieces)
 
 
-def overleaf(sheet: Sheet, rest: Remainder, letters: Letters, language: str, page: Box) -> tuple[Drawing, ...]:
-    """As many pages as the rest takes, each of the size of a first page whose inside is ``page``, halved down to
+def overleaf(page: FigurePage, rest: Remainder, frame: Box) -> tuple[Drawing, ...]:
+    """As many pages as the rest takes, each of the size of a first page whose inside is ``frame``, halved down to
     A4 or Letter: what is left are words."""
-    short, long = sorted((page.left + page.right, page.top + page.bottom))
+    short, long = sorted((frame.left + frame.right, frame.top + frame.bottom))
     if long / 2 >= NARROWEST:
         while long / 2 >= NARROWEST:
             short, long = long / 2, short
-        page = Box(page.left, page.top, short - page.left, long - page.top)
+        frame = Box(frame.left, frame.top, short - frame.left, long - frame.top)
     made: list[Drawing] = []
     while rest:
-        number = len(made) + 2
-        pieces = [heading(sheet, letters, language, page), _number(sheet, language, number, page)]
-        room = Box(page.left, page.top + HEAD, page.right, page.bottom)
-        before = rest.count
-        for part in (_equations_left, _senses, _given, _readings):
-            piece, rest, room = part(sheet, rest, letters, language, room)
-            pieces.append(piece)
-        made.append(
-            Drawing(
-                page.left + page.right,
-                page.top + page.bottom,
-                layer_groups(joined(pieces)),
-                f"{figure_title(sheet, 'sheet', language)} ({number})",
-                "",
-                languages(language)[0],
-                facts(sheet, "sheet"),
-            )
-        )
+        number, before = len(made) + 2, rest.count
+        corner = _in_corner(say(Phrase("sheet number", (number,)), languages(page.language)[0]), frame)
+        pieces, rest = _into(page, rest, Box(frame.left, frame.top + HEAD, frame.right, frame.bottom), False)
+        size = frame.left + frame.right, frame.top + frame.bottom
+        made.append(_drawn_page(page, *size, (heading(page, frame), corner, *pieces), f" ({number})"))
         if rest.count == before:  # nothing is so large that a page does not hold it
             raise AssertionError("a page holds nothing of what is left")
     return tuple(made)
 
 
-def heading(sheet: Sheet, letters: Letters, language: str, page: Box) -> Piece:
+def heading(page: FigurePage, frame: Box) -> Piece:
     """Title and driver values at the head of a page."""
-    names = titles(sheet, language)
-    runs = fitted("   ".join(names), 4.6, page.width, bold=True, least=2.6)
+    names = titles(page.sheet, page.language)
+    runs = fitted("   ".join(names), 4.6, frame.width, bold=True, least=2.6)
     lines = [(4.0, runs)]
     if len(names) > 1 and runs[0].size < TWO_LINES:
-        lines = [(2.6 + 3.7 * i, fitted(name, TWO_LINES, page.width, bold=True)) for i, name in enumerate(names)]
-    lines.append((9.2 + 0.6 * (len(lines) - 1), fitted(drivers(sheet, letters), 3.2, page.width)))
-    return Piece({"labels": tuple(Text(complex(page.left, page.top + y), said) for y, said in lines)})
-
-
-def _number(sheet: Sheet, language: str, number: int, page: Box) -> Piece:
-    words = plain(say(Phrase("sheet number", (number,)), languages(language)[0]), 2.6)
-    return Piece({"labels": (Text(complex(page.right, page.bottom + 4.0), words, "end"),)})
+        lines = [(2.6 + 3.7 * i, fitted(name, TWO_LINES, frame.width, bold=True)) for i, name in enumerate(names)]
+    lines.append((9.2 + 0.6 * (len(lines) - 1), fitted(drivers(page.sheet, page.letters), 3.2, frame.width)))
+    return Piece({"labels": tuple(Text(complex(frame.left, frame.top + y), said) for y, said in lines)})
 
 
 def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...]) -> Piece:
@@ -391,23 +347,20 @@ def captioned(box: Box, caption: str, layer: str, children: tuple[Primitive, ...
 _Part = tuple[Piece, Remainder, Box]
 
 
-def below(room: Box, drawn: tuple[Primitive, ...]) -> Box:
+def below(room: Box, drawn: tuple[Primitive, ...], gap: float = LEAST_GAP) -> Box:
     """What is left of a room below what is drawn in it."""
     ink = ink_box(drawn)
-    return Box(room.left, (ink.bottom if ink else room.top) + LEAST_GAP, room.right, room.bottom)
+    return Box(room.left, (ink.bottom if ink else room.top) + gap, room.right, room.bottom)
 
 
-def _after(room: Box, drawn: tuple[Primitive, ...]) -> Box:
-    rest = below(room, drawn)
-    return Box(rest.left, rest.top + GAP - LEAST_GAP, rest.right, rest.bottom)
+def _under_caption(room: Box) -> Box:
+    return Box(room.left, room.top + CAPTION, room.right, room.bottom)
 
 
-def _equations_left(
-    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
-) -> _Part:
+def _equations(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
     if not rest.equations:
         return Piece(), rest, room
-    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    box = _under_caption(room)
     if begun:
         blocks, count = equations_in_room(rest.equations, box.width, box.height, LEAST_LETTERS)
     else:
@@ -415,55 +368,53 @@ def _equations_left(
     if not count:
         return Piece(), rest, room
     written = moved(blocks, complex(box.left, box.top))
-    caption = term("equations continued" if begun else "equations", language)
-    piece = captioned(box, caption, "labels", (Group(written, id="equations-continued" if begun else "equations"),))
-    left = replace(rest, equations=rest.equations[count:])
-    return piece, left, _after(box, written)
+    name = "equations continued" if begun else "equations"
+    piece = captioned(box, page.term(name), "labels", (Group(written, id=name.replace(" ", "-")),))
+    return piece, replace(rest, equations=rest.equations[count:]), below(box, written, GAP)
 
 
-def _senses(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
+def _senses(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
     pieces: list[Piece] = []
     senses = rest.senses
     while senses and room.height >= INSET[1]:
         count = per_row(room.width)
         row = Box(room.left, room.top, room.right, room.top + INSET[1])
-        pieces.append(coriolis_row(sheet, senses[:count], letters, row))
+        pieces.append(coriolis_row(page.sheet, senses[:count], page.letters, row))
         senses, room = senses[count:], Box(room.left, row.bottom + GAP, room.right, room.bottom)
     return joined(pieces), replace(rest, senses=senses), room
 
 
-def _given(sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False) -> _Part:
+def _given(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
     size = max((run.size for line in rest.given for run in line), default=1.0)
     most = max(0, int((room.height - CAPTION) / (1.55 * size)))
     if begun or not rest.given or not most:
         return Piece(), rest, room
-    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
+    box = _under_caption(room)
     lines = set_lines(rest.given[:most], complex(box.left, box.top))
-    left = replace(rest, given=rest.given[most:])
-    return captioned(box, term("given", language), "labels", lines), left, _after(box, lines)
+    piece = captioned(box, page.term("given"), "labels", lines)
+    return piece, replace(rest, given=rest.given[most:]), below(box, lines, GAP)
 
 
-def _readings(
-    sheet: Sheet, rest: Remainder, letters: Letters, language: str, room: Box, begun: bool = False
-) -> _Part:
+def _readings(page: FigurePage, rest: Remainder, room: Box, begun: bool) -> _Part:
     least = 0.0 if begun else LEAST_TABLE
     if not rest.readings or room.height < CAPTION + least or room.width < TABLE_WIDTH:
         return Piece(), rest, room
-    box = Box(room.left, room.top + CAPTION, room.right, room.bottom)
-    table, count = readings_table(sheet, rest.readings, letters, language, box)
+    box = _under_caption(room)
+    table, count = readings_table(page.sheet, rest.readings, page.letters, page.language, box)
     if not count:
         return Piece(), rest, room
     left = replace(rest, readings=rest.readings[count:], readings_begin=False)
-    caption = term("readings continued" if begun and not rest.readings_begin else "readings", language)
-    return captioned(box, caption, "answers", table), left, _after(box, table)
+    caption = page.term("readings continued" if begun and not rest.readings_begin else "readings")
+    return captioned(box, caption, "answers", table), left, below(box, table, GAP)
 
 
 LEGIBLE_TITLE = 2.4  # mm
 BAR_ROOM, SCALES_ROOM = 56.0, 33.0  # least widths in it, for the check bar and for the scales
 
 
-def title_block(sheet: Sheet, shown: Sequence[Compared], letters: Letters, language: str, box: Box) -> Piece:
+def title_block(page: FigurePage, shown: Sequence[Compared], box: Box) -> Piece:
     """The block of a sheet: title, instrument, scales, and whether the ``shown`` readings agree."""
+    sheet, language = page.sheet, page.language
     lines: list[Primitive] = [Polygon(box.corners, "", strokes.OUTLINE)]
     two = min(box.left + 0.66 * box.width, box.right - BAR_ROOM)
     names = titles(sheet, language)
@@ -480,13 +431,13 @@ def title_block(sheet: Sheet, shown: Sequence[Compared], letters: Letters, langu
         y += 1.25 * runs[0].size
         words.append(Text(complex(left, y), runs))
     comma, colon = (punctuation(key, language) for key in ("list comma", "colon"))
-    tools = term("instrument", language) + colon + term(f"instrument {sheet.instrument}", language)
+    tools = page.term("instrument") + colon + page.term(f"instrument {sheet.instrument}")
     second = sheet.scene.name + comma + tools
     words.append(Text(complex(left, box.bottom - 2.0), fitted(second, 2.6, one - left - 1.5)))
-    for i, diagram in enumerate(("mechanism", "velocity", "acceleration")):
-        text = scale_statement(sheet, letters.convention, diagram)  # type: ignore[arg-type]
-        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), fitted(text, 3.0, two - one - 4.0)))
-    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(term("check bar", language), 2.4, 50.0))
+    for i, diagram in enumerate(("mechanism", *POLYGONS)):
+        text = fitted(page.scale(diagram), 3.0, two - one - 4.0)
+        words.append(Text(complex(one + 2.0, box.top + 4.6 + 4.4 * i), text))
+    words += check_bar(complex(box.right - 53.0, box.bottom - 2.2), fitted(page.term("check bar"), 2.4, 50.0))
     answers: tuple[Primitive, ...] = ()
     if shown:
         judged = [row.ok for row in shown if row.ok is not None]

@@ -221,7 +221,7 @@ def _group(sheet: Sheet, elements: Sequence[Element], letters: Letters, tag: str
 def _drawn_apart(here: MechanismOnPaper, elements: Sequence[Element]) -> tuple[list[Primitive], list[Label]]:
     """Links of elements with their joints, and the names of both."""
     structure = here.sheet.structure
-    links = {n for e in elements for n in e.members}
+    links = dict.fromkeys(n for e in elements for n in e.members)  # in one order, whatever the process
     inner: list[Pair] = []
     outer: list[Pair] = []
     for element in elements:
