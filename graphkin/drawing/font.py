@@ -23,8 +23,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 from zlib import crc32
 
-from graphkin.drawing.ink.primitives import Run
-
 if TYPE_CHECKING:
     from fontTools.ttLib import TTFont
 
@@ -261,18 +259,24 @@ def families(name: str) -> str:
     return f"'{name}', {FALLBACK}"
 
 
-def outline(run: Run) -> str:
-    """The letters of a run on a page (mm) as the data of an SVG path; "" where no face at hand has them."""
+def outline(text: str, at: complex, size: float, style: Style) -> str:
+    """The letters of a text on a page (mm) as the data of an SVG path; "" where no face at hand has them.
+
+    Parameters
+    ----------
+    at : where its baseline begins
+    size : of the letters
+    """
     from fontTools.pens.svgPathPen import SVGPathPen
     from fontTools.pens.transformPen import TransformPen
 
     pen = SVGPathPen(None, ntos=_hundredths)
-    times, x = run.size / EM, run.x
-    for character in run.text:
-        found = glyph(character, style_of(run.italic, run.bold))
+    times, x = size / EM, at.real
+    for character in text:
+        found = glyph(character, style)
         if found is None:
             continue
-        _draw(found, TransformPen(pen, (times, 0, 0, -times, x, run.y)))
+        _draw(found, TransformPen(pen, (times, 0, 0, -times, x, at.imag)))
         x += found.advance * times
     commands: str = pen.getCommands()
     return commands

@@ -19,7 +19,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.ink.symbols import guide as guide_symbol
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.place.placement import place
 from graphkin.drawing.text import rich, runs_width
 from graphkin.errors import GraphkinError

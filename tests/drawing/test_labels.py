@@ -17,7 +17,8 @@ from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Text
 from graphkin.drawing.ink.strokes import DIRECTION, LINK
 from graphkin.drawing.ink.symbols import turning_pair, vector_group
 from graphkin.drawing.place.labels import InkRaster, Label
-from graphkin.drawing.place.obstacles import Obstacles, obstacles_of
+from graphkin.drawing.place.obstacles import Obstacles
+from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.place.placement import Placement, place
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing

@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.drawing import svg_bytes
 from graphkin.drawing.ink.primitives import Text, walk
-from graphkin.drawing.place.obstacles import obstacles_of
+from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.text import text_box
 from graphkin.papers.pictures import bare_picture
 

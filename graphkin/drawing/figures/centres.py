@@ -45,8 +45,7 @@ from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, without
-from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, renamed
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of, renamed
 from graphkin.drawing.text import plain, text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross

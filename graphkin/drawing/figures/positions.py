@@ -35,8 +35,7 @@ from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.place.dimensions import DimensionClearance, Parts, angle_dimension, dimension
 from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of
 from graphkin.drawing.text import plain, rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.symbol import PointRef

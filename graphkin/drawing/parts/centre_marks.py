@@ -16,8 +16,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece
+from graphkin.drawing.place.piece import Piece, obstacles_of
 from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
 

@@ -29,8 +29,7 @@ from graphkin.drawing.place.dimensions import (
     dimension,
 )
 from graphkin.drawing.place.labels import Label, Mark
-from graphkin.drawing.place.obstacles import obstacles_of
-from graphkin.drawing.place.piece import Piece, ink_box
+from graphkin.drawing.place.piece import Piece, ink_box, obstacles_of
 from graphkin.drawing.text import rich
 from graphkin.plane import cross, cross_lines, dot
 from graphkin.scene.model import Mechanism, PlacedLink

@@ -54,8 +54,8 @@ from graphkin.drawing.parts.polygon import (
 )
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, with_labels, without
-from graphkin.drawing.place.obstacles import Obstacles, free_boxes, obstacles_of
-from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece
+from graphkin.drawing.place.obstacles import Obstacles, free_boxes
+from graphkin.drawing.place.piece import Piece, cut_to, dated, joined, middle_of, moved_piece, obstacles_of
 from graphkin.drawing.text import fitted, plain, runs_width, symbol, text_box
 from graphkin.plane import cross, unit
 from graphkin.scene.symbol import PointRef, Symbol

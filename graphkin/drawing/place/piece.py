@@ -1,11 +1,13 @@
 """Putting a figure together: pieces with what they draw by layer and the labels they ask for; pieces joined, moved,
-measured and cut.
+measured and cut; and what is drawn as obstacles.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import (
@@ -16,17 +18,20 @@ from graphkin.drawing.ink.primitives import (
     Polygon,
     Polyline,
     Primitive,
+    Segment,
     Text,
     map_tree,
     moved,
+    page_direction,
     walk,
 )
 from graphkin.drawing.place.labels import Label, Mark
+from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.text import text_box
 
 __all__ = [
-    "LAYERS", "Piece", "cut_to", "dated", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece",
-    "renamed",
+    "Piece", "cut_to", "dated", "ink_box", "joined", "kept_in", "layer_groups", "middle_of", "moved_piece",
+    "obstacles_of", "renamed",
 ]  # fmt: skip
 
 # In the order of drawing.
@@ -150,3 +155,65 @@ def middle_of(mark: Mark) -> complex:
 
 def _moved_mark(mark: Mark, by: complex) -> Mark:
     return (mark[0] + by, mark[1] + by) if isinstance(mark, tuple) else mark + by
+
+
+# A filled polygon up to this size (mm) is a block or a corner, which no label may cover; a larger one is the tint of a
+# link, on which labels may stand, clear of its edges.  For one no larger than an arrowhead the upright box will do.
+SMALL, TINY = 12.0, 3.2
+THICK = 0.3  # mm: lines as wide as this are vectors and links
+_ARC_STEP = math.radians(12)
+
+
+def obstacles_of(children: tuple[Primitive, ...]) -> Obstacles:
+    """Everything drawn as obstacles: strokes and the outlines of blocks as segments; circles, arrowheads and texts as
+    areas."""
+    solid: list[Segment] = []
+    dashed: list[Segment] = []
+    areas: list[Box] = []
+    writing: list[Box] = []
+    thick: list[Segment] = []
+    for thing in walk(children):
+        if isinstance(thing, Text):
+            if thing.runs:
+                writing.append(text_box(thing))
+        elif isinstance(thing, Circle) and not thing.fill and thing.stroke and thing.radius > SMALL / 2:
+            # the outline of a disc: labels may stand inside
+            (solid if thing.stroke.solid else dashed).extend(pairwise(_round(thing)))
+        elif isinstance(thing, Circle):
+            reach = thing.radius + (thing.stroke.width / 2 if thing.stroke else 0.0)
+            x, y = thing.centre.real, thing.centre.imag
+            areas.append(Box(x - reach, y - reach, x + reach, y + reach))
+        elif isinstance(thing, Polygon) and thing.fill and _size(thing) <= SMALL:
+            if _size(thing) <= TINY:
+                areas.append(Box.around(thing.points))
+            else:  # its outline, and lines across that leave no label room inside
+                count = len(thing.points)
+                solid.extend(pairwise(_corners(thing)))
+                solid.extend((thing.points[i], thing.points[(i + count // 2) % count]) for i in range(count // 2))
+        elif isinstance(thing, Line | Polyline | Polygon | Arc) and thing.stroke is not None:
+            course = tuple(pairwise(_corners(thing)))
+            (solid if thing.stroke.solid else dashed).extend(course)
+            if thing.stroke.solid and thing.stroke.width >= THICK:
+                thick.extend(course)
+    return Obstacles(tuple(solid), tuple(dashed), (*writing, *areas), tuple(writing), tuple(thick))
+
+
+def _corners(thing: Line | Polyline | Polygon | Arc) -> tuple[complex, ...]:
+    if isinstance(thing, Line):
+        return thing.start, thing.end
+    if isinstance(thing, Polyline):
+        return thing.points
+    if isinstance(thing, Polygon):
+        return *thing.points, thing.points[0]
+    steps = max(1, math.ceil(abs(thing.end - thing.start) / _ARC_STEP))
+    return tuple(thing.at(thing.start + (thing.end - thing.start) * i / steps) for i in range(steps + 1))
+
+
+def _round(circle: Circle) -> tuple[complex, ...]:
+    steps = max(24, math.ceil(circle.radius))
+    return tuple(circle.centre + circle.radius * page_direction(2 * math.pi * k / steps) for k in range(steps + 1))
+
+
+def _size(polygon: Polygon) -> float:
+    box = Box.around(polygon.points)
+    return max(box.width, box.height)

@@ -286,7 +286,9 @@ class _Ink:
         self, colour: str, runs: tuple[Run, ...], named: dict[str, str], look: dict[str, str], spans: str
     ) -> str:
         """A text as paths, with itself unseen over them; where no face has its letters, itself alone."""
-        letters = "".join(outline(run._replace(text=_clean(run.text))) for run in runs)
+        letters = "".join(
+            outline(_clean(run.text), complex(run.x, run.y), run.size, style_of(run.italic, run.bold)) for run in runs
+        )
         if not letters:
             return self.element("g", named, self.element("text", {**look, **self.filled(colour)}, spans))
         path = self.element("path", {"d": letters, **self.filled(colour), "aria-hidden": "true"})
