@@ -165,26 +165,14 @@ def rounding_of(motion: Motion, forces: float = 0.0) -> Rounding:
         return Lost(place, v, a, forces, v <= SLIGHT * rate * size and a <= SLIGHT * second * size)
 
     whole = lost(motion.bound.position, *motion.rough)
-    alone: list[Motion] = []
 
     def of(symbol: Symbol) -> Lost:
         if whole.slight or symbol.scope == "force":
             return whole
-        if not alone:
-            from graphkin.solver import solve
-
-            keys = [driver.key for driver in motion.scene.drivers]
-            values = dict(zip(keys, map(float, motion.values[0]), strict=True))
-            alone.append(solve(motion.scene, at=values, fine=False))
         try:
-            own = alone[0].bound_of(links_for(motion.structure, symbol)) if alone[0].ok[0] else None
+            return lost(*motion.rough_of(links_for(motion.structure, symbol)))
         except CallError:  # a special point of the drawing
-            own = None
-        if own is None:
             return whole
-        return lost(
-            own.position, np.maximum(own.velocity, size * own.omega), np.maximum(own.acceleration, size * own.alpha)
-        )
 
     return of
 

@@ -11,11 +11,11 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.search import last_true
-from graphkin.solver.drivers import Drive, own_values
+from graphkin.solver.drivers import own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.linear_blocks import solve_all
-from graphkin.solver.pose import Array, Pose
+from graphkin.solver.pose import Array, Drive, Pose
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import (
@@ -85,7 +85,7 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
                 forms[i] = np.repeat(own, 2)
             if structure.scene.drawn:  # one place alone, which must be the drawn one
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i + 1, rates=False)
-                pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state)], 0)
+                pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state.poses)], 0)
         elif isinstance(element, Cluster) and element.rolling:
             from graphkin.solver.larger_groups import form_of
 
@@ -132,7 +132,7 @@ def _choose_sign(
     if dyad.is_two_lines:
         sign = float(np.sign(solved.sine[0])) or 1.0
         if abs(solved.sine[0]) >= states[0].singular[0]:
-            pick(scene, links, [new_places(structure, i, links, states[0])], 0)
+            pick(scene, links, [new_places(structure, i, links, states[0].poses)], 0)
         return np.array(sign), both[sign < 0]
     if not solved.discriminant[0] >= -TOUCH:
         raise Unsolvable(
@@ -145,7 +145,7 @@ def _choose_sign(
         )
     if not abs(solved.sine[0]) >= states[0].singular[0]:
         return np.array(1.0), both[0]
-    candidates = [new_places(structure, i, links, state) for state in states]
+    candidates = [new_places(structure, i, links, state.poses) for state in states]
     index = pick(scene, links, candidates, 0).index
     return np.array((1.0, -1.0)[index]), both[index]
 
@@ -159,10 +159,10 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
         if not isinstance(dyad, Dyad) or dyad.is_two_lines:
             continue
         given = {n: f[None] for n, f in forms.items()} | {i: np.ones(1)}
-        now = new_places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False))
+        now = new_places(structure, k, dyad.links, positions(structure, drive, given, i, rates=False).poses)
         state = positions(structure, drive, given | {k: -given[k]}, i + 1, rates=False)
         met = [g.discriminant[0] >= -TOUCH for g in state.groups.values() if isinstance(g, DyadSolution)]
-        places = new_places(structure, k, dyad.links, state)
+        places = new_places(structure, k, dyad.links, state.poses)
         if all(met) and places:
             point = max(places, key=lambda p: abs(places[p] - now[p]))
             z = places[point] / structure.scene.units.metres
@@ -197,7 +197,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
     return Phrase("the nearest position where they do is at", key=first.key, driver=driver_text(scene, first, value))
 
 
-def new_places(structure: Structure, i: int, links: Sequence[str], state: State) -> dict[str, complex]:
+def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mapping[str, Pose]) -> dict[str, complex]:
     """Where the points lie that only this group has placed."""
     before = {structure.scene.frame.name}
     for element in structure.elements[:i]:
@@ -205,7 +205,7 @@ def new_places(structure: Structure, i: int, links: Sequence[str], state: State)
     known = {p for name in before for p in structure.links[name].points}
     found: dict[str, complex] = {}
     for name in links:
-        pose = state.poses[name]
+        pose = poses[name]
         for point, place in structure.links[name].points.items():
             if point not in known:
                 found[point] = complex(np.ravel(pose.z + pose.u * place)[0])
@@ -225,8 +225,8 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
                 Phrase("links", links=', '.join(group.links)), Phrase("no assembly of this group was found in")
             ),
         )
-    states = [State({**known, **System(structure, group, known, drive).poses(place[None])}) for place in found]
-    candidates = [new_places(structure, i, group.links, state) for state in states]
+    placed = [{**known, **System(structure, group, known, drive).poses(place[None])} for place in found]
+    candidates = [new_places(structure, i, group.links, poses) for poses in placed]
     return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
 
 

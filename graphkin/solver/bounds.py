@@ -1,411 +1,422 @@
-"""How far every link may be off: its own rounding, and what it inherits from the links it hangs on; as formulas.
+"""How far rounding and the numbers of the file may have moved each link: by the constraints of all links together.
 
-Errors reach on through joints to the links that hang on them, to first order.  A worst case carried through every
-operation grows with each group as if nothing cancelled; but what a group does with the errors of its neighbours is
-known: small errors of the known joints move its bodies as small velocities would, with the same two directions and the
-same sine (Higham, Accuracy and Stability of Numerical Algorithms, ch. 1: forward error is condition times backward
-error).  Where the errors are not small beside the sine nothing is known.
+With J the derivative of the constraints by places and turns, an error of place is J^-1 times what the constraints may
+be off, term by term: what is left of them at the place found, the rounding in telling that, and the errors of the
+numbers that are given (Higham, Accuracy and Stability of Numerical Algorithms, ch. 1: forward error is condition times
+backward error).  Errors of the rates are those products derived by the time, with the rates of J along the motion.
+They are made when they are asked for: a motion is found without them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
-from typing import Protocol
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
-from graphkin.plane import cross
-from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.solver.dyads import DyadSolution, Frames, Joints, PoseFormula, body_shape
-from graphkin.solver.expressions import ExpressionGraph, Real, Vec, fmax, root
-from graphkin.solver.pose import FIELDS, ErrorBound, Pose
-from graphkin.solver.rounding import Rounding
-from graphkin.structure import Driven, Dyad, DyadKind, Element, Pair, Rolled
-from graphkin.structure.model import Coordinate
+import numpy as np
 
-__all__ = ["ErrorFormulas", "FrameError", "carried"]
+from graphkin.scene.cams import LawCam
+from graphkin.solver.cams import follower_inputs, greatest_jerk
+from graphkin.solver.decimals import conversion_error, meant, meant_angle
+from graphkin.solver.larger_groups import Ends, Layout, System, led_relation
+from graphkin.solver.linear_blocks import solve_all
+from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
+from graphkin.structure import Structure
 
-SAFE = 4.0
-"""Errors of directions, beside the sine of a group, above a quarter of which first order does not hold."""
+__all__ = ["LOOKED_UP", "Accuracy", "error_bounds", "most_of", "roughness"]
 
-
-FrameError = ErrorBound[Real]
-"""How far a frame of axes may be off; formulas."""
-_Off = tuple[Real, Real, Real] | tuple[float, float, float]
-"""Errors of an unknown of a dyad, an angle or a travel, and of its rates."""
-
-
-_Way = tuple[Real, Real, Real]
-"""Lengths of an arm as seen from its frame, and of its rates."""
-
-
-def _lengths(*vectors: Vec) -> _Way:
-    r, s, b = (root(z.real * z.real + z.imag * z.imag) for z in vectors)
-    return r, s, b
+FEW = 4
+"""The roundings of a sum of products."""
+FEW_ROUNDINGS = 8
+"""Roundings in a result that is itself exact but for the last place."""
+LOOKED_UP = 4 * GIVEN
+"""Relative error of what the law of a cam gives."""
+SLACK = 1.001
+"""For the rounding of the bounds themselves."""
+BLOCK = 4096
+"""Positions whose constraints are looked at together."""
+VAST = 1e100
+"""Stands for an entry of an inverse that is not known."""
+_BINOMIAL = ((1,), (1, 1), (1, 2, 1))
+Errors = ErrorBound[Array]
 
 
-def within(start: PoseFormula, end: PoseFormula) -> _Way:
-    """The arm between two frames of one body, both in its axes."""
-    return _lengths(end.z - start.z, end.v - start.v, end.a - start.a)
-
-
-def seen(frame: PoseFormula, point: PoseFormula) -> _Way:
-    """The arm from a frame to a point that moves in it, both in the world."""
-    arm, spin = point.z - frame.z, 1j * frame.omega
-    slip = point.v - frame.v - spin * arm
-    push = point.a - frame.a - (1j * frame.alpha - frame.omega * frame.omega) * arm - 2.0 * (spin * slip)
-    return _lengths(arm, slip, push)
-
-
-def carried(error: FrameError, frame: PoseFormula, way: _Way, off: _Off = (0.0, 0.0, 0.0)) -> FrameError:
-    """The error of a point at the end of an arm, with the direction of the frame that the arm is seen from.
+def error_bounds(
+    structure: Structure, poses: Mapping[str, Pose], drive: Drive, slack: Array, refined: Array,
+    value_error: Array | None = None,
+) -> dict[str, Errors]:  # fmt: skip
+    """Bounds of the errors of each moving link: the most of any point of it, coincident points under what slides on it
+    too, and of its turning; fields of shape (n,), infinite where nothing is known.
 
     Parameters
     ----------
-    frame : axes in the world; only their rates of turning count
-    off : what the arm adds itself along its way
+    poses : of all links, with their rates, as they were found
+    drive : of the drivers, shape (n, drivers)
+    slack : how far the value of each cam's lift and of each relation of what rolls may be off, in the order of the
+        elements, shape (n, relations) (rad, m; of larger groups no unit)
+    refined : positions that were computed in 50 digits, shape (n,)
+    value_error : how far the values of the drivers may be off, shape (n, drivers); None for what conversion and
+        rounding leave
     """
-    spin, bend = abs(frame.omega), abs(frame.alpha) + frame.omega * frame.omega
-    (r, s, b), (x, dx, ddx) = way, off
-    turned = error.omega + spin * error.angle
-    return replace(
-        error,
-        position=error.position + r * error.angle + x,
-        velocity=error.velocity + r * turned + s * error.angle + spin * x + dx,
-        acceleration=error.acceleration
-        + r * (error.alpha + bend * error.angle + 2.0 * (spin * error.omega))
-        + 2.0 * (s * turned)
-        + b * error.angle
-        + bend * x
-        + 2.0 * (spin * dx)
-        + ddx,
-    )
+    drive = drive.followed(structure)
+    system, n = System.whole(structure, drive), len(drive)
+    names, size = system.group.members, structure.scene.size
+    with np.errstate(all="ignore"):
+        all_ = system.of({name: poses[name].spread(n) for name in names})
+        cams = _Cams(system, all_)
+        matrix = cams.onto(system.matrix(all_))
+        before = _before(structure)
+        hangs = np.array([[other in before[name] for other in system.layout.names] for name in names])
+        inverse = solve_all(matrix, np.broadcast_to(np.eye(matrix.shape[1]), matrix.shape))
+        inverse = np.where(_reached(system.layout, matrix, hangs), inverse, 0.0)
+        sizes = _sizes(system, cams, all_, matrix, inverse)
+        residuals = np.abs(cams.without(system.constraints(all_)))
+        residuals[:, refined] = 0.0
+        given = _driver_errors(structure, drive, refined, value_error)
+        rows = residuals + _row_errors(system, all_, refined, given) + cams.errors(slack)
+        found: list[Array] = []
+        grown = np.ones((n, len(names)))
+        for order in range(3):
+            terms = [w * np.einsum("nij,nj->ni", sizes[k], rows[order - k]) for k, w in enumerate(_BINOMIAL[order])]
+            error = np.sum(terms, axis=0).reshape(n, -1, 3)
+            if order == 0:
+                grown = 1 / np.maximum(1 - 3 * _change(system, all_, inverse, error, hangs), 0.0)
+            # each order has the inverse once more
+            most = np.where(hangs[:, : len(names)], error.max(axis=2)[:, None, :], 0.0).max(axis=2)
+            more = np.where(grown > 1, (grown ** (2 * order + 1) - 1) * most, 0.0)
+            error = error + more[:, :, None]
+            found += [size * np.hypot(error[..., 0], error[..., 1]), error[..., 2]]
+        few = FEW_ROUNDINGS * UNIT * refined
+        wide = _largest(all_, len(names), size)
+        bounds = {}
+        for k, name in enumerate(names):
+            own = ErrorBound(*(found[i][:, k] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
+            bounds[name] = ErrorBound(*map(_sure, _of_points(structure, name, poses, own)))
+        return bounds
 
 
-def of_dyad(
-    kind: DyadKind, joints: Joints[Vec, Real], solved: DyadSolution[Vec, Real], first: FrameError, second: FrameError
-) -> tuple[FrameError, FrameError]:
-    """The errors of the two bodies of a dyad.
+@dataclass(frozen=True)
+class Accuracy:
+    """What was found at n positions, from which its errors are told when they are asked for.
 
-    Parameters
-    ----------
-    first, second : of its two known joint frames
+    structure, poses, drive, slack, refined : as for ``error_bounds``
+    ok : positions that stand, shape (n,); bounds elsewhere are NaN
     """
-    ends, bodies, rigid = _KINDS[kind](joints, solved, first, second)
-    across = abs(cross(solved.e1, solved.e2))
-    long1, long2, _ = _lengths(solved.e1, solved.e2, 0.0 * solved.e1)
-    # x1 e1 + x2 e2 = w has x1 <= |w| |e2| / |e1 x e2|
-    by1, by2 = long2 / across, long1 / across
-    none: _Off = (0.0, 0.0, 0.0)
-    one, two = none, none
-    for order in range(3):
-        a, b = ends(one, two)
-        open_ = a.of_point[order] + b.of_point[order]
-        if order == 0:
-            turned = rigid(by1 * open_, by2 * open_)
-            # the sine itself is off by the errors of the two directions
-            left = fmax(1.0 - SAFE * turned * (long1 * by1), 0.0 * across)
-            open_ = open_ / left
-        one = (*one[:order], by1 * open_, *none[order + 1 :])
-        two = (*two[:order], by2 * open_, *none[order + 1 :])
-    return bodies(one, two)
 
+    structure: Structure
+    poses: Mapping[str, Pose]
+    drive: Drive
+    slack: Array
+    refined: Array
+    ok: Array
 
-_Ends = Callable[[_Off, _Off], tuple[FrameError, FrameError]]
-_Rigid = Callable[[Real, Real], Real]
-_Parts = tuple[_Ends, _Ends, _Rigid]
-"""FrameErrors of the inner joint by both ways to it, doubts of both bodies, errors of the two directions together."""
-
-
-def _still(joint: PoseFormula) -> PoseFormula:
-    """The origin of a body, in its axes, like a joint."""
-    none = 0.0 * joint.z
-    return Pose(none, joint.u, none, joint.omega, none, joint.alpha)
-
-
-def _origin(joint: PoseFormula) -> _Way:
-    """The arm from a joint of a body to the body's own origin, both in its axes."""
-    return within(_still(joint), joint)
-
-
-def _rrr(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
-    arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
-    back1, back2 = _origin(j.outer1), _origin(j.outer2)
-
-    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return carried(first.turning_as(*one), s.first, arm1), carried(second.turning_as(*two), s.second, arm2)
-
-    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return carried(first.turning_as(*one), s.first, back1), carried(second.turning_as(*two), s.second, back2)
-
-    return ends, bodies, lambda x, y: x + y
-
-
-def _rrp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
-    slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
-    back1, back2 = _origin(j.outer1), _origin(j.outer2)
-
-    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        there = carried(second, j.known2, slid, two)
-        return carried(first.turning_as(*one), s.first, arm1), carried(there, s.second, arm2)
-
-    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        there = carried(second, j.known2, slid, two)
-        return carried(first.turning_as(*one), s.first, back1), carried(there, s.second, back2)
-
-    return ends, bodies, lambda x, y: x + second.angle
-
-
-def _rpr(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
-    bar = s.second.of(j.inner2)
-    # from one known point to the other, seen from the common direction
-    axes = Pose(j.known2.z, bar.u, j.known2.v, bar.omega, j.known2.a, bar.alpha)
-    line, back1, back2 = seen(axes, j.known1), _origin(j.outer1), _origin(j.outer2)
-
-    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return first, carried(second.turning_as(*two), axes, line, one)
-
-    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return carried(first.turning_as(*two), s.first, back1), carried(second.turning_as(*two), s.second, back2)
-
-    return ends, bodies, lambda x, y: y + y
-
-
-def _prp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
-    slid1, slid2 = seen(j.known1, s.first.of(j.outer1)), seen(j.known2, s.second.of(j.outer2))
-    arm1, arm2 = within(j.outer1, j.inner1), within(j.outer2, j.inner2)
-    back1, back2 = _origin(j.outer1), _origin(j.outer2)
-
-    def joints(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return carried(first, j.known1, slid1, one), carried(second, j.known2, slid2, two)
-
-    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        a, b = joints(one, two)
-        return carried(a, s.first, arm1), carried(b, s.second, arm2)
-
-    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        a, b = joints(one, two)
-        return carried(a, s.first, back1), carried(b, s.second, back2)
-
-    return ends, bodies, lambda x, y: first.angle + second.angle
-
-
-def _rpp(j: Joints[Vec, Real], s: DyadSolution[Vec, Real], first: FrameError, second: FrameError) -> _Parts:
-    bar = s.second.of(j.inner2)
-    hinge, along = first.turning_as(*second.of_turning), seen(bar, s.first.of(j.inner1))
-    slid, arm1, arm2 = seen(j.known2, s.second.of(j.outer2)), within(j.outer1, j.inner1), within(j.outer2, j.inner2)
-    back1, back2 = _origin(j.outer1), _origin(j.outer2)
-
-    def ends(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        there = carried(carried(second, j.known2, slid, one), s.second, arm2)
-        return carried(hinge, s.first, arm1), carried(there, bar, along, two)
-
-    def bodies(one: _Off, two: _Off) -> tuple[FrameError, FrameError]:
-        return carried(hinge, s.first, back1), carried(carried(second, j.known2, slid, one), s.second, back2)
-
-    return ends, bodies, lambda x, y: second.angle + second.angle
-
-
-_KINDS: Mapping[DyadKind, Callable[[Joints[Vec, Real], DyadSolution[Vec, Real], FrameError, FrameError], _Parts]] = {
-    "RRR": _rrr,
-    "RRP": _rrp,
-    "RPR": _rpr,
-    "PRP": _prp,
-    "RPP": _rpp,
-}
-
-
-FEW = 3.0
-"""Roundings in adding a point to the origin of its link."""
-
-
-class Formulas(Frames, Protocol):
-    """What the bounds are made from: the formulas of the poses and of each dyad, by its place among the elements."""
-
-    graph: ExpressionGraph
-    poses: dict[str, PoseFormula]
-    joints: dict[int, Joints[Vec, Real]]
-    groups: dict[int, DyadSolution[Vec, Real]]
-
-    def at_rest(self, place: Vec | complex, direction: Vec | complex) -> PoseFormula:
-        """Axes that do not move."""
-
-    def ratio(self, rolled: Rolled, coordinate: Coordinate) -> Real:
-        """By how much what rolls goes as one of the angles and travels that it follows."""
-
-
-class ErrorFormulas:
-    """The error bounds of a program of dyads, made as they are asked for."""
-
-    def __init__(self, program: Formulas) -> None:
-        self.program, self.structure, self.graph = program, program.structure, program.graph
-        self.unit = self.graph.param(("unit",))
-        zero = self.graph.const(0)
-        self._errors = {self.structure.scene.frame.name: FrameError(zero, zero, zero, zero, zero, zero)}
-        self._rest = program.at_rest(0j, 1 + 0j)
-
-    def __call__(self, links: Iterable[str]) -> FrameError:
-        """How far rounding may have moved any point of these links and their turning."""
-        most: FrameError | None = None
-        for link in links:
-            own = self.of_link(link)
-            most = FrameError(*(fmax(a, b) for a, b in zip(own, most, strict=True))) if most else own
-        return most or FrameError(*(self.graph.const(0),) * 6)
-
-    def of_link(self, link: str) -> FrameError:
-        """The same for one link."""
-        pose = self.program.poses[link]
-        r = self.graph.param(("reach", link))
-        for slide in self.structure.slides:
-            # the coincident point under what slides on this link
-            if slide.b == link and slide.a in self.program.poses:
-                away = self.program.poses[slide.a].z - pose.z
-                r = fmax(abs(away.real) + abs(away.imag), r)
-        spin, bend = abs(pose.omega), abs(pose.alpha) + pose.omega * pose.omega
-        place, speed, push = (abs(x.real) + abs(x.imag) for x in (pose.z, pose.v, pose.a))
-        few = FEW * self.unit
-        # what a point of the link adds to its origin, and the roundings of adding it
-        found = self._error_of(link).within(r, (place, speed, push), spin, bend, few)
-        return replace(found, angle=found.angle + few)
-
-    def under(self, link: str, own: FrameError, arm: Vec, moved: Real) -> tuple[Real, Real]:
-        """Velocity and acceleration of the point of a link at the end of an arm, from the bounds of its own points; the
-        end may be off by ``moved``."""
-        omega, alpha = own.omega, own.alpha
-        pose, far = self.program.poses[link], abs(arm.real) + abs(arm.imag)
-        spin, turning = abs(pose.omega) + omega, abs(pose.alpha) + alpha
-        off = moved + own.position + 8.0 * self.unit * far
-        # |d(w r)| <= dw r + w dr, and the same with the square of w beside alpha
-        return (
-            own.velocity + far * omega + spin * off,
-            own.acceleration + far * (alpha + 2.0 * (spin * omega)) + (turning + spin * spin) * off,
+    def rows(self, rows: slice) -> Accuracy:
+        """Of some of the positions."""
+        poses = {name: pose.rows(rows) for name, pose in self.poses.items()}
+        return Accuracy(
+            self.structure, poses, self.drive[rows], self.slack[rows], self.refined[rows], self.ok[rows]
         )
 
-    def _error_of(self, link: str) -> FrameError:
-        """How far a link may be off: by what it inherits from the links it hangs on, and by its own rounding."""
-        if link not in self._errors:
-            i = next(k for k, e in enumerate(self.structure.elements) if link in e.members)
-            self._errors.update(self._errors_of(i, self.structure.elements[i]))
-        return self._errors[link]
+    @cached_property
+    def links(self) -> Mapping[str, Errors]:
+        """Of each moving link that is not redundant."""
+        return self._of_links(self.refined)
 
-    def _errors_of(self, i: int, element: Element) -> dict[str, FrameError]:
-        assert isinstance(element, Driven | Dyad)  # larger groups: graphkin.solver.group_errors
-        bases = _bases(element)
-        inherited = self._driven_error(element) if isinstance(element, Driven) else self._dyad_errors(i, element)
-        rounding = Rounding(self.graph, self.error_of, self.unit, self._given(bases))
-        return {name: error + self._own(self.program.poses[name], rounding) for name, error in inherited.items()}
+    @cached_property
+    def drawn(self) -> Mapping[str, Errors]:
+        """The same if all were computed in 16 digits throughout, as a drawing is."""
+        return self._of_links(np.zeros_like(self.refined)) if self.refined.any() else self.links
 
-    def _given(self, links: Iterable[str]) -> set[int]:
-        """The lines of the poses of links, but for numbers of the scene, which others may share."""
-        found: set[int] = set()
-        for link in links:
-            for part in FIELDS:
-                z = getattr(self.program.poses[link], part)
-                found |= {x.at for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))}
-        lines = self.graph.lines
-        return {k for k in found if lines[k][0] != "param" or lines[k][1][0] in ("rate", "second")}
+    def of(self, links: Iterable[str], drawn: bool = False) -> Errors:
+        """The most of some links, of all if there are none but those of the frame."""
+        known = self.drawn if drawn else self.links
+        held = [known[name] for name in links if name in known]
+        return most_of(held or known.values())
 
-    @staticmethod
-    def _own(pose: PoseFormula, rounding: Rounding) -> FrameError:
-        def of(z: Real | Vec) -> Real:
-            if isinstance(z, Real):
-                return rounding.of(z)
-            x, y = rounding.of(z.real), rounding.of(z.imag)
-            return root(x * x + y * y)
+    def _of_links(self, refined: Array) -> dict[str, Errors]:
+        names = [name for name in self.structure.links if name != self.structure.scene.frame.name]
+        found = {name: np.full((6, len(self.ok)), np.nan) for name in names}
+        places = np.flatnonzero(self.ok)
+        for rows in (places[first : first + BLOCK] for first in range(0, len(places), BLOCK)):
+            poses = {name: self.poses[name].rows(rows) for name in self.structure.links}
+            some = error_bounds(self.structure, poses, self.drive[rows], self.slack[rows], refined[rows])
+            for name, bound in some.items():
+                found[name][:, rows] = [*bound]
+        return {name: ErrorBound(*rows) for name, rows in found.items()}
 
-        z, u, v, omega, a, alpha = (of(getattr(pose, part)) for part in FIELDS)
-        return FrameError(z, v, a, u, omega, alpha)
 
-    def _at(self, pair: Pair, base: str) -> FrameError:
-        """The error of a joint's frame on a known link."""
-        at = self.program.rest(pair, base)
-        return carried(self._error_of(base), self.program.poses[base], within(self._rest, at))
+def most_of(bounds: Iterable[Errors]) -> Errors:
+    """The most of several links."""
+    return ErrorBound(*(np.maximum.reduce(np.broadcast_arrays(*column)) for column in zip(*bounds, strict=True)))
 
-    def _driven_error(self, element: Driven) -> dict[str, FrameError]:
-        pair, link, driver = element.pair, element.link, element.driver
-        base = _base(pair, [link])
-        if isinstance(driver, LawCam):
-            error, pose = self._follower_error(driver, self._at(pair, base)), self.program.poses[link]
-            return {link: carried(error, pose, within(self._rest, self.program.rest(pair, link)))}
-        if isinstance(driver, Rolled):
-            error, pose = self._rolled_error(driver, self._at(pair, base)), self.program.poses[link]
-            return {link: carried(error, pose, within(self._rest, self.program.rest(pair, link)))}
-        joint, pose = self._at(pair, base), self.program.poses[link]
-        mine = self.program.rest(pair, link)
-        turning = joint
-        if driver.turns:
-            other = driver.relative_to if driver.link == link else driver.link
-            turning = joint.turning_as(*self._error_of(other).of_turning)
-        else:
-            at = self.program.rest(pair, base)
-            guide = self.program.poses[base].fixed(at.z, at.u)
-            turning = carried(joint, guide, seen(guide, pose.of(mine)))
-        return {link: carried(turning, pose, within(self._rest, mine))}
 
-    def _follower_error(self, cam: LawCam, joint: FrameError) -> FrameError:
-        """What a follower has from its joint, and by its law from the cam's own turning."""
-        turn, off = self.program.poses[cam.link], self._error_of(cam.link)
-        _, slope, bend = self.program.lift(cam)
-        jerk, spin = self.graph.param(("lift", cam.link, "jerk")), abs(turn.omega)
-        slope, bend = abs(slope), abs(bend)
-        moved = slope * off.angle
-        rate = slope * off.omega + bend * (spin * off.angle)
-        second = (slope * off.alpha + bend * (2.0 * (spin * off.omega) + abs(turn.alpha) * off.angle)
-                  + jerk * (spin * spin * off.angle))  # fmt: skip
-        if isinstance(cam.motion, SlidingFollower):
-            return replace(joint, position=joint.position + moved, velocity=joint.velocity + rate,
-                           acceleration=joint.acceleration + second)  # fmt: skip
-        return joint.turning_as(moved, rate, second)
+def roughness(structure: Structure, poses: Mapping[str, Pose], bound: Errors) -> Array:
+    """A bound of velocities and accelerations beside the greatest there are, for points as far off as the mechanism is
+    large, shape (n,)."""
+    size, n = structure.scene.size, len(bound.velocity)
+    fields = [p.spread(n) for name, p in poses.items() if name != structure.scene.frame.name]
+    speed = np.max([np.abs(p.v) + size * np.abs(p.omega) for p in fields], axis=0)
+    push = np.max([np.abs(p.a) + size * (np.abs(p.alpha) + p.omega**2) for p in fields], axis=0)
+    velocity, acceleration = bound.velocity + size * bound.omega, bound.acceleration + size * bound.alpha
+    with np.errstate(all="ignore"):
+        parts = velocity / np.maximum(speed, 1e-300), acceleration / np.maximum(push, 1e-300)
+        return np.asarray(np.maximum(*parts))
 
-    def _rolled_error(self, rolled: Rolled, joint: FrameError) -> FrameError:
-        """What a link that rolls has from its joint, and from what it rolls on, there and in the scene's position."""
-        zero = self.graph.const(0)
-        moved, rate, second = zero, zero, zero
-        for (kind, name), _ in rolled.factors:
-            own = self.of_link(name) if kind == "angle" else self.of_link(self.structure.slide(name).a)
-            base = None if kind == "angle" else self.of_link(self.structure.slide(name).b)
-            one = own.of_turning
-            if base is not None:
-                one = own.position + base.position, own.velocity + base.velocity, own.acceleration + base.acceleration
-            by = abs(self.program.ratio(rolled, (kind, name)))
-            moved, rate, second = moved + 2.0 * by * one[0], rate + by * one[1], second + by * one[2]
-        if rolled.turns:
-            return joint.turning_as(moved, rate, second)
-        return replace(joint, position=joint.position + moved, velocity=joint.velocity + rate,
-                       acceleration=joint.acceleration + second)  # fmt: skip
 
-    def _dyad_errors(self, i: int, element: Dyad) -> dict[str, FrameError]:
-        shapes = tuple(body_shape(self.program, body, self._rest) for body in element.bodies)
-        outer = element.outer_first, element.outer_second
-        known = [self._at(pair, _base(pair, shape)) for pair, shape in zip(outer, shapes, strict=True)]
-        errors = of_dyad(element.kind, self.program.joints[i], self.program.groups[i], known[0], known[1])
-        found: dict[str, FrameError] = {}
-        for body, shape, error in zip(element.bodies, shapes, errors, strict=True):
-            pose = self.program.poses[body.links[0]]
-            found |= {name: carried(error, pose, within(self._rest, inner)) for name, inner in shape.items()}
+def _sure(bound: Array) -> Array:
+    """A bound, infinite where it is not known."""
+    return np.where(bound < VAST**0.5, bound * SLACK, np.inf)
+
+
+def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
+    """Of the links: place, velocity and acceleration, for points as far off as the mechanism is large; of a direction
+    1, and its rates."""
+    z, v, a, omega, alpha = (np.abs(x[:, :count]) for x in (all_.z, all_.v, all_.a, all_.omega, all_.alpha))
+    points = z + size, v + size * omega, a + size * (alpha + omega**2)
+    return (*(x.max(axis=1) for x in points), 1.0, omega.max(axis=1), alpha.max(axis=1))
+
+
+class _Cams:
+    """The followers of cams and what rolls among the constraints of all links.
+
+    A follower's row of the matrix has the slope of the lift at the turning of its cam.
+    """
+
+    def __init__(self, system: System, all_: Pose) -> None:
+        layout, n = system.layout, len(system.drive)
+        self.layout = layout
+        relations = system.group.rolling
+        self.scale = np.ones(len(relations))
+        rows, columns, lifts = [], [], []
+        for element in (e for e in system.structure.driven if not e.drivers):
+            own, lead = led_relation(element), element.driver
+            k = relations.index(own)
+            self.scale[k] = next(iter(own.weights(layout.size).values()))
+            if isinstance(lead, LawCam):
+                cam = layout.link[lead.link]
+                inputs, jerk = follower_inputs(lead, all_.u[:, cam]), greatest_jerk(lead.law)
+                lifts.append(self.scale[k] * np.stack([inputs["slope"], inputs["bend"], np.full(n, jerk)]))
+                rows.append(int(layout.rolling_rows[k]))
+                columns.append(cam)
+        self.rows, self.columns = np.array(rows, dtype=int), np.array(columns, dtype=int)
+        every: Array = np.stack(lifts, axis=-1) if lifts else np.zeros((3, n, 0))
+        slope, bend, jerk = every
+        omega, alpha = all_.omega[:, self.columns], all_.alpha[:, self.columns]
+        # the entries of the matrix, and their rates
+        self.entries = slope, bend * omega, np.abs(jerk) * omega**2 + np.abs(bend * alpha)
+        # rates of the lift
+        self.rates = slope * omega, bend * omega**2 + slope * alpha
+
+    def onto(self, matrix: Array, t: Array | None = None) -> Array:
+        """The matrix with the slopes of the lifts, as they are, or at a time from here, shape (n, 1) (s)."""
+        slope, first, second = self.entries
+        matrix[:, self.rows, 3 * self.columns + 2] -= slope if t is None else slope + t * first + t * t / 2 * second
+        return matrix
+
+    def without(self, constraints: Array) -> Array:
+        """The constraints and their rates, less what the lifts have done."""
+        for order, rate in enumerate(self.rates, start=1):
+            constraints[order][:, self.rows] -= rate
+        return constraints
+
+    def errors(self, slack: Array) -> Array:
+        """How far lifts and relations may be off with their rates, shape (3, n, rows)."""
+        found = np.zeros((3, len(slack), self.layout.rows))
+        found[0][:, self.layout.rolling_rows] = slack * self.scale
+        for order, rate in enumerate(self.rates, start=1):
+            found[order][:, self.rows] += LOOKED_UP * np.abs(rate)
+        found[2][:, self.rows] += LOOKED_UP * np.abs(self.entries[1] * self.rates[0])
         return found
 
-    def error_of(self, x: Real) -> Real:
-        """How far a number that is given may be off."""
-        name = x.line[1]
-        if name[0] in ("size", "sign", "unit", "reach"):
-            return self.graph.const(0)
-        if name[0] in ("cos", "sin"):
-            return self.graph.param(("error", "angle", name[1]))
-        if name[0] in ("lift", "rolled"):
-            return self.graph.param(("error", *name))
-        if name[0] == "travel":
-            return self.graph.param(("error", *name))
-        return self.graph.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
+
+def _sizes(system: System, cams: _Cams, all_: Pose, here: Array, inverse: Array) -> tuple[Array, Array, Array]:
+    """Sizes of the entries of the inverse of a matrix, and of its first and second rate along the motion.
+
+    With G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S; G and A by differences, which is
+    enough for a bound.
+    """
+    size, p = system.structure.scene.size, all_
+    quick = np.sqrt(np.fmax(np.abs(p.alpha), np.abs(p.a) / size))
+    fast = np.fmax(np.fmax(np.abs(p.omega), np.abs(p.v) / size), quick).max(axis=1)
+    step = 1e-4 / np.where(fast > 0, fast, 1.0)
+
+    def at(t: Array) -> Array:
+        half = t * t / 2
+        turn = np.exp(1j * (t * p.omega + half * p.alpha))
+        return cams.onto(system.matrix(replace(p, z=p.z + t * p.v + half * p.a, u=p.u * turn)), t)
+
+    wide = step[:, None, None]
+    ahead, behind = at(step[:, None]), at(-step[:, None])
+    first, second = (ahead - behind) / (2 * wide), (ahead - 2 * here + behind) / wide**2
+    bent = inverse @ first @ inverse
+    rates = inverse, bent, 2 * bent @ first @ inverse - inverse @ second @ inverse
+    one, two, three = (np.nan_to_num(np.abs(x), nan=VAST, posinf=VAST) for x in rates)
+    return one, two, three
 
 
-def _base(pair: Pair, inside: Iterable[str]) -> str:
-    """The link of a joint that is not one of these."""
-    return pair.b if pair.a in inside else pair.a
+def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
+    """For each link those that it hangs on, with itself, those of its group and the frame: beside a dead point of one
+    group the links before it are as certain as ever.  What rolls may pass by links that come later."""
+    if "before" not in structure.kept:
+        frame = structure.scene.frame.name
+        found = {frame: frozenset((frame,))}
+        for element in structure.elements:
+            ends = {*element.members, *(link for end in element.outside for link in found.get(end, ()))}
+            found |= dict.fromkeys(element.members, frozenset(ends))
+        structure.kept["before"] = found
+    before: Mapping[str, frozenset[str]] = structure.kept["before"]
+    return before
 
 
-def _bases(element: Driven | Dyad) -> list[str]:
-    """The known links that an element hangs on."""
-    if isinstance(element, Driven):
-        return [_base(element.pair, element.links), *(n for n in element.driver.links if n != element.link)]
-    bodies = zip(element.outer, element.bodies, strict=True)
-    return [_base(pair, body.links) for pair, body in bodies]
+def _reached(layout: Layout, matrix: Array, hangs: Array) -> Array:
+    """Which entries of the inverse are not zero by what hangs on what: a link is moved by the constraints between those
+    that it hangs on, shape (columns, rows)."""
+    taking = (matrix != 0).any(axis=0).reshape(len(matrix[0]), -1, 3).any(axis=2)
+    outside = ~hangs[:, : layout.members]
+    return np.repeat(~(outside.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
+
+
+def _change(system: System, all_: Pose, inverse: Array, error: Array, hangs: Array) -> Array:
+    """By how much of itself the matrix of what each link hangs on may change within the error of place, and then,
+    divided by one less this, its inverse, shape (n, links) (Golub and Van Loan, Matrix Computations, theorem 2.3.4)."""
+    layout = system.layout
+    spread = np.zeros((len(error), len(layout.names), 3))
+    spread[:, : layout.members] = error
+    turn, moved = spread[:, :, 2], np.hypot(spread[:, :, 0], spread[:, :, 1])
+    change = np.zeros((len(error), layout.members))
+    for (one, two), pairs in ((layout.turns, slice(None)), (layout.lines, slice(layout.slides))):
+        a, b = one.link[pairs], two.link[pairs]
+        arms = (np.abs(ends.place[pairs]) / layout.size for ends in (one, two))
+        changes = np.sum([(arm * turn[:, link]) ** 2 for arm, link in zip(arms, (a, b), strict=True)], axis=0)
+        if pairs.stop is not None:
+            joint = one.of(all_, 0).z[:, pairs]
+            arm, far = np.abs(one.place[pairs]) / layout.size, np.abs(joint - all_.z[:, b]) / layout.size
+            off = moved[:, a] + moved[:, b] + arm * turn[:, a]
+            # along the guide and across, as either may be a constraint
+            changes = changes + 2 * (2 * turn[:, b]) ** 2 + 2 * ((arm + far) * turn[:, b] + off) ** 2
+        change += np.where(hangs[:, a] & hangs[:, b], changes[:, None, :], 0.0).sum(axis=2)
+    sizes = (inverse**2).sum(axis=2).reshape(len(error), -1, 3).sum(axis=2)
+    most = np.where(hangs[:, : layout.members], sizes[:, None, :], 0.0).sum(axis=2)
+    return np.asarray(np.sqrt(most * change))
+
+
+def _of_points(structure: Structure, name: str, poses: Mapping[str, Pose], error: Errors) -> Errors:
+    """The most of any point of a link, and of its turning."""
+    pose = poses[name]
+    r = np.full(len(error.angle), max(map(abs, structure.links[name].points.values()), default=0.0))
+    for slide in structure.slides:
+        if slide.b == name and slide.a in poses:
+            r = np.maximum(r, np.abs(poses[slide.a].z - pose.z))
+    spin, bend = np.abs(pose.omega), np.abs(pose.alpha) + pose.omega**2
+    return error.within(r, (np.abs(pose.z), np.abs(pose.v), np.abs(pose.a)), spin, bend, FEW * UNIT)
+
+
+# what the constraints may be off by themselves
+
+
+def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_error: Array | None) -> list[Array]:
+    """How far values, rates and second rates of the drivers may be off, shape (n, drivers) each (rad, m)."""
+    turns = np.array([d.turns for d in structure.drivers], dtype=bool)
+    value = np.abs(drive.value)
+    found = [np.where(turns, GIVEN / 2 * value + UNIT, GIVEN * value) if value_error is None else value_error.copy()]
+    found += [GIVEN * np.abs(drive.rate), GIVEN * np.abs(drive.second)]
+    for k in np.flatnonzero(refined):
+        for j, driver in enumerate(structure.drivers):
+            own = float(drive.value[k, j])
+            dead = driver.dead_point and driver.dead_point.exact and own == driver.values[0]
+            known = dead or (meant_angle if driver.turns else meant)(own)[1]
+            found[0][k, j] = 0.0 if known else GIVEN * abs(own)
+            for error, rate in ((found[1], drive.rate[k, j]), (found[2], drive.second[k, j])):
+                error[k, j] = 0.0 if meant(float(rate))[1] else GIVEN * abs(rate)
+    return found
+
+
+def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
+    """How far the numbers of the file may be off in each joint, by place and by direction on either side of turning
+    pairs and of guides; each of shape (2, joints): in 16 digits, and in 50."""
+    def errors(numbers: Iterable[tuple[complex, bool]]) -> Array:
+        return np.array([conversion_error(*number) for number in numbers]).reshape(-1, 2).T
+
+    key = "written", layout.names, tuple(layout.line_pairs)
+    if key not in structure.kept:
+        turns, lines, links = layout.turn_pairs, layout.line_pairs, structure.links
+        structure.kept[key] = (
+            errors((links[p.a].points[p.point], False) for p in turns),
+            errors((links[p.b].points[p.point], False) for p in turns),
+            errors((s.turn, True) for s in lines),
+            errors((s.guide.through, False) for s in lines),
+            errors((s.guide.direction, True) for s in lines),
+        )
+    written: Sequence[Array] = structure.kept[key]
+    return written
+
+
+def _row_errors(system: System, all_: Pose, refined: Array, given: Sequence[Array]) -> Array:
+    """How far constraints and their rates may be off with the links just where they were found: (3, n, rows)."""
+    layout, size = system.layout, system.layout.size
+    unit = np.where(refined, 0.0, UNIT)[:, None]
+    which, lean = refined.astype(int), np.abs(np.abs(all_.u) - 1) * (unit > 0)
+    found = np.zeros((3, len(refined), layout.rows))
+    place_a, place_b, turned, through, directed = (x[:, :0] if not x.size else x for x in
+                                                   _written(system.structure, layout))  # fmt: skip
+    if len(layout.turn_rows):
+        ends = [(e, e.of(all_, 2), w[which], None) for e, w in zip(layout.turns, (place_a, place_b), strict=True)]
+        one, two = (_joint(e, frame, lean, unit, written, turn) for e, frame, written, turn in ends)
+        for order in range(3):
+            gap = (one[order] + two[order]) / size
+            found[order][:, layout.turn_rows] = found[order][:, layout.turn_rows + 1] = gap
+    if len(layout.line_rows):
+        (a, b), none = layout.lines, np.zeros(1)
+        p, q = a.of(all_, 2), b.of(all_, 2)
+        one = _joint(a, p, lean, unit, none, turned[which])
+        two = _joint(b, q, lean, unit, through[which], directed[which])
+        for order, off in enumerate(_sliding(p, q, one, two, FEW * unit)):
+            np.add.at(found[order].T, layout.line_rows, (off * np.abs(layout.part) / size).T)
+        pairs = slice(layout.slides)
+        found[0][:, layout.slide_rows] = (one[3] + two[3] + FEW * unit)[:, pairs]
+        for order, (x, y) in enumerate(((p.omega, q.omega), (p.alpha, q.alpha)), start=1):
+            found[order][:, layout.slide_rows] = unit * (np.abs(x) + np.abs(y))[:, pairs]
+        for order in range(3):
+            for row, _, i in layout.travels:
+                found[order][:, row] += given[order][:, i] / size
+    rates = np.abs(all_.omega), np.abs(all_.alpha)
+    if len(layout.angle_rows):
+        (link, base), drivers = layout.turned, layout.angle_drivers
+        found[0][:, layout.angle_rows] = lean[:, link] + lean[:, base] + FEW * unit + given[0][:, drivers]
+        for order, rate in enumerate(rates, start=1):
+            found[order][:, layout.angle_rows] = unit * (rate[:, link] + rate[:, base]) + given[order][:, drivers]
+    weights = np.abs(layout.rolled).T
+    found[0][:, layout.rolling_rows] += (lean + FEW * unit) @ weights
+    for order, rate in enumerate(rates, start=1):
+        found[order][:, layout.rolling_rows] += (FEW + 1) * unit * (rate @ weights)
+    return found
+
+
+_Joint = tuple[Array, Array, Array, Array]
+"""How far the joints of links that are just where they were found may be off, shape (n, joints): place, velocity,
+acceleration, direction."""
+
+
+def _joint(ends: Ends, frame: Pose, lean: Array, unit: Array, written: Array, turned: Array | None) -> _Joint:
+    """Of frames on their links: by what is written, by rounding, by directions that are not just of length 1."""
+    own = lean[:, ends.link]
+    off = np.abs(ends.place) * (own + FEW * unit) + 1.5 * written
+    spin, bend = np.abs(frame.omega), np.abs(frame.alpha) + frame.omega**2
+    turn = own if turned is None else own + 1.5 * turned + np.where(ends.direction == 1, 0.0, FEW * unit)
+    place, fast, pushed = (unit * np.abs(x) for x in (frame.z, frame.v, frame.a))
+    return off + place, spin * off + fast, bend * off + pushed, turn
+
+
+def _sliding(p: Pose, q: Pose, one: _Joint, two: _Joint, few: Array) -> tuple[Array, Array, Array]:
+    """Of joints' places in the axes of others, and their rates there."""
+    gap, slip = np.abs(p.z - q.z), np.abs(p.v - q.v)
+    near, quick, turn = one[0] + two[0], one[1] + two[1], two[3]
+    spin, bend = np.abs(q.omega), np.abs(q.alpha) + q.omega**2
+    far, fast = np.abs(p.z) + np.abs(q.z), np.abs(p.v) + np.abs(q.v)
+    pushed = np.abs(p.a - q.a) + 2 * spin * slip + bend * gap
+    return (
+        gap * turn + near + few * far,
+        (slip + spin * gap) * turn + quick + spin * near + few * (fast + spin * far),
+        pushed * turn + one[2] + two[2] + 2 * spin * quick + bend * near
+        + few * (np.abs(p.a) + np.abs(q.a) + 2 * spin * fast + bend * far),
+    )  # fmt: skip

@@ -12,11 +12,10 @@ from functools import cached_property
 
 import numpy as np
 
-from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import group_at, least_closes, positions
 from graphkin.solver.larger_groups import ClusterSolved
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import limit_why
 from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages
 from graphkin.structure.assembly import ChangePoint, Passage, follow

@@ -12,12 +12,12 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.search import last_true, least_value
+from graphkin.solver.bounds import most_of
 from graphkin.solver.decimals import meant_value, working
-from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton, positions, touch
 from graphkin.solver.larger_groups import ClusterSolved
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
 from graphkin.structure import Cluster, Dyad, Structure, in_stages
 from graphkin.words import Phrase, Wording
@@ -179,12 +179,15 @@ HAIR, FAR_OFF = 1e-7, 1e2
 def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, Array]]:
     """For each group where it stands in a dead point, shape (n,); near one, where no bound is known, too."""
     dyads = [i for i, solved in state.groups.items() if isinstance(solved, DyadSolution)]
-    if state.bounds is not None and dyads:
-        lost = ~np.isfinite(sum(np.broadcast_to(b, (n,)) for b in state.bounds))
+    if dyads:
         sines = [np.broadcast_to(np.abs(state.groups[i].sine), (n,)) for i in dyads]  # type: ignore[union-attr]
         weakest = np.argmin(np.nan_to_num(sines, nan=0.0), axis=0)
+        # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
+        lost = np.any([~(sine >= WEAK) for sine in sines], axis=0)
+        if lost.any():
+            bound = most_of(state.bounds(structure, lost).values())
+            lost[lost] = ~np.isfinite(sum(bound))
         for k, i in enumerate(dyads):
-            # far from any dead point a bound is lost only by the length of a chain: there it is given as unknown
             yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
     for i, solved in state.groups.items():
         if isinstance(solved, DyadSolution):
@@ -277,7 +280,7 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
     group = structure.elements[i]
     assert isinstance(group, Dyad | Cluster)
     one = np.ones((1, len(scene.drivers)))
-    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, sure=False).groups[i]
+    solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, fine=False).groups[i]
     links = group_words(structure, group)
     if isinstance(solved, ClusterSolved):
         if not solved.residual[0] < OPEN:

@@ -7,6 +7,7 @@ from contextlib import AbstractContextManager
 from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOperation, Overflow, localcontext
 
 from graphkin.scene.model import Driver
+from graphkin.solver.pose import GIVEN
 
 __all__ = ["DIGITS", "PI", "cos_sin", "meant", "meant_angle", "meant_direction", "meant_value", "working"]
 
@@ -52,6 +53,19 @@ def meant_direction(z: complex) -> tuple[tuple[Decimal, Decimal], bool]:
         if max(abs(float(u[0]) - z.real), abs(float(u[1]) - z.imag)) < 4.5e-16:
             return u, True
     return (Decimal(z.real), Decimal(z.imag)), False
+
+
+def conversion_error(z: complex, direction: bool) -> tuple[float, float]:
+    """How far a place or a direction of the file may be off after its conversion from decimals and units: as floats,
+    and as the decimals that are taken to be meant."""
+    if direction:
+        (x, y), known = meant_direction(z)
+    else:
+        (x, known_x), (y, known_y) = meant(z.real), meant(z.imag)
+        known = known_x and known_y
+    if not known:
+        return GIVEN * abs(z), GIVEN * abs(z)
+    return max(abs(float(Decimal(z.real) - x)), abs(float(Decimal(z.imag) - y))), 0.0
 
 
 def cos_sin(angle: Decimal) -> tuple[Decimal, Decimal]:

@@ -21,8 +21,8 @@ from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
 from graphkin.solver.engine import SINGULAR
 from graphkin.solver.expressions import Name
 from graphkin.solver.pose import Array, turned
-from graphkin.solver.prepared import CLEAR, PreparedMechanism, bounds, formulas, prepare
-from graphkin.solver.program import GIVEN, program_of
+from graphkin.solver.prepared import CLEAR, PreparedMechanism, formulas, prepare
+from graphkin.solver.program import program_of
 from graphkin.structure import analyse
 
 __all__ = ["PreparedMechanisms"]
@@ -43,8 +43,6 @@ class _OpenCode:
         self.dimensioned = program_of(ready.structure, moving, names)
         program, structure = self.dimensioned.program, ready.structure
         asked = list(formulas(program, structure, ready.wanted, ready.units).values())
-        if ready.bounded:
-            asked += bounds(program, structure, ready.wanted, ready.units).values()
         self.fixed = {*ready.fixed, *names}
         fixed = {name for name in ready.fixed if name not in names}
         self.columns = Code(program.graph, asked, fixed, names)
@@ -87,13 +85,12 @@ class PreparedMechanisms:
     def _open(self) -> dict[Name, Array]:
         """Numbers of the formulas by name, for each design, where it changes them."""
         found: dict[Name, Array] = {}
-        ready, scene = self.ready, self.ready.structure.scene
+        ready = self.ready
         numbers = {name: (values, ready.dimensions[name]) for name, values in self.given.items()}
         for name, (values, old) in {**numbers, **self._guides}.items():
             kind, *rest = name
             if kind in ("rate", "second"):
                 found[name] = values.real
-                found["error", *name] = GIVEN * np.abs(values.real)
             elif kind == "value" and rest[0]:
                 k, u = rest[0], turned(values.real)
                 found["travel", k], found["cos", k], found["sin", k] = values.real, u.real, u.imag
@@ -101,10 +98,6 @@ class PreparedMechanisms:
                 for axis, part, was in (("x", values.real, old.real), ("y", values.imag, old.imag)):
                     if (part != was).any():
                         found[*name, axis] = part
-                found["error", *name] = GIVEN * np.abs(values)
-        for link in {name[1] for name in self.given if name[0] == "point"}:
-            points = [np.abs(self.given.get(("point", link, p), z)) for p, z in scene.by_name[str(link)].points.items()]
-            found["reach", link] = np.broadcast_to(np.max(np.broadcast_arrays(*points), axis=0), (self.count,))
         return found
 
     @cached_property
@@ -166,7 +159,7 @@ class PreparedMechanisms:
     def together(self) -> Array:
         """Designs that are computed together, shape (designs,)."""
         ready = self.ready
-        if not ready.whole or ready.signs is None:
+        if not ready.whole or ready.signs is None or ready.bounded:  # bounds are made of each mechanism by itself
             return np.zeros(self.count, dtype=bool)
         turn = (np.broadcast_to(x, (self.count, NODES)) for x in _nodes())
         seen = self._compute(self._code.checks, np.arange(self.count), *turn)
@@ -198,7 +191,7 @@ class PreparedMechanisms:
         ok : bool, shape (designs, n)
         values : of the first driver (rad, m), shape (n,), or (designs, n) where they differ
         """
-        out = np.zeros((len(self.ready.asked), self.count, n))
+        out = np.zeros((self.ready.rows, self.count, n))
         ok = np.repeat(self.together[:, None], n, axis=1)
         which = np.flatnonzero(self.together)
         if fast and n >= LOOP:
@@ -248,14 +241,14 @@ class PreparedMechanisms:
         ok, shape (designs,), and the values, shape () or (designs,)."""
         values = np.array(value) if value is not None else self._start if ("value", 0) in self.given else self._start[0]
         each = np.broadcast_to(values, (self.count,))
-        out, ok = np.zeros((len(self.ready.asked), self.count)), self.together.copy()
+        out, ok = np.zeros((self.ready.rows, self.count)), self.together.copy()
         which = np.flatnonzero(ok)
         if len(which):
             c, s = (x[:, None] for x in GivenValues(each[which]).turn)
             out[:, which] = self._compute(self._code.columns, which, c, s)[:, :, 0]
         for k in np.flatnonzero(~self.together).tolist():
             one = self._alone(k)
-            found = one.at(float(each[k])) if one is not None else None
-            if found is not None:
-                out[:, k], ok[k] = found, True
+            if one is not None:
+                columns, ok[k : k + 1] = one.columns(each[k : k + 1])
+                out[:, k] = columns[:, 0]
         return out, ok, np.asarray(values)

@@ -25,13 +25,14 @@ from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.bounds import Accuracy
 from graphkin.solver.cams import beginning
 from graphkin.solver.dead_points import singular, without_singular
-from graphkin.solver.drivers import Drive, UniformGrid, goal_values, own_values
+from graphkin.solver.drivers import UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.motion import Motion
-from graphkin.solver.pose import FIELDS, Array, ErrorBound, Pose, rest
-from graphkin.solver.redundant import all_slides, place_redundant
+from graphkin.solver.pose import FIELDS, Array, Drive, Pose, rest
+from graphkin.solver.redundant import all_slides, redundant_poses
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
@@ -447,7 +448,7 @@ def motion_of(
         blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
         own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
         return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
-    state = positions(structure, drive, forms, fine=fine, each=not fine)
+    state = positions(structure, drive, forms, fine=fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons: list[Wording] = ["" if g else why for g in good]
     if fine:
@@ -456,16 +457,14 @@ def motion_of(
         for _, dead in singular(structure, state, n):
             status[dead & good] = "dead point"
     ok = status == "ok"
-    assert state.bounds is not None
-    bound = ErrorBound(*(np.where(ok, b, np.nan) for b in state.bounds))
-    of_links = {name: ErrorBound(*(np.where(ok, b, np.nan) for b in own)) for name, own in state.each.items()}
-    rough = (np.where(ok, state.rough[0], np.nan), np.where(ok, state.rough[1], np.nan))
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().still(n)
-    place_redundant(structure, poses, ok, bound)
+    accuracy = Accuracy(structure, poses, state.drive, state.slack, state.refined, ok)
+    if any(link.redundant for link in structure.scene.links):
+        poses = {**poses, **redundant_poses(structure, poses, ok, accuracy.of(()))}
     slides = all_slides(structure)
-    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, bound, rough,
-                  partial(range_of, structure), bounds=of_links)  # fmt: skip
+    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, accuracy,
+                  partial(range_of, structure))  # fmt: skip
 
 
 def joined(blocks: Iterable[Motion], n: int) -> Motion:
@@ -480,8 +479,11 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
     for some in blocks:
         rows = slice(first, first + len(some))
         parts = {(name, f): np.broadcast_to(getattr(p, f), len(some)) for name, p in some.poses.items() for f in FIELDS}
-        parts |= {("bound", str(k)): b for k, b in enumerate((*some.bound, *some.rough))}
-        parts |= {("", "status"): some.status, ("", "values"): some.values}
+        known = some.accuracy
+        parts |= {("", "status"): some.status, ("", "values"): some.values, ("", "refined"): known.refined}
+        drive = known.drive
+        parts |= {("", "value"): drive.value, ("", "rate"): drive.rate, ("", "second"): drive.second}
+        parts |= {("", "slack"): known.slack, ("", "ok"): known.ok}
         if not columns:
             columns = {key: _Column(n) for key in parts}
         for key, values in parts.items():
@@ -490,16 +492,15 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
         first = rows.stop
     assert some is not None
     kept = {key: column.array for key, column in columns.items()}
-    numbers = [kept["bound", str(k)] for k in range(8)]
+    poses = {name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses}
+    drive = Drive(kept["", "value"], kept["", "rate"], kept["", "second"])
     return replace(
         some,
         values=kept["", "values"],
         status=kept["", "status"],
         reasons=tuple(reasons),
-        poses={name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses},
-        bound=ErrorBound(*numbers[:6]),
-        bounds={},
-        rough=(numbers[6], numbers[7]),
+        poses=poses,
+        accuracy=Accuracy(known.structure, poses, drive, kept["", "slack"], kept["", "refined"], kept["", "ok"]),
     )
 
 

@@ -11,43 +11,9 @@ import numpy as np
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.solver.pose import Array, turned
-from graphkin.structure import Structure
 from graphkin.words import Phrase
 
-__all__ = ["Drive", "GivenValues", "UniformGrid", "goal_values", "own_values", "quarter"]
-
-
-@dataclass(frozen=True)
-class Drive:
-    """Values of the drivers and their rates: arrays of shape (positions, drivers), SI."""
-
-    value: Array
-    rate: Array
-    second: Array
-
-    @classmethod
-    def at(cls, structure: Structure, value: Array) -> Drive:
-        """The drivers at these values, with the rates of the scene."""
-        given = np.array([d.values for d in structure.scene.drivers]).reshape(-1, 3)
-        shape = value.shape
-        return cls(value, np.broadcast_to(given[:, 1], shape), np.broadcast_to(given[:, 2], shape))
-
-    def __len__(self) -> int:
-        return len(self.value)
-
-    def followed(self, structure: Structure) -> Drive:
-        """With the columns of what follows the drivers by rolling."""
-        if self.value.shape[1] == len(structure.drivers):
-            return self
-        ratios = np.array([f.ratios for f in structure.followers]).T
-        own = np.array([d.values[0] for d in structure.scene.drivers])
-        start = np.array([f.values[0] for f in structure.followers])
-        columns = (self.value, start + (self.value - own) @ ratios), (self.rate, self.rate @ ratios)
-        return Drive(*(np.concatenate(pair, axis=1) for pair in (*columns, (self.second, self.second @ ratios))))
-
-    def __getitem__(self, which: Array | slice) -> Drive:
-        return Drive(self.value[which], self.rate[which], self.second[which])
-
+__all__ = ["GivenValues", "UniformGrid", "goal_values", "own_values", "quarter"]
 
 NEAR = 1e-14
 HALF_PI = math.pi / 2

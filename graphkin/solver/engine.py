@@ -1,7 +1,5 @@
 """All elements of a structure in their order, at many driver values at once; positions that 16 digits leave too rough,
-near dead points, are computed again in 50.
-
-Whether a group of two links closes, decided in fifty digits where sixteen cannot tell; and where it just does.
+near dead points, are computed again in 50; and in 50 digits whether a group of two links closes, where 16 cannot tell.
 
 The discriminant of a dyad is positive where it closes, zero where its two assemblies meet, negative where its links do
 not reach each other.  Beside it stands how far the digits that the file leaves open may move it: a number that is
@@ -11,28 +9,23 @@ written as a short decimal is taken to be that decimal.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from itertools import islice
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
-from graphkin.solver.cams import follower_inputs, greatest_jerk
+from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
+from graphkin.solver.cams import follower_inputs
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
-from graphkin.solver.drivers import Drive
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.expressions import Name, Real, Vec
-from graphkin.solver.pose import FIELDS, UNIT, Array, ErrorBound, Pose, rest, turned
-from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
-from graphkin.solver.rounding import Rounding
+from graphkin.solver.expressions import Name, Real, Rounding, Vec
+from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
+from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
+from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.structure import Cluster, Driven, Rolled, Structure, in_stages
-
-if TYPE_CHECKING:
-    from graphkin.solver.larger_groups import ClusterSolved
 
 __all__ = [
     "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "extended_precision_of", "group_at",
@@ -41,8 +34,8 @@ __all__ = [
 
 ROUGH = 1e-10
 """Relative bound of a rate above which a position is computed in more digits."""
-FEW_ROUNDINGS = 8
-"""Roundings in a result that is itself exact but for the last place."""
+CLEAR = 0.05
+"""Where the sines of all groups, multiplied, are greater than this no rate is rough."""
 
 
 def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
@@ -70,47 +63,19 @@ class ExtendedPrecision:
     second: Array
     signs: Mapping[Name, Array]
 
-    def place(self, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> None:
-        """Compute these positions in 50 digits, in ``columns`` of ``asked``."""
+    def place(self, rows: Array, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> Array:
+        """Compute some positions in 50 digits, in ``columns`` of ``asked``; those that can be, bool, shape (n,)."""
+        done = np.zeros(len(self.value), dtype=bool)
         with working():
-            for k in np.flatnonzero(known_exactly(self.drivers, self.value)).tolist():
-                self._put(k, asked, columns)
-
-    def _put(self, k: int, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> bool:
-        try:
-            row = [float(x) for x in self.row(k)]
-        except ArithmeticError:
-            return False
-        for x, column in zip(asked, columns, strict=True):
-            column[k] = complex(row.pop(0), row.pop(0)) if isinstance(x, Vec) else row.pop(0)
-        return True
-
-    def refine(self, asked: Sequence[Real | Vec], columns: Sequence[Array], links: int) -> None:
-        """Replace the rough positions in ``columns``: those of ``asked``, which begin with the fields of so many links
-        and end with their bounds."""
-        speed, push = (self._largest(columns, links, k) for k in (1, 2))
-        size = self.dimensioned.structure.scene.size
-        velocity, acceleration = columns[-5] + size * columns[-2], columns[-4] + size * columns[-1]
-        rough = ~(np.maximum(velocity / speed, acceleration / push) < ROUGH) | known_exactly(self.drivers, self.value)
-        with working():
-            for k in np.flatnonzero(rough).tolist():
-                if not self._put(k, asked, columns):
+            for k in np.flatnonzero(rows).tolist():
+                try:
+                    row = [float(x) for x in self.row(k)]
+                except ArithmeticError:
                     continue
-                one = [column[k : k + 1] for column in columns]
-                spin, bend = (max(float(np.abs(one[6 * n + f][0])) for n in range(links)) for f in (3, 5))
-                wide = [*(float(self._largest(one, links, f)[0]) for f in range(3)), 1.0, spin, bend]
-                for column, w in zip(columns[-6:], wide, strict=True):
-                    column[k] += FEW_ROUNDINGS * UNIT * w
-
-    def _largest(self, columns: Sequence[Array], links: int, order: int) -> Array:
-        """Largest place, velocity or acceleration, for points as far off as the mechanism is large."""
-        size = self.dimensioned.structure.scene.size
-        most = np.full(len(columns[0]), 1e-300)
-        for n in range(links):
-            own = columns[len(FIELDS) * n : len(FIELDS) * (n + 1)]
-            turning = (1.0, np.abs(own[3]), np.abs(own[5]) + own[3] ** 2)[order]
-            most = np.fmax(most, np.abs(own[2 * order]) + turning * size)
-        return most
+                for x, column in zip(asked, columns, strict=True):
+                    column[k] = complex(row.pop(0), row.pop(0)) if isinstance(x, Vec) else row.pop(0)
+                done[k] = True
+        return done
 
     def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, ...]:
         """What the code computes at position ``k``, or with drivers at other values."""
@@ -139,8 +104,6 @@ SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
 TINY = 1e-25
 """The same where the driver's distance from the dead point is known to fifty digits."""
-LOOKED_UP = 4 * GIVEN
-"""Relative error of what a law gives."""
 FEW = 4
 """As many positions are computed one by one in plain floats."""
 
@@ -153,22 +116,26 @@ class State:
     """The mechanism at n positions.
 
     poses : each link by its name, fields of shape (n,) or broadcasting to it
+    drive : of the drivers and what follows them, shape (n, drivers)
     groups : what each group gave, by its place among the elements
-    bounds : how far rounding may have moved any point of any link, and their turning; None where rates were left out
-    rough : bounds of velocity and acceleration, of points as far off as the mechanism is large, for a computation in 16
-        digits throughout, such as a drawing; greater where more digits were used
-    each : for each link how far rounding may have moved its points and its turning, where that was asked for
-    lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
+    refined : positions that were computed in 50 digits, shape (n,)
+    slack : how far lifts and what rolls may be off, as for ``error_bounds``
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
+    lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
     """
 
     poses: Mapping[str, Pose]
-    groups: Mapping[int, DyadSolution | ClusterSolved] = field(default_factory=dict)
-    bounds: ErrorBound[Array] | None = None
-    rough: tuple[Array, Array] = (_ZERO, _ZERO)
-    singular: Array = field(default_factory=lambda: np.full(1, SINGULAR))
+    drive: Drive
+    groups: Mapping[int, DyadSolution | ClusterSolved]
+    refined: Array
+    slack: Array
+    singular: Array
     lifted: Mapping[Name, Array] = field(default_factory=dict)
-    each: Mapping[str, ErrorBound[Array]] = field(default_factory=dict)
+
+    def bounds(self, structure: Structure, rows: Array) -> dict[str, ErrorBound[Array]]:
+        """How far each link may be off at some of the positions, bool, shape (n,)."""
+        poses = {name: pose.spread(len(self.drive)).rows(rows) for name, pose in self.poses.items()}
+        return error_bounds(structure, poses, self.drive[rows], self.slack[rows], self.refined[rows])
 
 
 def positions(
@@ -177,10 +144,8 @@ def positions(
     forms: Mapping[int, Array],
     upto: int | None = None,
     rates: bool = True,
-    sure: bool = True,
     fine: bool = True,
     known: dict[int, float] | None = None,
-    each: bool = False,
 ) -> State:
     """Solve every element at all positions of the drivers, each position afresh.
 
@@ -190,26 +155,24 @@ def positions(
     forms : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
-    rates : False leaves out velocity, acceleration and bounds
-    sure : False leaves out the bounds; with a larger group they need all elements, and are left out for fewer
-    fine : False leaves 16 digits where they are rough, and the bounds as they are there: for curves, and on the way
+    rates : False leaves out velocity and acceleration
+    fine : False leaves 16 digits where they are rough: for curves, and on the way
     known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
         lines; filled, so that what comes after needs no formulas from the start again
-    each : with bounds of each link, of a mechanism of dyads
 
     Returns
     -------
     State; at a position that cannot be assembled the discriminant of a group is negative and the poses mean nothing
     """
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, rates, sure and rates, fine, known)
-        return run.state(len(structure.elements) if upto is None else upto, each)
+        run = _Run(structure, drive, forms, rates, fine, known)
+        return run.state(len(structure.elements) if upto is None else upto)
 
 
 def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> ClusterSolved:
     """A larger group alone, by its place among the elements, with its rates; see ``positions``."""
     with np.errstate(all="ignore"):
-        run = _Run(structure, drive, forms, True, False)
+        run = _Run(structure, drive, forms, True)
         run.follow(which + 1)
         return run.clusters[which]
 
@@ -224,7 +187,7 @@ def extended_precision_of(
     """What computes some formulas of a mechanism of dyads in fifty digits, at positions of its drivers (its own), or at
     any values of them."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, drive or Drive.at(structure, own), forms, False, False)
+    run = _Run(structure, drive or Drive.at(structure, own), forms, False)
     program = run.dimensioned.program
     return run._extended(program.code(key, choose(program)))
 
@@ -238,25 +201,20 @@ class _Run:
         drive: Drive,
         forms: Mapping[int, Array],
         rates: bool,
-        sure: bool,
         fine: bool = True,
         known: dict[int, float] | None = None,
     ) -> None:
         drive = drive.followed(structure)
         self.structure, self.drive, self.forms = structure, drive, forms
-        self.rates, self.sure, self.fine, self.known = rates, sure, fine, known
+        self.rates, self.fine, self.known = rates, fine, known
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
-        most = np.abs(drive.value).max(axis=0, initial=0.0)
         self.rates_of: dict[Name, float] = {}
-        for k, wide in enumerate(most.tolist()):
-            for name, value in (("rate", float(self.rate[k])), ("second", float(self.second[k]))):
-                self.rates_of[name, k] = value
-                self.rates_of["error", name, k] = GIVEN * abs(value)
-            self.rates_of["error", "angle", k] = GIVEN / 2 * wide + UNIT
-            self.rates_of["error", "travel", k] = GIVEN * wide
+        for k, rates_here in enumerate(zip(self.rate.tolist(), self.second.tolist(), strict=True)):
+            self.rates_of["rate", k], self.rates_of["second", k] = rates_here
         self.clusters: dict[int, ClusterSolved] = {}
+        self.slack: list[Array] = []
         self.given = self._drivers()
 
     def _drivers(self) -> dict[Name, Array]:
@@ -283,32 +241,17 @@ class _Run:
             elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
                 self._roll(i, element.driver)
 
-    def state(self, upto: int, each: bool = False) -> State:
+    def state(self, upto: int) -> State:
         self.follow(upto)
-        elements = self.structure.elements[:upto]
+        elements, drivers = self.structure.elements[:upto], self.structure.drivers
         program = self.dimensioned.program
         names = [n for e in elements for n in e.members]
         dyads = [i for i in self.structure.dyads if i < upto]
         parts = ("discriminant", "sine", *(("e1", "e2", "right_side") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
-        followed = self.sure and not self.clusters
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
-        each = each and followed
-        asked += [bound for n in names for bound in program.bounds.of_link(n)] if each else []
-        asked += [*program.bounds(names)] if followed else []
-        columns = self._values((upto, self.rates, followed, each), asked)
-        size = self.structure.scene.size
-        rough = _rough(columns[-6:], size) if followed else (_ZERO, _ZERO)
-        fine = np.zeros(self.n, dtype=bool)
-        if names and not in_stages(elements):
-            fine = known_exactly(self.structure.drivers, self.drive.value)
-            if (followed and self.fine) or fine.any():
-                extended = self._extended(program.code((upto, self.rates, followed, each), _reals(asked)))
-                if followed and self.fine:
-                    extended.refine(asked, columns, len(names))
-                else:
-                    extended.place(asked, columns)
+        columns = self._values((upto, self.rates), asked)
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
@@ -319,30 +262,42 @@ class _Run:
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr, arg-type]
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
-        of_links = {n: ErrorBound(*(_sure(b) for b in islice(values, 6))) for n in names} if each else {}
-        found = list(values)
-        sure = self.sure and (not self.clusters or upto >= len(self.structure.elements))
-        if sure and self.clusters:
-            from graphkin.solver.group_errors import bounds as bounds_together
-
-            residuals = np.concatenate([self.clusters[i].rolling_residuals for i in sorted(self.clusters)], axis=1)
-            found = [*bounds_together(self.structure, poses, self.drive, self._known, residuals)]
-            rough = _rough(found, size)
-        bounds = ErrorBound(*(_sure(b) for b in found)) if sure else None
+        exact, none = np.zeros(self.n, dtype=bool), np.zeros((self.n, 0))
+        slack = np.concatenate([none, *self.slack], axis=1)
+        if names and not in_stages(elements):
+            exact = known_exactly(drivers, self.drive.value)
         count = len(self.structure.scene.drivers)
         rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
         kinds = ("lift", "rolled")
         lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] in kinds}
-        return State(poses, dict(sorted(groups.items())), bounds, rough, np.where(fine, TINY, SINGULAR), lifted,
-                     of_links)  # fmt: skip
+        state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), slack,
+                      np.where(exact, TINY, SINGULAR), lifted)  # fmt: skip
+        again = exact
+        if names and self.fine and self.rates and upto == len(self.structure.elements) and not in_stages(elements):
+            again = exact | self._rough(state)
+        if not again.any():
+            return state
+        # the columns are those of the poses
+        extended = self._extended(program.code((upto, self.rates), _reals(asked)))
+        return replace(state, refined=extended.place(again, asked, columns))
+
+    def _rough(self, state: State) -> Array:
+        """Positions whose rates sixteen digits leave rough."""
+        sines = [np.broadcast_to(g.sine, (self.n,)) for g in state.groups.values() if isinstance(g, DyadSolution)]
+        rough = ~(np.abs(np.prod(sines, axis=0)) > CLEAR) & bool(sines)
+        if rough.any():
+            bound = most_of(state.bounds(self.structure, rough).values())
+            poses = {name: pose.spread(self.n).rows(rough) for name, pose in state.poses.items()}
+            rough[rough] = ~(roughness(self.structure, poses, bound) < ROUGH)
+        return np.asarray(rough)
 
     def _lift(self, i: int, cam: LawCam) -> None:
         """Look up where a cam holds its follower, by the cam's own turning."""
         (turn,) = self._values(("cam", i), [self.dimensioned.program.poses[cam.link].u])
-        self.rates_of["lift", cam.link, "jerk"] = greatest_jerk(cam.law)
-        for part, column in follower_inputs(cam, np.broadcast_to(turn, (self.n,))).items():
+        inputs = follower_inputs(cam, np.broadcast_to(turn, (self.n,)))
+        for part, column in inputs.items():
             self.given["lift", cam.link, part] = np.ascontiguousarray(column)
-            self.rates_of["error", "lift", cam.link, part] = LOOKED_UP * float(np.abs(column).max(initial=0.0))
+        self.slack.append(LOOKED_UP * np.abs(inputs.get("travel", np.ones(self.n)))[:, None])
 
     def _roll(self, i: int, rolled: Rolled) -> None:
         """How far what a link rolls on has turned or gone since the scene's own position, whole turns as the form of
@@ -354,32 +309,32 @@ class _Run:
             guide = None if slide is None else program.guide(slide)
             asked.append(program.poses[name].u if slide is None or guide is None
                          else ((program.poses[slide.a].z - guide.z) * guide.u.conjugate()).real)  # fmt: skip
-        value, wide = np.full(self.n, rolled.start), abs(rolled.start)
+        value = np.full(self.n, rolled.start)
+        wide = np.abs(value) + 1.0 * rolled.turns
         for k, (found, (_, factor)) in enumerate(zip(self._values(("rolled", i), asked), rolled.factors, strict=True)):
             at = np.broadcast_to(found, (self.n,))
             if np.iscomplexobj(at):
                 angle, near = np.angle(at), form[:, 2 * k + 1]
                 at = angle + 2 * np.pi * np.rint((near - angle) / (2 * np.pi))
-            moved = factor * (at - form[:, 2 * k])
-            value, wide = value + moved, wide + float(np.abs(moved).max(initial=0.0))
+            # by how far it has moved since the scene's own position; either may be off
+            since = form[:, 2 * k]
+            value, wide = value + factor * (at - since), wide + abs(factor) * (np.abs(at) + np.abs(since))
         u = turned(value)
         parts = {"cos": u.real, "sin": u.imag} if rolled.turns else {"travel": value}
         for part, column in parts.items():
             self.given["rolled", rolled.key, part] = np.ascontiguousarray(column)
-            self.rates_of["error", "rolled", rolled.key, part] = LOOKED_UP * (wide + 1.0 * rolled.turns)
+        self.slack.append(LOOKED_UP * wide[:, None])
 
     def _together(self, i: int, group: Cluster) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""
-        from graphkin.solver.larger_groups import solve_cluster
-
         program = self.dimensioned.program
-        known = [n for n in self.structure.links if n in _ends(group) and n in program.poses]
-        known = [n for n in known if n not in group.members and n != self.structure.scene.frame.name]
+        known = [n for n in self.structure.links if n in group.outside and n != self.structure.scene.frame.name]
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
         poses[self.structure.scene.frame.name] = rest()
         solved = solve_cluster(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
         self.clusters[i] = solved
+        self.slack.append(solved.rolling_residuals)
         for name in group.members:
             pose = solved.poses[name]
             for f in FIELDS:
@@ -443,16 +398,6 @@ def _pose(given: Mapping[str, Array]) -> Pose:
     return Pose(**{**still, **given})
 
 
-def _rough(bounds: Sequence[Array], size: float) -> tuple[Array, Array]:
-    _, velocity, acceleration, _, omega, alpha = bounds
-    return _sure(np.maximum(velocity, size * omega)), _sure(np.maximum(acceleration, size * alpha))
-
-
-def _sure(bound: Array) -> Array:
-    """A bound, infinite where it is not known."""
-    return np.asarray(np.where(np.isnan(bound), np.inf, bound * SLACK))
-
-
 def _reals(asked: Sequence[Real | Vec]) -> list[Real]:
     return [x for one in asked for x in ((one.real, one.imag) if isinstance(one, Vec) else (one,))]
 
@@ -463,17 +408,7 @@ def _as_asked(asked: Sequence[Real | Vec], columns: Iterable[Array]) -> list[Arr
     return [next(rest) + 1j * next(rest) if isinstance(x, Vec) else next(rest) for x in asked]
 
 
-def _ends(group: Cluster) -> set[str]:
-    found = {end for pair in group.pairs for end in (pair.a, pair.b)}
-    for driver in group.drivers:
-        found |= {*driver.links}
-    for relation in group.rolling:
-        found |= {*relation.links}
-    return found
-
-
-# -- whether a group of two links closes, decided in fifty digits where sixteen cannot tell; and where it --------------
-
+# whether a dyad closes
 
 SMALL = Decimal(10) ** -20
 BESIDE = Decimal("1e-5")
@@ -518,7 +453,17 @@ class Discriminant:
 
 def _with_doubt(program: Program, i: int) -> list[Real]:
     found = program.groups[i].discriminant
-    return [found, Rounding(program.graph, program.bounds.error_of, program.bounds.unit).of(found)]
+    return [found, Rounding(program.graph, _given_error, program.graph.param(("unit",))).of(found)]
+
+
+def _given_error(x: Real) -> Real:
+    """How far a number that is given may be off."""
+    name = x.line[1]
+    if name[0] in ("size", "sign", "unit"):
+        return x.graph.const(0)
+    if name[0] in ("cos", "sin"):
+        return x.graph.param(("error", "angle", name[1]))
+    return x.graph.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
 
 
 def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:

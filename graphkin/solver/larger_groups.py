@@ -10,19 +10,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.solver.drivers import Drive
 from graphkin.solver.linear_blocks import solve_all
-from graphkin.solver.pose import FIELDS, UNIT, Array, Pose, rest, together, turned
+from graphkin.solver.pose import FIELDS, UNIT, Array, Drive, Pose, rest, together, turned
 from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure
+from graphkin.structure.model import Coordinate
 
-__all__ = ["ClusterSolved", "System", "as_place", "form_of", "joint_place", "solve_cluster"]
+__all__ = [
+    "ClusterSolved", "Ends", "Layout", "System", "as_place", "form_of", "joint_place", "led_relation", "solve_cluster",
+]  # fmt: skip
 
-class _Ends(NamedTuple):
+
+class Ends(NamedTuple):
     """One side of some joints: columns of their links, place and direction of the joint's frame in the link's axes."""
 
     link: Array
@@ -101,8 +105,9 @@ class Layout:
         self.relations_end = self.members + len(weights)
         row += len(weights)
         self.rows = row
-        self.turns = [self._ends(structure, [(p, getattr(p, side)) for _, p in turns]) for side in "ab"]
-        self.lines = [self._ends(structure, [(p, getattr(p, side)) for _, p, _ in lines]) for side in "ab"]
+        self.turn_pairs, self.line_pairs = [p for _, p in turns], [p for _, p, _ in lines]
+        self.turns = [self._ends(structure, [(p, getattr(p, side)) for p in self.turn_pairs]) for side in "ab"]
+        self.lines = [self._ends(structure, [(p, getattr(p, side)) for p in self.line_pairs]) for side in "ab"]
         self.turn_rows = np.array([r for r, _ in turns], dtype=int)
         self.slide_rows = np.array(slides, dtype=int)
         self.line_rows = np.array([r for r, _, _ in lines], dtype=int)
@@ -135,15 +140,15 @@ class Layout:
         for relation in group.rolling:
             yield from relation.links
 
-    def _ends(self, structure: Structure, joints: Sequence[tuple[Pair, str]]) -> _Ends:
+    def _ends(self, structure: Structure, joints: Sequence[tuple[Pair, str]]) -> Ends:
         frames = [joint_place(structure, pair, link) for pair, link in joints]
-        return _Ends(
+        return Ends(
             np.array([self.link[link] for _, link in joints], dtype=int),
             np.array([place for place, _ in frames], dtype=complex),
             np.array([direction for _, direction in frames], dtype=complex),
         )
 
-    def _entries(self, ends: _Ends, rows: Array, sense: float) -> _Entries:
+    def _entries(self, ends: Ends, rows: Array, sense: float) -> _Entries:
         own = np.flatnonzero(ends.link < self.members)
         return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
 
@@ -166,6 +171,15 @@ ROUGH = 1e-13
 """While more than this of a constraint is open, a step may make it more for once."""
 
 
+def led_relation(element: Driven) -> RollingRelation:
+    """How a link goes as those that it rolls on; of the follower of a cam what it goes by itself."""
+    pair, rolled = element.pair, element.rolled
+    own: Coordinate = ("angle", element.link) if pair.turns else ("travel", pair.key)
+    factors = rolled.factors if rolled else ()
+    terms = {own: Fraction(1), **{coordinate: Fraction(-factor) for coordinate, factor in factors}}
+    return RollingRelation(f"{element.link} led", terms, rolled.links if rolled else (element.link, *pair.links))
+
+
 @dataclass(frozen=True)
 class System:
     """The constraints of a group at n positions of what it hangs on.
@@ -184,28 +198,24 @@ class System:
     kept: Array | None = None
 
     @cached_property
-    def _layout(self) -> Layout:
+    def layout(self) -> Layout:
+        """What stands where."""
         return layout_of(self.structure, self.group)
 
     @cached_property
     def _outside(self) -> Pose:
         """The links that the group hangs on."""
-        layout = self._layout
+        layout = self.layout
         return together([self.known[name] for name in layout.names[layout.members :]], len(self.drive))
 
     @classmethod
     def whole(cls, structure: Structure, drive: Drive) -> System:
-        """The constraints of all links together."""
+        """The constraints of all links together; of a follower of a cam its own part alone."""
         pairs: list[Pair] = []
         rolling: list[RollingRelation] = []
         for e in structure.elements:
-            if isinstance(e, Driven):
-                pairs.append(e.pair)
-            elif isinstance(e, Dyad):
-                pairs += [e.outer_first, e.inner, e.outer_second, *(w.pair for body in e.bodies for w in body.welds)]
-            else:
-                pairs += e.pairs
-                rolling += e.rolling
+            pairs += [*e.pairs, *(weld.pair for weld in e.welds)] if isinstance(e, Dyad) else e.pairs
+            rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
         frame = structure.scene.frame.name
         members = tuple(name for name in structure.links if name != frame)
         every = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
@@ -223,8 +233,8 @@ class System:
     def at(self, place: Array, rate: Array | None = None, second: Array | None = None) -> Pose:
         """All links from the members' places, rates and second rates, each of shape (n, members, 3)."""
         angle, out = place[:, :, 2], self._outside
-        u = np.empty((len(place), len(self._layout.names)), dtype=complex)
-        z, count = np.empty_like(u), self._layout.members
+        u = np.empty((len(place), len(self.layout.names)), dtype=complex)
+        z, count = np.empty_like(u), self.layout.members
         z.real[:, :count], z.imag[:, :count] = place[:, :, 0], place[:, :, 1]
         np.cos(angle, out=u.real[:, :count])
         np.sin(angle, out=u.imag[:, :count])
@@ -258,7 +268,7 @@ class System:
 
     def rolling_from(self, start: Array) -> System:
         """With the turns and the sums that starting places tell, see ``form_of``."""
-        layout = self._layout
+        layout = self.layout
         if not len(layout.rolling_rows):
             return self
         near = np.zeros((len(start), len(layout.names)))
@@ -268,7 +278,7 @@ class System:
 
     def with_turns(self, place: Array) -> Array:
         """Places of the group with the sums that rolling keeps, and the turns of the links outside, see ``form_of``."""
-        layout = self._layout
+        layout = self.layout
         if not len(layout.rolling_rows):
             return place
         assert self.kept is not None
@@ -279,8 +289,8 @@ class System:
 
     def slope(self, poses: Mapping[str, Pose]) -> Array:
         """Rates of what ``form_of`` tells, shape (rows, 3), at the first position."""
-        names = [*self.group.members, *("" for _ in self._layout.rolling_rows)]
-        names += [self._layout.names[k] for k in self._layout.outside]
+        names = [*self.group.members, *("" for _ in self.layout.rolling_rows)]
+        names += [self.layout.names[k] for k in self.layout.outside]
         moved = [poses[k] if k else rest() for k in names]
         rows = np.array([[p.v.real[0], p.v.imag[0], p.omega[0]] for p in moved])
         rows[len(self.group.members) :, :2] = 0.0
@@ -292,7 +302,7 @@ class System:
 
     def constraints(self, all_: Pose, order: int = 2) -> Array:
         """Each constraint and its rates up to the order, with lengths in the size, shape (order + 1, n, rows)."""
-        layout, drive = self._layout, self.drive
+        layout, drive = self.layout, self.drive
         size = layout.size
         found = np.empty((order + 1, len(drive), layout.rows))
         found[:, :, layout.rolling_rows] = 0.0
@@ -335,7 +345,7 @@ class System:
 
     def matrix(self, all_: Pose) -> Array:
         """Derivative of the constraints by (x / size, y / size, angle) of each member, shape (n, rows, columns)."""
-        layout = self._layout
+        layout = self.layout
         found = np.repeat(layout.same[None], len(self.drive), axis=0)
         for ends, (joint, row, column, sense) in zip(layout.turns, layout.turn_entries, strict=True):
             if len(joint):
@@ -410,7 +420,7 @@ class ClusterSolved:
     @cached_property
     def rolling_residuals(self) -> Array:
         """How far what rolls may be off: what is still open, and the rounding of its turns; shape (n, relations)."""
-        system, layout = self.system, self.system._layout
+        system, layout = self.system, self.system.layout
         if not len(layout.rolling_rows):
             return np.zeros((len(self.residual), 0))
         assert system.kept is not None
@@ -485,7 +495,7 @@ def form_of(structure: Structure, group: Cluster, poses: Mapping[str, Pose]) -> 
         return np.asarray(place[0])
     all_ = system.at(place)
     system = replace(system, near=np.angle(all_.u), kept=np.zeros((1, len(group.rolling))))
-    kept = system.constraints(all_, 0)[0][:, system._layout.rolling_rows]
+    kept = system.constraints(all_, 0)[0][:, system.layout.rolling_rows]
     return np.asarray(replace(system, kept=kept).with_turns(place)[0])
 
 

@@ -6,15 +6,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphkin.solver.pose import Array
 from graphkin.structure.groups import components, match
 
 __all__ = ["LinearBlocks", "solve_all"]
 
+Array = NDArray[Any]
 Entry = float | Array
 DEAD = 1e-10
 """A block of entries of order 1 whose inverse is greater than 1 / DEAD has no answer."""

@@ -22,10 +22,10 @@ from graphkin.solver.assemblies import choose_forms, new_places
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
 from graphkin.solver.decimals import meant_value, working
-from graphkin.solver.drivers import Drive, own_values
+from graphkin.solver.drivers import own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, Drive
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, mobility_of, pick
@@ -154,7 +154,7 @@ def with_sensible_slots(structure: Structure) -> Structure:
     (some, state), scene = found[0], structure.scene
     sketch = dict(scene.sketch)
     for k in some:
-        sketch |= new_places(structure, k, structure.elements[k].members, state)
+        sketch |= new_places(structure, k, structure.elements[k].members, state.poses)
     return analyse(replace(scene, sketch=sketch))
 
 
@@ -196,7 +196,7 @@ def _reached(structure: Structure, turned: Mapping[int, bool]) -> State | None:
             return None
         try:
             index = 0 if dyad.is_two_lines else pick(
-                structure.scene, dyad.links, [new_places(structure, i, dyad.links, one) for one in both], 0
+                structure.scene, dyad.links, [new_places(structure, i, dyad.links, one.poses) for one in both], 0
             ).index  # fmt: skip
         except GraphkinError:
             return None
@@ -225,7 +225,7 @@ def at_given_speed(structure: Structure) -> Structure:
     name, speed = driver.given_speed
     own = own_values(scene)[None]
     forms = {i: f[None] for i, f in choose_forms(structure).items()}
-    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), forms, sure=False)
+    state = positions(structure, Drive(own, np.ones((1, 1)), np.zeros((1, 1))), forms, fine=False)
     ref = PointRef(name)
     holder = next(link for link in scene.holders[ref.point] if link != scene.frame.name)
     pose = state.poses[holder]

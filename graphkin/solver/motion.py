@@ -21,6 +21,7 @@ from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
+from graphkin.solver.bounds import Accuracy
 from graphkin.solver.pose import Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, pole, value_of_symbol
 from graphkin.structure import Pair, Structure
@@ -68,10 +69,8 @@ class Motion:
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
     slides : the sliding pairs and pins in slots, those of redundant links included
     assembly : for each group, in the order of ``structure.groups``, which assembly was taken
-    bound : how far rounding may have moved any point, and the angles of links and their rates; NaN where not ok
-    rough : what the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is
+    accuracy : from what the bounds of its errors are made
     reach : finds the range of the first driver; raises Unsolvable where there is none
-    bounds : the same of each link alone, along curves of a mechanism of dyads; else empty
     passed : the change points on the way here from the scene's own position
     turned : over a sweep how far each link has turned since its start, to a few degrees (rad): tells whole turns
     onward : in a later block of a sweep, for each link the angle from which it goes on (rad), less what is ``turned``
@@ -84,12 +83,10 @@ class Motion:
     poses: Mapping[str, Pose]
     slides: tuple[Pair, ...]
     assembly: tuple[Phrase, ...]
-    bound: ErrorBound[Array]
-    rough: tuple[Array, Array]
+    accuracy: Accuracy
     reach: Callable[[], Reach]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
-    bounds: Mapping[str, ErrorBound[Array]] = field(default_factory=dict)
     onward: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
@@ -123,9 +120,7 @@ class Motion:
             status=self.status[rows],
             reasons=self.reasons[rows],
             poses={name: pose.rows(rows) for name, pose in self.poses.items()},
-            bound=ErrorBound(*(b[rows] for b in self.bound)),
-            bounds={name: ErrorBound(*(b[rows] for b in own)) for name, own in self.bounds.items()},
-            rough=(self.rough[0][rows], self.rough[1][rows]),
+            accuracy=self.accuracy.rows(rows),
             turned={},
             onward={},
         )
@@ -249,13 +244,23 @@ class Motion:
         }  # fmt: skip
         return {measure: np.where(bound <= SLIGHT * whole, bound, 0.0) for measure, (bound, whole) in pairs.items()}
 
-    def bound_of(self, links: Iterable[str]) -> ErrorBound[Array]:
-        """How far rounding may have moved any of these links; any link at all where that is not known of each."""
-        held = [self.bounds.get(name) for name in links if name != self.scene.frame.name]
-        found = [bound for bound in held if bound is not None]
-        if not found or len(found) < len(held):
-            return self.bound
-        return ErrorBound(*(np.maximum.reduce(some) for some in zip(*found, strict=True)))
+    @cached_property
+    def bound(self) -> ErrorBound[Array]:
+        """How far rounding may have moved any point, and the angles of links and their rates; NaN where not ok."""
+        return self.accuracy.of(())
+
+    @cached_property
+    def rough(self) -> tuple[Array, Array]:
+        """What the bounds of velocity and acceleration would be if all were computed in 16 digits, as a drawing is, for
+        points as far off as the mechanism is large."""
+        return self.rough_of(())[1:]
+
+    def rough_of(self, links: Iterable[str]) -> tuple[Array, Array, Array]:
+        """The same of some links, and of their places."""
+        size, off = self.accuracy.structure.scene.size, self.accuracy.of(links, drawn=True)
+        return (
+            off.position, np.maximum(off.velocity, size * off.omega), np.maximum(off.acceleration, size * off.alpha)
+        )
 
     def value(self, symbol: Symbol) -> Array:
         """A quantity by its symbol: complex for vectors, real for others (m, rad, rad/s, rad/s2), shape (n,).

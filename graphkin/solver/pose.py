@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.plane import Values
+from graphkin.structure import Structure
 
-__all__ = ["FIELDS", "UNIT", "Array", "ErrorBound", "Number", "Pose", "rest", "together", "turned"]
+__all__ = ["FIELDS", "UNIT", "Array", "Drive", "ErrorBound", "Number", "Pose", "rest", "together", "turned"]
 
 Array = NDArray[Any]
 
@@ -149,8 +150,8 @@ class Pose(Generic[V, R]):
         fields = (self.z, self.u, self.v, self.omega, self.a, self.alpha)
         return Pose(*(np.broadcast_to(np.ravel(x)[0], (n,)) for x in fields))
 
-    def rows(self: Pose, rows: slice) -> Pose:
-        """The same at some positions, in the same memory."""
+    def rows(self: Pose, rows: slice | Array) -> Pose:
+        """The same at some positions; of a slice in the same memory."""
         return Pose(*(x[rows] for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)))
 
     def where(self: Pose, ok: Array) -> Pose:
@@ -196,6 +197,9 @@ def turned(angle: Array) -> Array:
     return u
 
 UNIT = 2.0**-53
+"""How far one rounding may move a number, relatively."""
+GIVEN = 3 * UNIT
+"""Relative error of a number of the file after its conversion from decimals and units."""
 
 
 @dataclass(frozen=True)
@@ -254,3 +258,35 @@ class ErrorBound(Generic[R]):
             + r * (self.alpha + bend * self.angle + (2.0 * spin + self.omega) * self.omega)
             + few * (push + bend * r),
         )
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Values of the drivers and their rates: arrays of shape (positions, drivers), SI."""
+
+    value: Array
+    rate: Array
+    second: Array
+
+    @classmethod
+    def at(cls, structure: Structure, value: Array) -> Drive:
+        """The drivers at these values, with the rates of the scene."""
+        given = np.array([d.values for d in structure.scene.drivers]).reshape(-1, 3)
+        shape = value.shape
+        return cls(value, np.broadcast_to(given[:, 1], shape), np.broadcast_to(given[:, 2], shape))
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def followed(self, structure: Structure) -> Drive:
+        """With the columns of what follows the drivers by rolling."""
+        if self.value.shape[1] == len(structure.drivers):
+            return self
+        ratios = np.array([f.ratios for f in structure.followers]).T
+        own = np.array([d.values[0] for d in structure.scene.drivers])
+        start = np.array([f.values[0] for f in structure.followers])
+        columns = (self.value, start + (self.value - own) @ ratios), (self.rate, self.rate @ ratios)
+        return Drive(*(np.concatenate(pair, axis=1) for pair in (*columns, (self.second, self.second @ ratios))))
+
+    def __getitem__(self, which: Array | slice) -> Drive:
+        return Drive(self.value[which], self.rate[which], self.second[which])

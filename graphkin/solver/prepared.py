@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import cast
 
 import numpy as np
 
@@ -15,23 +14,23 @@ from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.solver.bounds import FrameError
+from graphkin.solver.bounds import error_bounds
 from graphkin.solver.code import LONG, Code, Kernel
 from graphkin.solver.dead_points import singular
 from graphkin.solver.driver_range import DriverRange, range_of
-from graphkin.solver.drivers import Drive, GivenValues, UniformGrid, quarter
+from graphkin.solver.drivers import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import SINGULAR, positions
-from graphkin.solver.expressions import Name, Real, Vec, fmax
+from graphkin.solver.engine import SINGULAR, State, positions
+from graphkin.solver.expressions import Name, Real, Vec
 from graphkin.solver.forces import forces_of
 from graphkin.solver.mobility import structure_of
-from graphkin.solver.pose import FIELDS, UNIT, Array, turned
-from graphkin.solver.program import GIVEN, SLACK, DimensionedProgram, Program, program_of
-from graphkin.solver.quantities import VALUES, Posed
+from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
+from graphkin.solver.program import DimensionedProgram, Program, program_of
+from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure, in_stages
 from graphkin.words import Phrase
 
-__all__ = ["Column", "PreparedMechanism", "Units", "bounds", "force_heads", "force_rows", "formulas", "prepare"]
+__all__ = ["Column", "PreparedMechanism", "Units", "force_heads", "force_rows", "formulas", "prepare"]
 
 CHUNK = 16384  # positions in a piece, so that all columns of one stay in the cache
 PRODUCTS = 4
@@ -47,10 +46,11 @@ class PreparedMechanism:
     """A mechanism with its assembly followed over the range of its first driver, and the code for what is asked.
 
     names : of the columns, two for a vector ("v_B.x", "v_B.y")
-    asked : their formulas, with those of bounds after them
+    asked : their formulas, but for those of loads
     wanted : what was asked for by name
     units : what one metre, one radian and one metre in rates are in the units of the columns
-    bounded : whether bounds were asked for
+    bounded : whether columns of bounds stand after all others, one for each name; they are made from the constraints of
+        all links, some hundred times slower than the values
     loads : forces and moments that were asked for, by name: the last of the names, solved position by position as they
         have no closed form, some hundred times slower
     """
@@ -141,24 +141,25 @@ class PreparedMechanism:
 
     @cached_property
     def _held(self) -> dict[Name, float]:
-        """Units, rates of the drivers, values of those but the first; and how far each of these may be off."""
+        """Units, rates of the drivers, and values of those but the first."""
         held: dict[Name, float] = dict(zip(_PER, self.units, strict=True))
         count = len(self.structure.scene.drivers)
         for k, driver in enumerate(self.structure.drivers):
             _, rate, second = driver.values
             held["rate", k], held["second", k] = rate, second
-            held["error", "rate", k], held["error", "second", k] = GIVEN * abs(rate), GIVEN * abs(second)
-            if k < count:
-                far = abs(self.range.start[k]) + (0.0 if k else abs(self.range.wide))
-            else:  # what rolls goes as far as its ratios make it
-                ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(count) == 0)
-                far = abs(driver.values[0]) + float(np.abs(driver.ratios or (0.0,)) @ ends)
-            held["error", "angle", k] = GIVEN * far + PRODUCTS * UNIT
-            held["error", "travel", k] = GIVEN * far
             if 0 < k < count:
                 u = complex(turned(self.range.start[k : k + 1])[0])
                 held["cos", k], held["sin", k], held["travel", k] = u.real, u.imag, float(self.range.start[k])
         return held
+
+    @cached_property
+    def _value_errors(self) -> Array:
+        """How far the values of the drivers, and of what follows them, may be off over the range, shape (drivers,)."""
+        scene = self.structure.scene
+        ends = np.abs(self.range.start) + abs(self.range.wide) * (np.arange(len(scene.drivers)) == 0)
+        followers = [abs(d.values[0]) + float(np.abs(d.ratios) @ ends) for d in self.structure.followers]
+        turning = np.array([d.turns for d in self.structure.drivers])
+        return np.asarray(GIVEN * np.array([*ends, *followers]) + PRODUCTS * UNIT * turning)
 
     @cached_property
     def _code(self) -> Code:
@@ -200,7 +201,7 @@ class PreparedMechanism:
 
     def at(self, value: float) -> tuple[float, ...] | None:
         """The asked quantities at one value of the first driver, in plain floats; None where there is no such position
-        or it is a dead point."""
+        or it is a dead point.  With loads the bounds come after them."""
         return self._by_columns(value) if self.loads else self._one(value)
 
     @cached_property
@@ -256,13 +257,10 @@ class PreparedMechanism:
         return {("sign", i): form for i, form in self._forms_at(value).items() if form.ndim == 1}
 
     def _poses_by_newton(self, value: Array, ok: Array) -> dict[Name, Array]:
-        """Inputs of the formulas that come from larger groups, and the bounds of all; positions that are in none of
-        their assemblies are no longer ok."""
-        drivers = np.repeat(self.range.start[None], len(value), axis=0)
+        """Inputs of the formulas that come from larger groups; positions that are in none of their assemblies are no
+        longer ok."""
         # positions out of reach are computed at one that is not
-        drivers[:, 0] = np.where(ok, value, value[int(np.argmax(ok))])
-        forms = self._forms_at(drivers[:, 0])
-        state = positions(self.structure, Drive.at(self.structure, drivers), forms)
+        state = self._state(np.where(ok, value, value[int(np.argmax(ok))]))
         for _, dead in singular(self.structure, state, len(value)):
             ok &= ~dead
         given: dict[Name, Array] = {}
@@ -271,9 +269,8 @@ class PreparedMechanism:
                 part = np.broadcast_to(getattr(state.poses[name], field), value.shape)
                 given["pose", name, field, "x"] = np.ascontiguousarray(part.real)
                 given["pose", name, field, "y"] = np.ascontiguousarray(part.imag)
-        assert state.bounds is not None
-        given |= state.lifted
-        return given | {("bound", k): np.broadcast_to(b, value.shape) for k, b in enumerate(state.bounds)}
+        given.update(state.lifted)
+        return given
 
     # many
 
@@ -294,7 +291,11 @@ class PreparedMechanism:
     @cached_property
     def clear(self) -> bool:
         """Whether there is nothing to be looked at: a whole turn of one assembly, far from every dead point."""
-        return self.whole and self._even and self.signs is not None and not self.loads
+        return self._regular and not self.loads and not self.bounded
+
+    @cached_property
+    def _regular(self) -> bool:
+        return self.whole and self._even and self.signs is not None
 
     def columns(self, values: Array, out: Array | None = None, fast: bool = False) -> tuple[Array, Array]:
         """The asked quantities at many values of the first driver.
@@ -320,9 +321,25 @@ class PreparedMechanism:
         return out, self._all(GivenValues(values), out, fast)
 
     def _all(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
-        n = len(way)
+        """All columns: those of formulas, below them forces and moments, at last the bounds of both."""
+        count, n = len(self.asked), len(way)
+        ok = self._formulas(way, out[:count], fast) if count or not self.loads else self._reached(way.values)
+        if not self.loads and not self.bounded:
+            return ok
+        bounds = out[len(self.names) :]
         if self.loads:
-            return self._with_loads(way, out)
+            rows, of_loads, solved = force_rows(self.range, self.loads, way.values, self.bounded)
+            ok = ok & solved & self._reached(way.values)
+            for row, value in zip([*out[count:], *bounds[len(self.wanted) :]], [*rows, *of_loads], strict=False):
+                row[:] = value
+        for k in range(0, n if self.bounded and self.wanted else 0, CHUNK):
+            some = slice(k, k + CHUNK)
+            self._bounds(way.values[some], ok[some], bounds[: len(self.wanted), some])
+        out[:, ~ok] = 0.0
+        return ok
+
+    def _formulas(self, way: GivenValues | UniformGrid, out: Array, fast: bool) -> Array:
+        n = len(way)
         if fast and not self.by_newton:
             return self._compiled(way, out)
         if n <= CHUNK:
@@ -330,23 +347,28 @@ class PreparedMechanism:
         parts = [slice(k, min(k + CHUNK, n)) for k in range(0, n, CHUNK)]
         return np.concatenate([self._arrays(way[p], out[:, p]) for p in parts])
 
-    def _with_loads(self, way: GivenValues | UniformGrid, out: Array) -> Array:
-        """What the formulas give, and below it forces and moments; at last the bounds of both."""
-        found, ok = np.empty((len(self.asked), len(way))), _every(len(way))
-        if self.asked:
-            ok = replace(self, loads=())._all(way, found, False)
-        rows, bounds, solved = force_rows(self.range, self.loads, way.values, self.bounded)
-        count = len(self.names) - len(rows)
-        for row, value in zip(out, [*found[:count], *rows, *found[count:], *bounds], strict=False):
-            row[:] = value
-        ok = ok & solved & self._reached(way.values)
-        out[:, ~ok] = 0.0
-        return ok
+    def _bounds(self, value: Array, ok: Array, out: Array) -> None:
+        """How far rounding may have moved the columns of each name, at the values that are ok."""
+        if not ok.any():
+            return
+        structure, state = self.structure, self._state(value[ok])
+        errors = np.broadcast_to(self._value_errors, state.drive.value.shape)
+        links = error_bounds(structure, state.poses, state.drive, state.slack, state.refined, errors)
+        posed = Posed(structure, state.poses, structure.slides)
+        for row, name in zip(out, self.wanted, strict=True):
+            column = Column(self.dimensioned.program, structure, name)
+            row[ok] = bound_of_symbol(posed, column.symbol, links) * column.factor(self.units)
+
+    def _state(self, value: Array) -> State:
+        """The mechanism at values of the first driver that the motion reaches, in 16 digits."""
+        drivers = np.repeat(self.range.start[None], len(value), axis=0)
+        drivers[:, 0] = value
+        return positions(self.structure, Drive.at(self.structure, drivers), self._forms_at(value), fine=False)
 
     def _compiled(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n = len(way)
         kernel = self._on_grid if isinstance(way, UniformGrid) else self._at_values
-        if self.clear:
+        if self._regular:
             kernel(n, self._numbers, *way.given, out)
             return _every(n)
         ok = np.ones(n, dtype=bool) if self.whole else self._reached(way.values)
@@ -359,7 +381,7 @@ class PreparedMechanism:
 
     def _arrays(self, way: GivenValues | UniformGrid, out: Array) -> Array:
         n, count = len(way), len(self.asked)
-        if self.clear:
+        if self._regular:
             turn = dict(zip((("cos", 0), ("sin", 0)), way.turn, strict=True))
             self._code.arrays(self._same, [turn[name] for name in self._code.inputs], [*out])
             return _every(n)
@@ -425,9 +447,8 @@ def prepare(
     dimensioned = program_of(structure, tuple(d.values[2] != 0 for d in structure.drivers))
     found = formulas(dimensioned.program, structure, asked, units)
     names = (*found, *(column for name in loads for column in force_heads(structure.scene, name)))
-    formed = [*found.values(), *(bounds(dimensioned.program, structure, asked, units).values() if bounded else ())]
     along = along or range_of(structure)
-    return PreparedMechanism(names, along, tuple(formed), dimensioned, tuple(asked), units, bounded, loads)
+    return PreparedMechanism(names, along, tuple(found.values()), dimensioned, tuple(asked), units, bounded, loads)
 
 Units = tuple[float, float, float]
 """What one metre, one radian and one metre in rates are in the units of the columns."""
@@ -443,7 +464,7 @@ class Column:
     name: str
 
     def __post_init__(self) -> None:
-        if self.symbol.kind not in _ORDERS:
+        if self.symbol.kind not in ORDERS:
             hint = Phrase("ask for places v_ a_ theta_ omega_ alpha_")
             raise CallError(Problem(f'"{self.name}"', Phrase("is no column"), hint))
 
@@ -473,48 +494,16 @@ class Column:
         formula: Real | Vec = VALUES[self.symbol.kind](self.posed, self.symbol)
         return formula
 
+    def factor(self, units: Units) -> float:
+        """What the quantity in SI is to be multiplied by."""
+        return {"v": units[2], "a": units[2], "theta": units[1], "omega": 1.0, "alpha": 1.0}.get(
+            self.symbol.kind, units[0]
+        )
+
     def scale(self, units: Units) -> Real | float:
-        """What the formula in SI is to be multiplied by."""
-        if self.symbol.kind in ("omega", "alpha"):
-            return 1.0
-        param, factor = ("per metre", units[0])
-        if self.symbol.kind in ("v", "a"):
-            param, factor = "per metre of rates", units[2]
-        elif self.symbol.kind == "theta":
-            param, factor = "per radian", units[1]
-        return 1.0 if factor == 1.0 else self.program.graph.param((param,))
-
-    def bound(self) -> Real:
-        """How far rounding may have moved it, in SI."""
-        unit, symbol, order = self.program.bounds.unit, self.symbol, _ORDERS[self.symbol.kind]
-        if symbol.kind == "s":
-            slide = self.structure.slide(symbol.pair)
-            block, guide = self._bounds_of(slide.a), self._bounds_of(slide.b)
-            return block.position + guide.position + abs(cast(Real, self.formula)) * (guide.angle + 4.0 * unit)
-        if symbol.of is None:
-            self.posed.pose(symbol.link)
-            bound = self._bounds_of(symbol.link).of_turning[order]
-            return bound + 16.0 * unit if symbol.kind == "theta" else bound
-        bound = self._bounds_of_point(symbol.of)[order]
-        if symbol.to is None:
-            return bound
-        both = cast(Vec, self.formula)
-        return bound + self._bounds_of_point(symbol.to)[order] + unit * fmax(abs(both.real), abs(both.imag))
-
-    def _bounds_of(self, link: str) -> FrameError:
-        """Of any point of a link and of its turning."""
-        if in_stages(self.structure.elements):
-            return FrameError(*(self.program.graph.input(("bound", k)) for k in range(6)))
-        return self.program.bounds.of_link(link)
-
-    def _bounds_of_point(self, ref: PointRef) -> tuple[Real, ...]:
-        if not self.posed.is_under(ref):
-            return self._bounds_of(ref.link or self.posed.holder(ref.point)).of_point
-        pin = self.posed.point(PointRef(ref.point))
-        own, moved = self._bounds_of(ref.link), self._bounds_of(self.posed.holder(ref.point)).position
-        return moved, *self.program.bounds.under(ref.link, own, pin.z - self.posed.pose(ref.link).z, moved)
-_ORDERS = {"place": 0, "s": 0, "theta": 0, "v": 1, "omega": 1, "a": 2, "alpha": 2}
-"""How often a quantity is derived by the time."""
+        """The same as a number of the formulas."""
+        param = {"v": _PER[2], "a": _PER[2], "theta": _PER[1]}.get(self.symbol.kind, _PER[0])
+        return 1.0 if self.factor(units) == 1.0 else self.program.graph.param(param)
 
 
 def formulas(
@@ -539,17 +528,6 @@ def formulas(
         else:
             made[column.name] = formula
     return made
-
-
-def bounds(
-    program: Program, structure: Structure, asked: Sequence[str], units: Units = (1.0, 1.0, 1.0)
-) -> dict[str, Real]:
-    """For each name how far rounding may have moved its columns, in their units.
-
-    With a larger group they are made from the bounds of the whole mechanism, inputs ("bound", 0) to ("bound", 5).
-    """
-    columns = [Column(program, structure, name) for name in asked]
-    return {column.name: SLACK * (column.bound() * column.scale(units)) for column in columns}
 
 
 def force_heads(scene: Mechanism, name: str) -> tuple[str, ...]:

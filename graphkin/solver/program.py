@@ -1,4 +1,4 @@
-"""The formulas of a structure: every link and group by the values of the drivers, with the bounds of their rounding.
+"""The formulas of a structure: every link and group by the values of the drivers.
 
 Lengths and places are left open in them, so that one program serves every mechanism that differs in these only.
 """
@@ -12,7 +12,6 @@ from decimal import Decimal
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
-from graphkin.solver.bounds import ErrorFormulas
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import (
@@ -26,18 +25,14 @@ from graphkin.solver.dyads import (
     solve_dyad,
 )
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
-from graphkin.solver.pose import UNIT, Pose
+from graphkin.solver.pose import GIVEN, Pose
 from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = ["GIVEN", "SLACK", "DimensionedProgram", "Program", "program_of"]
+__all__ = ["DimensionedProgram", "Program", "program_of"]
 
 SPECIAL = (0.0, 1.0, -1.0)
 """Numbers with which formulas are shorter."""
-GIVEN = 3 * UNIT
-"""Relative error of a number of the file after its conversion from decimals and units."""
-SLACK = 1.001
-"""For the rounding of the bounds themselves."""
 
 
 class Program:
@@ -45,7 +40,6 @@ class Program:
 
     poses : each link by its name, fields are formulas
     groups, joints : what each dyad gives, and its joint frames, by its place among the elements
-    bounds : how far each may be off
     """
 
     def __init__(self, structure: Structure, moving: Sequence[bool], open_: Container[Name] = ()) -> None:
@@ -59,7 +53,6 @@ class Program:
         self.groups: dict[int, DyadSolution[Vec, Real]] = {}
         for i, element in enumerate(structure.elements):
             self._add(i, element)
-        self.bounds = ErrorFormulas(self)
         self._codes: dict[Hashable, Code] = {}
 
     # numbers
@@ -253,29 +246,18 @@ class DimensionedProgram:
         return [drivers[name] if name in drivers else self._decimal(name) for name in names]
 
     def _fixed(self, name: Name) -> float:
-        if name[0] == "unit":
-            return UNIT
         if name[0] == "size":
             return self.structure.scene.size
-        if name[0] == "reach":
-            return max(map(abs, self.structure.links[str(name[1])].points.values()), default=0.0)
-        if name[0] == "error":
-            z = self._numbers[name[1:]]
-            exact, known = self._meant(name[1:])
-            if not known:
-                return GIVEN * abs(z)
-            # what the conversion from decimals and units has really changed
-            return max(abs(float(Decimal(z.real) - exact[0])), abs(float(Decimal(z.imag) - exact[1])))
         z = self._numbers[name[:-1]]
         return z.real if name[-1] == "x" else z.imag
 
     def _decimal(self, name: Name) -> Decimal:
         if name[0] == "unit":
             return Decimal(10) ** -DIGITS
+        if name[0] == "size":
+            return Decimal(self.structure.scene.size)
         if name[0] == "error":
-            return Decimal(0 if self._meant(name[1:])[1] else self._fixed(name))
-        if name[0] in ("size", "reach"):
-            return Decimal(self._fixed(name))
+            return Decimal(0 if self._meant(name[1:])[1] else GIVEN * abs(self._numbers[name[1:]]))
         return self._meant(name[:-1])[0][0 if name[-1] == "x" else 1]
 
     def _meant(self, name: Name) -> tuple[tuple[Decimal, Decimal], bool]:

@@ -18,7 +18,7 @@ from graphkin.plane import dot
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
-from graphkin.solver.pose import Array, Pose, R, V
+from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, R, V
 from graphkin.structure import Dyad, Pair, Structure
 from graphkin.structure.transmission import (
     TransmissionAngle,
@@ -29,7 +29,7 @@ from graphkin.structure.transmission import (
 )
 from graphkin.words import Phrase
 
-__all__ = ["VALUES", "Crossing", "Posed", "pole", "transmission", "value_of_symbol"]
+__all__ = ["ORDERS", "VALUES", "Crossing", "Posed", "bound_of_symbol", "pole", "transmission", "value_of_symbol"]
 
 
 def _angle(direction: Array) -> Array:
@@ -357,6 +357,44 @@ VALUES: Mapping[str, Callable[[Posed[Any, Any], Symbol], Any]] = {
     **dict.fromkeys(("an", "at", "ak", "ar"), _part),
 }
 """How a quantity of each kind is found from the poses."""
+
+
+ORDERS = {"place": 0, "s": 0, "theta": 0, "v": 1, "omega": 1, "a": 2, "alpha": 2}
+"""How often a quantity that a prepared mechanism gives is derived by the time."""
+
+
+def bound_of_symbol(posed: Posed, symbol: Symbol, bounds: Mapping[str, ErrorBound[Array]]) -> Array:
+    """How far a place, an angle, a travel or a rate of them may be off (SI), shape (n,), by the bounds of the links."""
+    order, frame = ORDERS[symbol.kind], posed.structure.scene.frame.name
+    known = {frame: ErrorBound(*(np.zeros(1),) * 6), **bounds}
+
+    def of_point(ref: PointRef) -> Array:
+        holder = known[posed.holder(ref.point)]
+        if not posed.is_under(ref):
+            return (known[ref.link] if ref.link else holder).of_point[order]
+        # the place lies where the pin is, which may be off
+        own, pose = known[ref.link], posed.pose(ref.link)
+        arm = np.abs(posed.point(PointRef(ref.point)).z - pose.z)
+        spin, turning = np.abs(pose.omega) + own.omega, np.abs(pose.alpha) + own.alpha
+        off = holder.position + own.position + 8 * UNIT * arm
+        found: Array = (
+            holder.position,
+            own.velocity + arm * own.omega + spin * off,
+            own.acceleration + arm * (own.alpha + 2 * spin * own.omega) + (turning + spin**2) * off,
+        )[order]
+        return found
+
+    if symbol.kind == "s":
+        pair = sliding_pair(posed.structure, symbol)
+        block, guide = known[pair.a], known[pair.b]
+        return np.asarray(block.position + guide.position + np.abs(posed.travel(pair)) * (guide.angle + 4 * UNIT))
+    if symbol.of is None:
+        posed.pose(symbol.link)
+        return known[symbol.link].of_turning[order] + (16 * UNIT if symbol.kind == "theta" else 0.0)
+    bound = of_point(symbol.of)
+    if symbol.to is None:
+        return bound
+    return bound + of_point(symbol.to) + UNIT * np.abs(value_of_symbol(posed, symbol))
 
 
 @dataclass(frozen=True)

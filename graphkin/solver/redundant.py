@@ -15,7 +15,7 @@ from graphkin.solver.pose import Array, ErrorBound, Pose, rest
 from graphkin.structure import Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["Fit", "all_slides", "fit", "place_redundant"]
+__all__ = ["Fit", "all_slides", "fit", "redundant_poses"]
 
 FITS = 1e-9
 MOVED = 4.0
@@ -44,12 +44,14 @@ class Fit(NamedTuple):
         return np.asarray(np.logical_and.reduce([m < a for m, a in zip(missed, allowed, strict=True)]))
 
 
-def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bound: ErrorBound[Array]) -> None:
-    """Put the redundant links among the poses of the others.
+def redundant_poses(
+    structure: Structure, others: Mapping[str, Pose], ok: Array, bound: ErrorBound[Array]
+) -> dict[str, Pose]:
+    """The poses of the redundant links, from their joints.
 
     Parameters
     ----------
-    poses : of all other links, each field of shape (n,)
+    others : poses of all other links, each field of shape (n,)
     ok : positions that stand, shape (n,)
     bound : how far rounding may have moved the links
 
@@ -57,6 +59,7 @@ def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bou
     ------
     Unsolvable : "mobility": a link does not repeat what the others hold, or nothing holds it
     """
+    poses, placed = dict(others), dict[str, Pose]()
     scene = structure.scene
     waiting = [link for link in scene.links if link.redundant]
     while waiting:
@@ -82,7 +85,8 @@ def place_redundant(structure: Structure, poses: dict[str, Pose], ok: Array, bou
             )
             wanted = Phrase("a redundant link must repeat what the others")
             raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how, wanted))
-        poses[link.name] = found.pose
+        poses[link.name] = placed[link.name] = found.pose
+    return placed
 
 
 def all_slides(structure: Structure) -> tuple[Pair, ...]:

@@ -22,11 +22,12 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.bounds import Accuracy
 from graphkin.solver.driver_range import DriverRange, motion_of, range_from, range_of, stopped_why, way_to
-from graphkin.solver.drivers import Drive, goal_values, own_values
+from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion
-from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, rest
+from graphkin.solver.pose import Array, Drive, Pose, rest
 from graphkin.solver.redundant import all_slides
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
@@ -130,11 +131,11 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     names = [*structure.links, *(link.name for link in structure.scene.links if link.redundant)]
     poses = dict.fromkeys(names, gone)
     poses[structure.scene.frame.name] = none
-    nan = np.full(n, np.nan)
     unknown = tuple(Phrase("assembled nowhere") for _ in structure.groups)
     slides, said = all_slides(structure), (why,) * n
-    bound = ErrorBound(*(nan,) * 6)
-    return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, bound, (nan, nan),
+    nothing = np.zeros(n, dtype=bool)
+    accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing)
+    return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, accuracy,
                   partial(range_of, structure))  # fmt: skip
 
 
@@ -176,10 +177,6 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
 # -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------
 
 
-FEW = 8 * UNIT
-"""Relative error of putting a motion together."""
-
-
 def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Motion:
     """The motion at moments (s) of the laws by which drivers move, from the scene's own assembly on.
 
@@ -196,7 +193,8 @@ def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Mot
     value = np.array([[values[d.key] for d in scene.drivers] for _, values in moments])
     rates = np.array([[d.values[1:] for d in moved.drivers] for moved, _ in moments])
     at = _one_driver(structure, value, fine) if value.shape[1] == 1 else _several_drivers(structure, value, fine)
-    return _together(list(_terms(at, rates[..., 0], rates[..., 1])), structure.scene.size)
+    rate, second = rates[..., 0], rates[..., 1]
+    return _together(list(_terms(at, rate, second)), Drive(value, rate, second))
 
 
 At = Callable[[Array], Motion]
@@ -271,31 +269,14 @@ def _terms(at: At, rate: Array, second: Array) -> Iterator[_Term]:
         yield _Term(at(one[k] + one[m]), nothing, rate[:, k] * rate[:, m], nothing)
 
 
-def _together(terms: list[_Term], size: float) -> Motion:
-    """The motion that terms make together, with the bound of it."""
+def _together(terms: list[_Term], drive: Drive) -> Motion:
+    """The motion that terms make together."""
     first = terms[0].motion
     poses = {name: _pose([(t, t.motion.poses[name]) for t in terms]) for name in first.poses}
-
-    def sums(speeds: Callable[[Motion], Array], pushes: Callable[[Motion], Array]) -> tuple[Array, Array]:
-        fast = sum((abs(t.factor) * speeds(t.motion) for t in terms), np.zeros(len(first)))
-        pushed = sum((abs(t.square) * pushes(t.motion) + abs(t.second) * speeds(t.motion) for t in terms),
-                     np.zeros(len(first)))  # fmt: skip
-        return fast, pushed
-
-    def most(field: str, turning: str, motion: Motion) -> Array:
-        poses = motion.poses.values()
-        return np.asarray(np.max([abs(getattr(p, field)) + size * abs(getattr(p, turning)) for p in poses], axis=0))
-
-    largest = sums(lambda m: most("v", "omega", m), lambda m: most("a", "alpha", m))
-    points = sums(lambda m: m.bound.velocity, lambda m: m.bound.acceleration)
-    turning = sums(lambda m: m.bound.omega, lambda m: m.bound.alpha)
-    rough = sums(lambda m: m.rough[0], lambda m: m.rough[1])
-    lost = tuple(FEW * x for x in largest)
-    bound = ErrorBound(
-        first.bound.position, points[0] + lost[0], points[1] + lost[1],
-        first.bound.angle, turning[0] + lost[0] / size, turning[1] + lost[1] / size,
-    )  # fmt: skip
-    return replace(first, poses=poses, bound=bound, rough=(rough[0] + lost[0], rough[1] + lost[1]))
+    ok = np.logical_and.reduce([t.motion.accuracy.ok for t in terms])
+    refined = np.logical_and.reduce([t.motion.accuracy.refined for t in terms])
+    accuracy = replace(first.accuracy, poses=poses, drive=drive, refined=refined, ok=ok)
+    return replace(first, poses=poses, accuracy=accuracy)
 
 
 def _pose(terms: list[tuple[_Term, Pose]]) -> Pose:

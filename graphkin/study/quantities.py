@@ -193,7 +193,7 @@ class Quantity:
         """How far rounding may have moved it; 0 where that is not known."""
         if self.is_load:
             return np.nan_to_num(forces_of(motion).bound[self.kind == "moment"])
-        of = motion.bound_of(self._links(motion))
+        of = motion.accuracy.of(self._links(motion))
         bound = {
             "angle": of.angle,
             "length": of.position,

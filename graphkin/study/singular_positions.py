@@ -37,9 +37,8 @@ from graphkin.solver import Motion
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.dead_points import dead_points
 from graphkin.solver.decimals import working
-from graphkin.solver.drivers import Drive
 from graphkin.solver.engine import positions
-from graphkin.solver.pose import Array
+from graphkin.solver.pose import Array, Drive
 from graphkin.structure import Structure
 from graphkin.study.equations import Equations
 from graphkin.study.error_laws import LOST, Answer, ErrorLaw, Singularity, grid, in_powers, measured

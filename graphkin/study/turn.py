@@ -19,8 +19,8 @@ from graphkin.search import intervals
 from graphkin.solver import DriverRange, Motion, own_slides
 from graphkin.solver.continuity import FAR
 from graphkin.solver.driver_range import Extremes, extremes
-from graphkin.solver.drivers import Drive
 from graphkin.solver.engine import positions
+from graphkin.solver.pose import Drive
 from graphkin.solver.values import FlywheelStudy, flywheel_of
 from graphkin.structure import Dyad
 from graphkin.study.extremes import Extreme, Least, Traced, trace

@@ -22,11 +22,12 @@ from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.solver import engine
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
-from graphkin.solver.drivers import Drive, own_values
+from graphkin.solver.drivers import own_values
 from graphkin.solver.expressions import Vec
-from graphkin.solver.pose import FIELDS
+from graphkin.solver.pose import FIELDS, Drive
 from graphkin.structure import Structure, analyse
 
 from .larger import measure_larger
@@ -121,9 +122,9 @@ def _hold(structure: Structure, forms: dict[int, Any], values: np.ndarray, tally
     program_row = _exact_rows(structure, drive, forms, values)
     names = [n for n in structure.links if n != structure.scene.frame.name]
     sines = [np.broadcast_to(g.sine, values.shape) for g in state.groups.values()]
-    assert state.bounds is not None
+    told = most_of(state.bounds(structure, np.ones(len(values), dtype=bool)).values())
     for k in range(len(values)):
-        bounds = [float(b[k]) for b in state.bounds]
+        bounds = [float(b[k]) for b in told]
         if min(abs(s[k]) for s in sines) < engine.SINGULAR or not np.isfinite(bounds).all():
             tally.refused += 1
             continue
@@ -177,7 +178,7 @@ class _Exact:
 
 def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degrees: np.ndarray) -> Any:
     """Function of the number of a position to its links in 50 digits, with the driver at just these degrees."""
-    run = engine._Run(structure, drive, forms, True, True)
+    run = engine._Run(structure, drive, forms, True)
     program = run.dimensioned.program
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]

@@ -18,11 +18,13 @@ from graphkin.errors import GraphkinError
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import Path, follow_path
 from graphkin.solver.dead_points import singular
 from graphkin.solver.decimals import meant, meant_direction
-from graphkin.solver.drivers import Drive, own_values
+from graphkin.solver.drivers import own_values
 from graphkin.solver.engine import State, positions
+from graphkin.solver.pose import Drive
 from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
 from graphkin.study.equations import Arithmetic, Equations
 from graphkin.study.reference import context
@@ -171,9 +173,9 @@ def measure_larger(positions_: int, seed: int, each: int = 20) -> Tally:
             continue
         drive = Drive.at(structure, path.values(t))
         state = positions(structure, drive, path.form(t))
+        told = most_of(state.bounds(structure, np.ones(len(t), dtype=bool)).values())
         for k, off in _offs(structure, drive, state, tally):
-            assert state.bounds is not None
-            bounds = [float(np.broadcast_to(b, t.shape)[k]) for b in state.bounds]
+            bounds = [float(b[k]) for b in told]
             tally.hold(bounds, off, f"at {drive.value[k, 0]!r} of {structure.scene}")
     return tally
 

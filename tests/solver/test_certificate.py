@@ -9,8 +9,9 @@ from graphkin.scene import mechanism_of_text
 from graphkin.solver import driver_range, solve, structure_of
 from graphkin.solver import larger_groups as cluster
 from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.drivers import Drive, own_values
+from graphkin.solver.drivers import own_values
 from graphkin.solver.engine import positions
+from graphkin.solver.pose import Drive
 from tests import scenes
 
 

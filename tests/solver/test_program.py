@@ -10,7 +10,6 @@ import graphkin
 from graphkin.scene import library, mechanism_of
 from graphkin.solver import structure_of
 from graphkin.solver.program import program_of
-from graphkin.structure import Cluster
 
 PURE = {0.0, 1.0, -1.0, 2.0, 3.0, 4.0, 0.5}
 """Numbers of the formulas themselves."""
@@ -63,8 +62,6 @@ ROLLING = sun_and_planet([20, 37]), rack_on_a_slider(-13), sun_and_planet_discs(
 def test_a_program_holds_no_number_of_a_mechanism(source):
     structure = structure_of(mechanism_of(source))
     program = program_of(structure, tuple(True for _ in structure.drivers)).program
-    if not any(isinstance(e, Cluster) for e in structure.elements):
-        program.bounds([name for e in structure.elements for name in e.members])
     assert {line[1] for line in program.graph.lines if line[0] == "const"} <= PURE
 
 

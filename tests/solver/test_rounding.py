@@ -10,9 +10,8 @@ from hypothesis import strategies as st
 
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant
-from graphkin.solver.expressions import ExpressionGraph, Real, root
+from graphkin.solver.expressions import ExpressionGraph, Real, Rounding, root
 from graphkin.solver.pose import UNIT
-from graphkin.solver.rounding import Rounding
 
 number = st.floats(0.01, 100.0)
 shift = st.floats(-1.0, 1.0)
