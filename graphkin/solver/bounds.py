@@ -128,16 +128,16 @@ class Accuracy:
         return self._of_links(np.zeros_like(self.refined)) if self.refined.any() else self.links
 
     def of(self, links: Iterable[str], drawn: bool = False) -> Errors:
-        """The most of some links, of all if there are none but those of the frame."""
+        """The most of some links, of all if there are none but the frame."""
         known = self.drawn if drawn else self.links
-        held = [known[name] for name in links if name in known]
-        return most_of(held or known.values())
+        held = [known[name] for name in links if name in known] or [*known.values()]
+        return most_of(held) if held else ErrorBound(*(np.where(self.ok, 0.0, np.nan),) * 6)
 
     def _of_links(self, refined: Array) -> dict[str, Errors]:
         names = [name for name in self.structure.links if name != self.structure.scene.frame.name]
         found = {name: np.full((6, len(self.ok)), np.nan) for name in names}
         places = np.flatnonzero(self.ok)
-        for rows in (places[first : first + BLOCK] for first in range(0, len(places), BLOCK)):
+        for rows in (places[first : first + BLOCK] for first in range(0, len(places) if names else 0, BLOCK)):
             poses = {name: self.poses[name].rows(rows) for name in self.structure.links}
             some = error_bounds(self.structure, poses, self.drive[rows], self.slack[rows], refined[rows])
             for name, bound in some.items():
