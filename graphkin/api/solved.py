@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import chain, islice
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,9 +33,10 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from graphkin.account.loops import LoopText
     from graphkin.solver import Forces, Motion
+    from graphkin.structure import Structure
     from graphkin.table import Array, Column, Table
 
-__all__ = ["Solved", "SolvedBlocks", "refused", "solve", "solve_in_blocks"]
+__all__ = ["Solved", "refused", "solve"]
 
 
 BALANCE_IDLE = Phrase("the balance does no work in this position")
@@ -48,15 +49,92 @@ class Solved(OfScene, Result):
     ``solved["v_C"]`` is a quantity by its name as an array with its unit, shape (positions,): complex for vectors, in
     the file's units and degrees, NaN where there is none, 0 where it is nothing but rounding.  ``table`` has all of
     them, ``motion`` and ``forces`` more, in SI.  ``times`` are the moments (s), where drivers move by a law.
+
+    A long sweep is found as it is asked for; ``blocks`` goes through it with no more in memory than some positions.
+
+    values : of drivers (rad, m) by their keys, where they are not the scene's own
+    count : positions of a sweep; None for one position
+    part : some positions of a sweep, which alone are meant
     """
 
-    motion: Motion
-    forces: Forces | None = None
+    structure: Structure
+    values: Mapping[str, float] | None
+    count: int | None
     find: tuple[str, ...] = ()
-    times: tuple[float, ...] = ()
+    part: Motion | None = None
 
     def __repr__(self) -> str:
         return f"<Solved {self.mechanism.name}: {int(self.motion.ok.sum())} of {len(self.motion)} positions>"
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self.structure.scene
+
+    @cached_property
+    def times(self) -> tuple[float, ...]:
+        scene = self.mechanism
+        if not moves_by_law(scene):
+            return ()
+        return (asked_time(scene),) if self.count is None else tuple(moments(scene, self.count))
+
+    def blocks(self) -> Iterator[Solved]:
+        """Itself, or a long sweep as some of its positions after the other."""
+        if self.part is not None or self.count is None or self.times or "_loaded" in self.__dict__:
+            yield self
+            return
+        from graphkin import solver
+
+        yield self.first
+        if len(self.first.motion) < self.count:
+            motions = solver.sweep_in_blocks(self.structure, self.values, self.count)
+            yield from (replace(self, part=motion) for motion in islice(motions, 1, None))
+
+    @cached_property
+    def first(self) -> Solved:
+        """The first of its ``blocks``."""
+        from graphkin import solver
+
+        if self.part is not None or self.count is None or self.times:
+            return self
+        return replace(self, part=next(solver.sweep_in_blocks(self.structure, self.values, self.count)))
+
+    @cached_property
+    def _loaded(self) -> tuple[Motion, Forces | None]:
+        """The motion, not solved where forces are not, and these; None for a scene that carries nothing."""
+        from graphkin import solver
+
+        if self.first is not self and len(self.first.motion) == self.count:
+            return self.first._loaded
+        if self.part is not None:
+            motion = self.part
+        elif self.times and self.count is not None:
+            motion = solver.over_time(self.structure, np.array(self.times))
+        else:
+            motion = solver.solve(self.structure, at=self.values, sweep=self.count)
+        if not motion.scene.loading:
+            return motion, None
+        forces = solver.forces_of(motion)
+        stuck = motion.ok & ~forces.ok
+        if not stuck.any():
+            return motion, forces
+        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.reasons, strict=True))
+        for name, where in solver.without_line(motion).items():
+            told = Phrase("the two points of spring coincide in this", name=name)
+            why = tuple(told if here else said for here, said in zip(where, why, strict=True))
+        return replace(motion, status=np.where(stuck, "dead point", motion.status), reasons=why), forces
+
+    @property
+    def motion(self) -> Motion:
+        return self._loaded[0]
+
+    @property
+    def forces(self) -> Forces | None:
+        return self._loaded[1]
+
+    @property
+    def said(self) -> Phrase:
+        """The status of its first position, and the reason for it."""
+        return self.first.motion.said(0)
 
     def __getitem__(self, name: str) -> Array:
         """A quantity by its name (a symbol, "C", "theta_3", "s_2/3", a column of the table).  Raises CallError."""
@@ -85,10 +163,6 @@ class Solved(OfScene, Result):
         return shown.columns(self.mechanism, shown.parts(None, self._moved))
 
     @property
-    def mechanism(self) -> Mechanism:
-        return self.motion.scene
-
-    @property
     def _moved(self) -> Motion:
         """The motion for which forces are known already, where there are any."""
         return self.motion if self.forces is None else self.forces.motion
@@ -103,10 +177,14 @@ class Solved(OfScene, Result):
         """What ``data`` says before its positions."""
         from graphkin.solver import head
 
-        return head(self.motion)
+        return head(self.first.motion)
 
     def entries(self) -> Iterator[dict[str, Json]]:
         """What ``data`` says of each position, one after the other: of a long sweep only some are in memory."""
+        for block in self.blocks():
+            yield from block._entries()
+
+    def _entries(self) -> Iterator[dict[str, Json]]:
         from graphkin.solver import entries
         from graphkin.solver.named_positions import named_positions
 
@@ -140,12 +218,13 @@ class Solved(OfScene, Result):
         from graphkin.account.loops import loops_text
 
         known_words(language=language)
-        return loops_text(self.motion, language or self.mechanism.sheet.language)
+        solved = next((block for block in self.blocks() if block.motion.ok.any()), self.first)
+        return loops_text(solved.motion, language or self.mechanism.sheet.language)
 
-    @property
+    @cached_property
     def ok(self) -> bool:
         """Whether one position at least is solved."""
-        return bool(self.motion.ok.any())
+        return any(block.motion.ok.any() for block in self.blocks())
 
     @property
     def tables(self) -> Mapping[str, Table]:
@@ -157,42 +236,9 @@ class Solved(OfScene, Result):
 
     def json(self) -> Iterator[bytes]:
         """``data`` as the text of JSON, piece by piece."""
-        return _json([self])
+        from graphkin.solver import json_text
 
-
-@dataclass(frozen=True)
-class SolvedBlocks:
-    """A sweep of any length as solutions of some of its positions, one after the other: no more is in memory."""
-
-    first: Solved
-    anew: Callable[[], Iterator[Solved]]
-
-    def __iter__(self) -> Iterator[Solved]:
-        yield self.first
-        yield from islice(self.anew(), 1, None)
-
-    @cached_property
-    def ok(self) -> bool:
-        """Whether one position at least is solved."""
-        return any(some.ok for some in self)
-
-    @property
-    def data(self) -> dict[str, Json]:
-        """``Solved.data`` of the whole."""
-        return {**self.first.head, "positions": [entry for some in self for entry in some.entries()]}
-
-    def json(self) -> Iterator[bytes]:
-        """``data`` as the text of JSON, piece by piece."""
-        return _json(self)
-
-
-def _json(blocks: Iterable[Solved]) -> Iterator[bytes]:
-    from graphkin.solver import json_text
-
-    some = iter(blocks)
-    first = next(some)
-    entries = chain(first.entries(), chain.from_iterable(block.entries() for block in some))
-    return (piece.encode() for piece in json_text(first.head, entries))
+        return (piece.encode() for piece in json_text(self.head, self.entries()))
 
 
 def _finite(value: NDArray[np.float64] | NDArray[np.complex128]) -> float | list[float] | None:
@@ -244,67 +290,21 @@ def solve(
     """
     from graphkin import solver
 
-    given, values, count = _task(scene, at, sweep)
-    if count is not None and moves_by_law(given):
-        times = moments(given, count)
-        return _solved(solver.over_time(given, np.array(times)), find, times)
-    times = (asked_time(given),) if moves_by_law(given) else ()
-    return _solved(solver.solve(given, at=values, sweep=count), find, times)
-
-
-def solve_in_blocks(
-    scene: SceneLike, at: At = None, sweep: int | None = None, find: str | Symbol | Iterable[str | Symbol] | None = None
-) -> SolvedBlocks:
-    """``solve``, of which a long sweep is found a block of positions at a time; parameters and errors as there."""
-    from graphkin import solver
-
-    given, values, count = _task(scene, at, sweep)
-    if count is None or moves_by_law(given):
-        whole = solve(scene, at, sweep, find)
-        return SolvedBlocks(whole, lambda: iter([whole]))
-
-    def anew() -> Iterator[Solved]:
-        return (_solved(motion, find) for motion in solver.sweep_in_blocks(given, values, count))
-
-    return SolvedBlocks(next(anew()), anew)
-
-
-def _task(scene: SceneLike, at: At, sweep: int | None) -> tuple[Mechanism, Mapping[str, float] | None, int | None]:
-    """The mechanism, driver values and number of positions that are asked for.  Raises SceneError, CallError."""
     given = as_scene(scene)
     most = 100_000 if moves_by_law(given) else 10_000_000
-    count = None if sweep is None else whole_number("sweep", sweep, 1, most, " positions")
-    if count is not None and moves_by_law(given):
-        if at is not None:
-            raise CallError(Problem("sweep", Phrase("stands beside at"), Phrase("a sweep goes over the whole time of")))
-        return given, None, count
-    given, values = placed(given, at)
-    return given, values, count
+    count, values = None if sweep is None else whole_number("sweep", sweep, 1, most, " positions"), None
+    if count is None or not moves_by_law(given):
+        given, values = placed(given, at)
+    elif at is not None:
+        raise CallError(Problem("sweep", Phrase("stands beside at"), Phrase("a sweep goes over the whole time of")))
+    solved = Solved(solver.structure_of(given), values, count)
+    names = () if find is None else _known(solved.first, find)
+    _ = solved.first.motion
+    return replace(solved, find=names) if names else solved
 
 
-def _solved(
-    motion: Motion, find: str | Symbol | Iterable[str | Symbol] | None, times: tuple[float, ...] = ()
-) -> Solved:
-    """A motion with its forces, limited to what is asked."""
-    from graphkin import solver
-
-    if not motion.scene.loading:
-        return _asked(Solved(motion, times=times), find)
-    forces = solver.forces_of(motion)
-    stuck = motion.ok & ~forces.ok
-    if stuck.any():
-        why = tuple(BALANCE_IDLE if here else said for here, said in zip(stuck, motion.reasons, strict=True))
-        for name, where in solver.without_line(motion).items():
-            told = Phrase("the two points of spring coincide in this", name=name)
-            why = tuple(told if here else said for here, said in zip(where, why, strict=True))
-        motion = replace(motion, status=np.where(stuck, "dead point", motion.status), reasons=why)
-    return _asked(Solved(motion, forces, times=times), find)
-
-
-def _asked(solved: Solved, find: str | Symbol | Iterable[str | Symbol] | None) -> Solved:
-    """The solution limited to what is asked.  Raises CallError, naming everything that names nothing."""
-    if find is None:
-        return solved
+def _known(solved: Solved, find: str | Symbol | Iterable[str | Symbol]) -> tuple[str, ...]:
+    """The names of what is asked.  Raises CallError, naming everything that names nothing."""
     names = [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3"))
     problems: list[Problem] = []
     for name in map(str, names):
@@ -314,4 +314,4 @@ def _asked(solved: Solved, find: str | Symbol | Iterable[str | Symbol] | None) -
             problems += error.problems
     if problems:
         raise CallError(*problems)
-    return replace(solved, find=tuple(map(str, names)))
+    return tuple(map(str, names))

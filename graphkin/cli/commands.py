@@ -34,21 +34,10 @@ _WRONG_CALL = typer.BadParameter.__mro__[1]
 """What is raised where an option or an argument is wrong (click's UsageError, whether typer brings click or not)."""
 
 PLACES = {
-    "scenes": "scenes",
-    "draw": "check",
-    "check": "check",
-    "solve": "solve",
-    "centres": "centres",
-    "audit": "check",
-    "sweep": "sweep",
-    "handout": "handout",
-    "design": "design",
-    "cam": "design",
-    "convert": "scenes",
-    "explain": "scenes",
-    "open": "scenes",
-    "study": "study",
-}
+    "scenes": "files", "draw": "figures", "check": "figures", "solve": "numbers", "centres": "figures",
+    "audit": "figures", "sweep": "numbers", "handout": "papers", "design": "figures", "cam": "figures",
+    "convert": "files", "explain": "files", "open": "files", "study": "numbers",
+}  # fmt: skip
 """The module of each command, in the order of the help."""
 
 

@@ -1,80 +1,175 @@
-"""Arguments and options that several commands have, and what is written in them."""
+"""Every argument and option of the command line, declared once; a command is a function of what was given, with the
+names of the options that it takes."""
 
 from __future__ import annotations
 
+import inspect
+import os
+from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
-from typing import Annotated
+from types import SimpleNamespace
+from typing import Any
 
 import typer
 
 from graphkin.errors import CallError, Problem
 from graphkin.words import BOTH, LANGUAGES, Phrase
 
-__all__ = [
-    "AtOption",
-    "ConventionOption",
-    "FindOption",
-    "FormatOption",
-    "InstrumentOption",
-    "JsonOption",
-    "LangOption",
-    "OutOption",
-    "PositionOption",
-    "QuietOption",
-    "SceneArgument",
-    "SeedOption",
-    "SheetLangOption",
-    "TextOption",
-    "driver_values",
-    "processes",
-    "split_words",
-]
+__all__ = ["At", "Given", "command", "driver_values", "named_numbers", "processes", "split_words"]
 
-SceneArgument = Annotated[
-    str, typer.Argument(metavar="SCENE", help="A scene file, or the name of a scene that comes along.")
-]
-OutOption = Annotated[
-    Path | None, typer.Option("-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")
-]
-FormatOption = Annotated[str, typer.Option("--format", metavar="svg,pdf,png,dxf", help="Formats of the figures.")]
-TextOption = Annotated[
-    str,
-    typer.Option(
-        "--text", metavar="glyphs|outlines", help="Letters of an SVG: with their glyphs, or as paths (Inkscape, CAD)."
-    ),
-]
-AtOption = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--at",
-        metavar="DEG",
-        help="Driver value instead of the scene's, in the driver's unit; LINK=VALUE names the driver.",
-    ),
-]
-PositionOption = Annotated[
-    str | None,
-    typer.Option("--position", metavar="NAME", help="The position of this name, of [positions], instead of --at."),
-]
-FindOption = Annotated[
-    list[str] | None,
-    typer.Option("--find", metavar="SYMBOL", help="Ask for this only (v_D, omega_3, ...); may be repeated."),
-]
-LangOption = Annotated[
-    str | None, typer.Option("--lang", metavar="|".join(LANGUAGES), help="Language of the figures and the report.")
-]
-SheetLangOption = Annotated[
-    str | None,
-    typer.Option("--lang", metavar="|".join((*LANGUAGES, BOTH)), help="Language of what is drawn and written."),
-]
-ConventionOption = Annotated[
-    str | None, typer.Option("--convention", metavar="chinese|us|british|russian", help="Letters and marks.")
-]
-InstrumentOption = Annotated[
-    str, typer.Option("--instrument", metavar="exact|cad|pencil", help="What draws and reads.")
-]
-SeedOption = Annotated[int, typer.Option("--seed", help="Seed of the pencil's errors.")]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object.")]
-QuietOption = Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing but errors.")]
+At = float | str | dict[str, float] | None
+"""Driver values as public functions take them."""
+Texts = list[str] | None
+NoText, NoPath, NoNumber = str | None, Path | None, int | None
+arg, opt = typer.Argument, typer.Option
+
+OPTIONS: dict[str, tuple[Any, Any]] = {
+    # arguments
+    "scene": (str, arg(..., metavar="SCENE", help="A scene file, or the name of a scene that comes along.")),
+    "scene of open": (str, arg("", help="A scene file, a folder of them, a scene that comes along, or a link.")),
+    "file of design": (str, arg(..., metavar="FILE", help="A design file, or the name of one that comes along.")),
+    "source": (str, arg(..., metavar="FILE", help="A file of Linkage, pyslvs, pylinkage, GeoGebra or PMKS, a link of "
+                                                  "PMKS+, or a scene.")),
+    "name": (NoText, arg(None, help="A scene that comes along: print its text.")),
+    "file": (NoPath, arg(None, help="With --copy: where to write it; NAME.toml here if not given.")),
+    # what is written where
+    "out": (NoPath, opt(None, "-o", "--out", metavar="DIR", help="Folder for the files; ./NAME if not given.")),
+    "out of centres": (NoPath, opt(None, "-o", "--out", metavar="DIR",
+                                   help="Folder for the files; ./NAME if not given, none with --json.")),
+    "out of check": (NoPath, opt(None, "-o", "--out", metavar="DIR", help="Folder for readings.csv and report.txt.")),
+    "out of audit": (NoPath, opt(None, "-o", "--out", metavar="DIR", help="Folder for audit.csv.")),
+    "out of solve": (NoPath, opt(None, "-o", "--out", metavar="DIR", help="Folder for solution.json.")),
+    "out of convert": (NoPath, opt(None, "-o", "--out", metavar="FILE", help="What to write: .toml, .linkage2, "
+                                   ".pyslvs, .json; printed if not given.")),
+    "out of speed-accuracy": (Path, opt(Path("speed-accuracy"), "-o", "--out", metavar="DIR",
+                                        help="Folder for the chart (SVG, CSV); ./speed-accuracy.")),
+    "out of stability": (Path, opt(Path("stability"), "-o", "--out", metavar="DIR",
+                                   help="Folder for the charts (SVG, CSV); ./stability.")),
+    "format": (str, opt("svg", "--format", metavar="svg,pdf,png,dxf", help="Formats of the figures.")),
+    "format of handout": (str, opt("html,pdf", "--format", metavar="html,pdf", help="Formats of the papers.")),
+    "format of speed-accuracy": (str, opt("svg", "--format", metavar="svg,pdf,png", help="Formats of the chart.")),
+    "format of stability": (str, opt("svg", "--format", metavar="svg,pdf,png", help="Formats of the charts.")),
+    "text": (str, opt("glyphs", "--text", metavar="glyphs|outlines",
+                      help="Letters of an SVG: with their glyphs, or as paths (Inkscape, CAD).")),
+    "text of handout": (str, opt("glyphs", "--text", hidden=True)),
+    "lang": (NoText, opt(None, "--lang", metavar="|".join(LANGUAGES), help="Language of the figures and the report.")),
+    "lang of sheets": (NoText, opt(None, "--lang", metavar="|".join((*LANGUAGES, BOTH)),
+                                   help="Language of what is drawn and written.")),
+    "convention": (NoText, opt(None, "--convention", metavar="chinese|us|british|russian", help="Letters and marks.")),
+    "json": (bool, opt(False, "--json", help="Print one JSON object.")),
+    "quiet": (bool, opt(False, "-q", "--quiet", help="Print nothing but errors.")),
+    # what is asked
+    "at": (Texts, opt(None, "--at", metavar="DEG", help="Driver value instead of the scene's, in the driver's unit; "
+                                                        "LINK=VALUE names the driver.")),
+    "position": (NoText, opt(None, "--position", metavar="NAME",
+                             help="The position of this name, of [positions], instead of --at.")),
+    "find": (Texts, opt(None, "--find", metavar="SYMBOL",
+                        help="Ask for this only (v_D, omega_3, ...); may be repeated.")),
+    "instrument": (str, opt("exact", "--instrument", metavar="exact|cad|pencil", help="What draws and reads.")),
+    "seed": (int, opt(0, "--seed", help="Seed of the pencil's errors.")),
+    "seed of handout": (int, opt(0, "--seed", help="Seed of the variants.")),
+    "figure": (Texts, opt(None, "--figure", metavar="NAME",
+                          help="Draw this figure only (velocity, sheet, ...); may be repeated.")),
+    "driver": (str, opt("", "--driver", metavar="LINK",
+                        help="With --figure structure: another driver beside the first.")),
+    "beside": (Texts, opt(None, "--beside", metavar="NAME|DEG",
+                          help="With --figure polygons: a position; two or more.")),
+    "centrode": (NoText, opt(None, "--centrode", metavar="LINK",
+                             help="The centrodes of a link over a turn instead.")),
+    "point": (str, opt("", "--point", metavar="P", help="With --centrode: the path of this point.")),
+    "motion": (bool, opt(False, "--motion",
+                         help="Centres in motion with their paths too: centres-motion.svg, which plays.")),
+    "step": (float, opt(1.0, "--step", metavar="DEG", help="Degrees between two rows of cam.csv.")),
+    "answers": (NoPath, opt(None, "--answers", metavar="FILE.csv",
+                            help="A row for each person, symbols as heads, values in scene units.")),
+    "variants of audit": (NoPath, opt(None, "--variants", metavar="DIR",
+                                      help="Folder of the problem set, for answers with a column variant.")),
+    "grading": (str, opt("", "--grading", metavar="equations=20,drawing=30,values=50",
+                         help="Points, also by symbol.")),
+    # over a turn, over designs
+    "sweep": (NoNumber, opt(None, "--sweep", metavar="N", help="N positions over a turn of the driver.")),
+    "loops": (bool, opt(False, "--loops", help="Print the vector loops: projections and matrix equations, LaTeX too.")),
+    "positions": (NoNumber, opt(None, "--positions", metavar="12|36|N", help="Rows of the table over a turn of the "
+                                "driver; 36 if not given, or as many as the scene's positions.")),
+    "set": (Texts, opt(None, "--set", metavar="KEY=VALUES", help="Designs: links.1.length=40:60:21 (a grid), "
+                       "=40,50,60 (a list); several give every combination.")),
+    "designs": (NoPath, opt(None, "--designs", metavar="FILE.csv", help="Designs: a CSV file whose head names keys.")),
+    "workers": (NoNumber, opt(None, "--workers", metavar="N",
+                              help="Processes; as many as there are cores if long.")),
+    "scheduler": (NoText, opt(None, "--scheduler", metavar="ADDRESS", help="Run on a Dask cluster (extra cluster).")),
+    "measured": (NoPath, opt(None, "--measured", metavar="FILE.csv",
+                             help="Values measured elsewhere (heads: at, symbols), to lie over the curves.")),
+    "differentiate": (Texts, opt(None, "--differentiate", metavar="QUANTITY",
+                                 help="Differentiated on paper (s_6/1, theta_4).")),
+    "integrate": (Texts, opt(None, "--integrate", metavar="QUANTITY", help="Integrated on paper (v_6/1, omega_4).")),
+    "repeats": (int, opt(5, "--repeats", metavar="N", help="Runs of each method; the best counts.")),
+    # papers
+    "positions of handout": (NoNumber, opt(None, "--positions", metavar="N", help="Positions of the driver on the "
+                                           "page; 12 if not given, 6 with more than ten moving links.")),
+    "variants": (NoNumber, opt(None, "--variants", metavar="N",
+                               help="A set of N problems with other numbers instead.")),
+    "rows": (NoPath, opt(None, "--rows", metavar="FILE.csv", help="A set of problems, one for each row of data.")),
+    "workers of handout": (NoNumber, opt(None, "--workers", metavar="N",
+                                         help="Processes for a set; as many as there are cores.")),
+    "export": (str, opt("", "--export", metavar="moodle,gift,prairielearn", help="Questions for learning platforms.")),
+    "template": (str, opt("papers", "--template", metavar="papers|course-design", help="What is written.")),
+    "students": (NoPath, opt(None, "--students", metavar="NAMES.csv", help="Of a course design: a report for each "
+                             "(heads: name, id, scheme, position; 姓名, 学号, 方案, 位置).")),
+    # files of scenes
+    "copy": (bool, opt(False, "--copy", help="Write the scene out to start from.")),
+    "schema": (bool, opt(False, "--schema", help="Print the JSON schema of scene files, for editors.")),
+    "new": (NoText, opt(None, "--new", metavar="KIND",
+                        help="A new commented scene: four-bar, slider-crank, guide-bar, ...")),
+    "set of new": (Texts, opt(None, "--set", metavar="NAME=VALUE",
+                              help="With --new: a length (crank=150); asked for otherwise.")),
+    "lossy": (bool, opt(False, "--lossy", help="Leave out what cannot be carried over, and name it.")),
+    "port": (int, opt(0, min=0, max=65535, help="Port to listen on; a free one if 0.")),
+    "browser": (bool, opt(True, help="Open the page in the browser.")),
+}  # fmt: skip
+"""Type, and declaration with default and help, by name; "out of check" is the option ``out`` as ``check`` has it."""
+
+
+class Given(SimpleNamespace):
+    """What a command was called with, by the names of its options."""
+
+    @property
+    def values(self) -> At:
+        """Driver values, or the name of a position."""
+        return driver_values(self.at, getattr(self, "position", None))
+
+    @property
+    def formats(self) -> list[str]:
+        return split_words(self.format)
+
+    @property
+    def speaks(self) -> bool:
+        """Whether it prints for people."""
+        return not self.json and not self.quiet
+
+
+def command(*names: str) -> Callable[[Callable[[Given], None]], Callable[..., None]]:
+    """Make a command of a function of what was given.
+
+    Parameters
+    ----------
+    names : of its options in `OPTIONS`, in the order of the help
+    """
+    parameters = [
+        inspect.Parameter(name.split()[0], inspect.Parameter.KEYWORD_ONLY, default=declared, annotation=kind)
+        for name, (kind, declared) in ((name, OPTIONS[name]) for name in names)
+    ]
+
+    def made(run: Callable[[Given], None]) -> Callable[..., None]:
+        @wraps(run)
+        def called(**given: Any) -> None:
+            run(Given(**given))
+
+        called.__annotations__ = {}
+        called.__signature__ = inspect.Signature(parameters)  # type: ignore[attr-defined]
+        return called
+
+    return made
 
 
 def split_words(words: str) -> list[str]:
@@ -86,7 +181,7 @@ def split_words(words: str) -> list[str]:
     return [word.strip().lower() for word in words.split(",") if word.strip()]
 
 
-def driver_values(at: list[str] | None, position: str | None = None) -> float | str | dict[str, float] | None:
+def driver_values(at: list[str] | None, position: str | None = None) -> At:
     """Driver values as given on the command line: DEG, or LINK=DEG; or the name of a position.
 
     >>> driver_values(["50"]), driver_values(["1=50", "2=30"])
@@ -94,37 +189,45 @@ def driver_values(at: list[str] | None, position: str | None = None) -> float | 
     """
     if position is not None:
         if at:
-            raise CallError(
-                Problem("--position", Phrase("stands beside at of nothing"), Phrase("write one of the two"))
-            )
+            wanted = Phrase("write one of the two")
+            raise CallError(Problem("--position", Phrase("stands beside at of nothing"), wanted))
         return position
     if not at:
         return None
     named: dict[str, float] = {}
-    bare: list[float] = []
     for text in at:
         name, _, number = text.rpartition("=")
         try:
             value = float(number)
         except ValueError:
-            raise CallError(
-                Problem(f"--at {text}", Phrase("is no number", number=number), Phrase("write at 50 or at 1 50"))
-            ) from None
-        if name in named or (not name and bare):
-            raise CallError(
-                Problem("--at", Phrase("is given twice for one driver", text=text), Phrase("write at 1 50 at 2 30"))
-            )
-        if name:
-            named[name] = value
-        else:
-            bare.append(value)
-    if bare and named:
+            found = Phrase("is no number", number=number)
+            raise CallError(Problem(f"--at {text}", found, Phrase("write at 50 or at 1 50"))) from None
+        if name in named:
+            found = Phrase("is given twice for one driver", text=text)
+            raise CallError(Problem("--at", found, Phrase("write at 1 50 at 2 30")))
+        named[name] = value
+    if len(named) > 1 and "" in named:
         raise CallError(Problem("--at", Phrase("a bare value beside named ones"), Phrase("write at 1 50 at 2 30")))
-    return bare[0] if bare else named
+    return named.get("", named)
+
+
+def named_numbers(texts: list[str], wrong: Callable[[str, str], Problem]) -> dict[str, float]:
+    """Numbers by name, as ``NAME=VALUE`` gives them.
+
+    Parameters
+    ----------
+    wrong : the problem of a text whose number is none
+    """
+    found: dict[str, float] = {}
+    for text in texts:
+        name, _, number = text.partition("=")
+        try:
+            found[name.strip()] = float(number)
+        except ValueError:
+            raise CallError(wrong(text, number)) from None
+    return found
 
 
 def processes(workers: int | None) -> int | None:
     """How many processes: as many as there are cores, if not told."""
-    import os
-
     return workers if workers is not None else os.cpu_count()

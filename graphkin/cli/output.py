@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import typer
 
@@ -14,9 +15,13 @@ from graphkin.errors import Problem, Unsolvable, printable
 from graphkin.files import json_text
 from graphkin.words import Phrase, Wording, say
 
+if TYPE_CHECKING:
+    from graphkin.api.results import Result
+    from graphkin.cli.options import Given
+
 __all__ = [
-    "asked_languages", "complain", "print_json", "print_paths", "print_table", "progress_bar", "short_bar", "tell",
-    "tell_unused", "unsolvable_as_json",
+    "asked_languages", "complain", "finish", "print_json", "print_paths", "print_table", "progress_bar", "short_bar",
+    "tell", "tell_unused", "unsolvable_as_json",
 ]  # fmt: skip
 
 
@@ -98,14 +103,35 @@ def _show_table(heads: Sequence[str], rows: Sequence[Sequence[str]], right: tupl
 
 
 @contextmanager
-def unsolvable_as_json(wanted: bool, answer: Callable[[Unsolvable], Mapping[str, object]]) -> Iterator[None]:
-    """Print the answer to a program also where the mechanism cannot be solved, before that ends the command."""
+def unsolvable_as_json(
+    wanted: bool, answer: Mapping[str, object] | Callable[[Unsolvable], Mapping[str, object]]
+) -> Iterator[None]:
+    """Print the answer to a program also where the mechanism cannot be solved, before that ends the command.
+
+    Parameters
+    ----------
+    answer : what it says beside status, reason and problems; or a function that makes all of it but the problems
+    """
     try:
         yield
     except Unsolvable as error:
         if wanted:
-            print_json({**answer(error), "problems": [problem.data for problem in error.problems]})
+            told = answer(error) if callable(answer) else {**answer, "status": error.status, "why": error.why}
+            print_json({**told, "problems": [problem.data for problem in error.problems]})
         raise
+
+
+def finish(given: Given, result: Result, paths: Iterable[Path] = (), files: bool = False) -> None:
+    """Print a result for programs, with ``files`` where it was written, or for people the paths; leave with status 1
+    where not all is as it should be."""
+    paths = list(paths)
+    if given.json:
+        data = result.data
+        print_json({**data, "files": [str(path) for path in paths]} if files and isinstance(data, dict) else data)
+    elif paths and not given.quiet:
+        print_paths(paths)
+    if not result.ok:
+        raise typer.Exit(1)
 
 
 def tell_unused(heads: Sequence[str]) -> None:

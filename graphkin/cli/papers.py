@@ -1,0 +1,123 @@
+"""``graphkin handout``: problem sheet, worked solution and key, of one problem or of a set."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from graphkin.cli.options import Given, command, processes, split_words
+from graphkin.cli.output import complain, finish, print_json, print_paths, progress_bar, short_bar, tell, tell_unused
+from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.words import Phrase, languages, say
+
+if TYPE_CHECKING:
+    from graphkin.api.course_designs import CourseDesigns
+    from graphkin.api.handouts import Handout
+
+__all__ = ["handout"]
+
+TEMPLATES = ("papers", "course-design")
+
+
+@command(
+    "scene", "out", "format of handout", "at", "position", "find", "lang of sheets", "convention",
+    "positions of handout", "variants", "seed of handout", "rows", "workers of handout", "export", "template",
+    "students", "text of handout", "json", "quiet",
+)  # fmt: skip
+def handout(given: Given) -> None:
+    """Problem sheet, worked solution with every step, and answer key; a set of them with other numbers; or reports."""
+    from graphkin.scene.designs import is_design
+
+    if given.text != "glyphs":
+        wanted = Phrase("their pdf has its letters with it and", scene=given.scene)
+        raise CallError(Problem("text", Phrase("with papers", text=given.text), wanted))
+    if given.template not in TEMPLATES:
+        raise CallError(Problem("template", f'"{given.template}"', did_you_mean(given.template, TEMPLATES)))
+    if given.template == "course-design":
+        if given.export:
+            raise CallError(Problem("template course-design", Phrase("with export"), Phrase("leave one of them out")))
+        _course(given)
+        return
+    if given.students is not None:
+        raise CallError(Problem("students", Phrase("without a course design"), Phrase("add template course-design")))
+    if is_design(given.scene):
+        _design(given)
+    elif given.variants is not None or given.rows is not None:
+        if given.at or given.positions is not None:
+            wanted = Phrase("a set draws positions of its own one")
+            raise CallError(Problem("variants", Phrase("with at or positions"), wanted))
+        _problem_set(given)
+    else:
+        _papers(given)
+
+
+def _papers(given: Given) -> None:
+    from graphkin.api.handouts import handout as handing
+
+    with short_bar(given.speaks) as progress:
+        made = handing(
+            given.scene, None, given.values, given.find or None, given.formats, given.lang, given.convention,
+            given.positions, progress, split_words(given.export),
+        )  # fmt: skip
+        paths = made.write(given.out)
+    _tell_written(given, made, paths, made.lesson.language)
+
+
+def _design(given: Given) -> None:
+    from graphkin.api.designed import design as designing
+    from graphkin.api.task_papers import write_design_papers
+
+    designed = designing(given.scene, None, ("svg",), given.lang)
+    files = write_design_papers(designed, given.out, given.formats)
+    if given.json:
+        print_json(designed.data | {"files": [str(path) for path in files]})
+    elif not given.quiet:
+        print_paths(files)
+
+
+def _course(given: Given) -> None:
+    from graphkin.api.course_designs import course_design
+
+    place = given.values
+    with short_bar(given.speaks) as progress:
+        made = course_design(
+            given.scene, given.students, given.rows, None, place, given.find or None, given.formats, given.lang,
+            given.convention, given.positions, progress, given.variants, given.seed,
+        )  # fmt: skip
+        paths = made.write(given.out)
+    _tell_written(given, made, paths, given.lang or made.mechanism.sheet.language)
+
+
+def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[Path], language: str) -> None:
+    """Say what was written, and what was not done as asked."""
+    for note in made.notes:
+        tell(f"graphkin: {say(note, languages(language)[0])}", err=True)
+    finish(given, made, paths, files=True)
+
+
+def _problem_set(given: Given) -> None:
+    from graphkin.api.handouts import papers_of
+    from graphkin.api.problem_sets import problem_set
+    from graphkin.scene import mechanism_of
+
+    target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
+    papers = papers_of(given.scene, given.formats, given.lang, given.convention, split_words(given.export))
+    with progress_bar(given.speaks, target) as progress:
+        made = problem_set(
+            given.scene, given.variants, given.seed, given.rows, target, workers=processes(given.workers),
+            render=papers, progress=progress, find=given.find or None, language=given.lang,
+        )  # fmt: skip
+    if given.json:
+        print_json(made.data)
+    elif not given.quiet:
+        gaps = {"count": len(made.made.names), "folder": target, "answers": target / "answers.csv"}
+        spoken = languages(given.lang or mechanism_of(given.scene).sheet.language)[0]
+        tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
+    tell_unused(made.unused)
+    for failure in made.made.failures:
+        complain(Phrase("where and what", where=failure.name, found=failure.why))
+    if not made.ok:
+        raise typer.Exit(min(failure.exit_code for failure in made.made.failures))
