@@ -7,14 +7,13 @@ import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from graphkin.construction import Sheet, execute, plan
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
-from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look
+from graphkin.drawing.chart import ChartPage
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
 from graphkin.drawing.ink.symbols import guide as guide_symbol
@@ -29,16 +28,17 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
 from graphkin.solver.values import FlywheelStudy
-from graphkin.study.diagram_panels import LIMIT, DiagramPanel, draw_panel, panel_of, signs_of
-from graphkin.study.driver_axis import (
+from graphkin.study.charts import (
     HEIGHT,
     LEFT,
     RIGHT,
     WIDTH,
     DriverAxis,
+    chart_page,
     driver_axis,
     heading,
     number,
+    panel_of,
     title_of,
 )
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
@@ -47,16 +47,10 @@ from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup
 
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Figure
-
 __all__ = ["LaidOver", "coupler_points", "diagrams", "measured"]
 
 LaidOver = Mapping[Quantity, Sequence[tuple[float, float]]]
 """Values measured elsewhere: offset of the driver's range and value (SI)."""
-
-TOP, GAP = 40.0, 10.0
-ASKED_HEIGHT = 95.0  # mm, of the panel of one quantity alone
 
 
 def diagrams(
@@ -121,69 +115,30 @@ def _balance_pages(turn: TurnStudy, language: str) -> dict[str, ChartPage | Draw
 def _motion_page(
     turn: TurnStudy, axis: DriverAxis, output: Output, dots: Sequence[tuple[float, ...]], over: LaidOver, language: str,
 ) -> ChartPage:
-    scene, quantity = turn.scene, output.quantity
-    turns = quantity.kind == "theta"
-    traced = {t.quantity: t for t in turn.curves}
+    """Position, rate and second rate of an output, one under the other."""
+    quantity = output.quantity
     panels = [
-        panel_of(turn, axis, q, traced.get(q), [(d[0], d[k + 1]) for d in dots], over.get(q, ()))
-        for k, q in enumerate(rates_of(quantity))
+        panel_of(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
+        for k, q in enumerate(rates_of(quantity), 1)
     ]
     limits = sorted(
         {float(axis.at(np.array(e.offset))) for e in (output.low, output.high) if e is not None and e.kind != "end"}
     )  # those at the ends of the axis are its frame
-    title = say(Phrase("motion of link" if turns else "motion of slide", (quantity.of.split("/")[0],)), language)
-    facts = _facts(turn, output, language)
-    tall = (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
-
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, in_markup(title), facts, language))
-        entries = signs_of(panels, language)
-        if limits:
-            entries.append((look(LIMIT), word("limit marks", language)))
-        add_legend(figure, complex(LEFT, TOP - 9.5), entries)
-        for k, panel in enumerate(panels):
-            top = TOP + k * (tall + GAP)
-            last = k == len(panels) - 1
-            box = Box(LEFT, top, WIDTH - RIGHT, top + tall)
-            name = panel.quantity.name.replace("/", "-")
-            axes = add_panel(figure, box, name, _headed(panel, language), axis.title * last)
-            draw_panel(axes, panel, axis, limits, language)
-            axes.tick_params(labelbottom=last)
-
-    return ChartPage(
-        WIDTH, HEIGHT, paint, title=f"{title}: {title_of(scene, language)}", desc=" ".join(facts), lang=language,
-        metadata={"scene": scene.name, "units": scene.units.length, "output": quantity.of},
-    )  # fmt: skip
+    key = "motion of link" if quantity.kind == "theta" else "motion of slide"
+    title = say(Phrase(key, (quantity.of.split("/")[0],)), language)
+    heads = in_markup(title), _facts(turn, output, language)
+    return chart_page(turn.scene, heads, panels, axis, language, title, {"output": quantity.of}, limits)
 
 
 def _asked_page(
     turn: TurnStudy, axis: DriverAxis, quantity: Quantity, over: LaidOver, language: str
 ) -> ChartPage:
     """The diagram of one quantity over the driver."""
-    scene = turn.scene
-    traced = next((t for t in turn.curves if t.quantity == quantity), None)
-    panel = panel_of(turn, axis, quantity, traced, [], over.get(quantity, ()))
-    title = say(Phrase("diagram of", (panel.title,)), language)
-    facts = [panel_fact] if (panel_fact := _apart(turn, quantity, over.get(quantity, ()), language)) else []
-
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title, facts, language))
-        add_legend(figure, complex(LEFT, TOP - 9.5), signs_of([panel], language))
-        box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + ASKED_HEIGHT)
-        axes = add_panel(figure, box, panel.quantity.name.replace("/", "-"), _headed(panel, language), axis.title)
-        draw_panel(axes, panel, axis, [], language)
-
-    return ChartPage(
-        WIDTH, TOP + ASKED_HEIGHT + 20.0, paint, title=f"{quantity.name}: {title_of(scene, language)}",
-        desc=quantity.name, lang=language,
-        metadata={"scene": scene.name, "units": scene.units.length, "quantity": quantity.name},
-    )  # fmt: skip
-
-
-def _headed(panel: DiagramPanel, language: str) -> str:
-    """The title of a panel; with it that the quantity grows without bound."""
-    more = word("list comma", language) + word("unbounded", language)
-    return panel.title + more * panel.unbounded
+    others = over.get(quantity, ())
+    panel = panel_of(turn, axis, quantity, (), others)
+    apart = _apart(turn, quantity, others, language)
+    heads = say(Phrase("diagram of", (panel.title,)), language), [apart] if apart else []
+    return chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})
 
 
 def _apart(turn: TurnStudy, quantity: Quantity, over: Sequence[tuple[float, float]], language: str) -> str:

@@ -7,8 +7,9 @@ Where a load begins, ends or turns round the curve jumps: both its values stand 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,27 +34,45 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
-from graphkin.study.diagram_panels import EMPTY, span_of
-from graphkin.study.driver_axis import LEFT, RIGHT, WIDTH, DriverAxis, driver_axis, heading, number, title_of
+from graphkin.study.charts import (
+    EMPTY,
+    LEFT,
+    MARGIN,
+    RIGHT,
+    TOP,
+    WIDTH,
+    ZERO,
+    DriverAxis,
+    Panel,
+    chart_page,
+    draw_panel,
+    draw_pieces,
+    driver_axis,
+    heading,
+    number,
+    span_of,
+    title_of,
+    whole_span,
+)
+from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, named_quantity
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
-    from graphkin.drawing.chart import Axes, Figure
+    from graphkin.drawing.chart import Figure
 
 __all__ = ["ForceRun", "flywheel_page", "force_extremes", "force_over_turn", "force_page", "polar_page", "whole_turn"]
 
 Array = NDArray[np.float64]
+Marks = tuple[tuple[Extreme, float, float], ...]
+"""Extremes with their place on the axis and their value in the scene's units."""
 
-TOP, TALL = 40.0, 95.0  # mm
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
 GROWS = 50.0
 """Beside the samples next to an end of the motion: what grows more there goes away without bound."""
 NOUGHT = 1e-12
 """Of the greatest force or moment: less is nothing but rounding."""
-MARGIN = 0.14
-ZERO, LEAP = Stroke(0.18), Stroke(0.25, (1.2, 0.9))
 FINER = 33
 TICKS = 12
 
@@ -100,53 +119,29 @@ def _written(scene: Mechanism, name: str) -> str:
 
 def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
     """A moment, or the size of a force, over the driver, with its greatest and its least value."""
-    scene = reach.scene
     axis = driver_axis(reach, language)
     found = force_over_turn(axis, quantity.of)
     values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
-    unit = quantity.unit(scene).written
-    name = _written(scene, quantity.of)
-    title = say(Phrase("diagram of", (name,)), language)
+    unit, name = quantity.unit(reach.scene).written, _written(reach.scene, quantity.of)
     every = _extremes(axis, quantity, found, values)
-    marks = [(m, k) for k, m in enumerate(every) if not _unbounded(reach, found.offsets, values, m[2], m[1])]
-    jumps, away = _jumps(found, values), len(marks) < len(every)
-    headed = f"{name} ({unit}){(word('list comma', language) + word('unbounded', language)) * away}"
-
-    def paint(figure: Figure) -> None:
-        add_words(figure, *heading(scene, title, [], language))
-        entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
-        entries += [(marker("down" if k else "up"), word("least" if k else "greatest", language)) for _, k in marks]
-        entries += [(look(LEAP), word("load jumps", language))] if jumps else []
-        add_legend(figure, complex(LEFT, TOP - 9.5), entries)
-        box = Box(LEFT, TOP, WIDTH - RIGHT, TOP + TALL)
-        axes = add_panel(figure, box, quantity.name.replace("/", "-"), headed, axis.title)
-        draw_course(axes, axis, found, values, bounded=not away)
-        for (x, value, _), k in marks:
-            axes.plot([x], [value], **marker("down" if k else "up"))
-        labels = [(number(value), (x, value)) for (x, value, _), _ in marks]
-        add_labels(axes, labels, toward=[(-math.pi / 2 if k else math.pi / 2,) for _, k in marks])
-
-    return ChartPage(
-        WIDTH, TOP + TALL + 20.0, paint, title=f"{quantity.name}: {title_of(scene, language)}", desc=quantity.name,
-        lang=language, metadata={"scene": scene.name, "units": unit, "quantity": quantity.name},
-    )  # fmt: skip
+    marks = [m for m in every if not _unbounded(reach, found.offsets, values, m[0].offset, m[2])]
+    panel = course(quantity, f"{name} ({unit})", found, values, tuple(marks), len(marks) < len(every))
+    heads = say(Phrase("diagram of", (name,)), language), ()
+    facts = {"units": unit, "quantity": quantity.name}
+    return chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
 
 
-def draw_course(axes: Axes, axis: DriverAxis, found: ForceRun, values: Array, bounded: bool = True) -> None:
-    """The curve over the driver, its jumps dashed; of one without bound what most of the way needs."""
-    low, high = span_of(np.stack([found.x, values], axis=1), EMPTY, bounded)
+def course(
+    quantity: Quantity, title: str, found: ForceRun, values: Array, marks: Marks = (), unbounded: bool = False
+) -> Panel:
+    """A force or a moment over the driver as a panel, with nought in it; of one without bound what most of the way
+    needs."""
+    curve = np.stack([found.x, values], axis=1)
+    low, high = span_of(curve, EMPTY, not unbounded)
     low, high = min(0.0, low), max(0.0, high)
-    room = MARGIN * (high - low) or 0.5
-    axes.set_xlim(axis.left, axis.right)
-    axes.set_ylim(low - room, high + room)
-    count_steps(axes.xaxis, axis.step)
-    count_steps(axes.yaxis)
-    axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
-    jumps = _jumps(found, values)
-    for piece in np.split(np.arange(len(values)), [k + 1 for k in jumps]):
-        axes.plot(found.x[piece], values[piece], **look(SOLID_AND_DASHED[0]))
-    for k in jumps:
-        axes.plot(found.x[k : k + 2], values[k : k + 2], **look(LEAP))
+    span = whole_span(low, high) if high > low else (low - 0.5, high + 0.5)
+    jumps = tuple(_jumps(found, values))
+    return Panel(quantity, title, curve, EMPTY, marks, span, unbounded=unbounded, jumps=jumps)
 
 
 def _jumps(found: ForceRun, values: Array) -> list[int]:
@@ -181,15 +176,10 @@ def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, list[tuple[s
         values = np.asarray(np.abs(value) if quantity.is_size else value.real) / scene.units.newtons
         marks = _extremes(axis, quantity, ForceRun(offsets, x, value), values)
         found[name] = quantity, [
-            (kind, _driver_at(reach, at), math.inf if _unbounded(reach, offsets, values, at, size) else size)
-            for kind, (_, size, at) in zip(("max", "min"), marks, strict=False)
+            (e.kind, e.driver, math.inf if _unbounded(reach, offsets, values, e.offset, size) else size)
+            for e, _, size in marks
         ]  # fmt: skip
     return found
-
-
-def _driver_at(reach: DriverRange, offset: float) -> float:
-    value = float(reach.value(np.array(offset)))
-    return value % math.tau if reach.full and reach.turns <= 1 else value
 
 
 def _unbounded(reach: DriverRange, offsets: Array, values: Array, at: float, value: float) -> bool:
@@ -201,24 +191,24 @@ def _unbounded(reach: DriverRange, offsets: Array, values: Array, at: float, val
     return bool((low or high) and abs(value) > GROWS * np.nanmax(inside, initial=0.0))
 
 
-def _extremes(axis: DriverAxis, quantity: Quantity, found: ForceRun, values: Array) -> list[tuple[float, float, float]]:
-    """Place on the axis, value and offset of the greatest and the least."""
-    marks = []
-    for pick in (np.nanargmax, np.nanargmin):
-        if not np.isfinite(values).any():
-            return []
+def _extremes(axis: DriverAxis, quantity: Quantity, found: ForceRun, values: Array) -> Marks:
+    """The greatest and the least, with place on the axis and value."""
+    reach, marks = axis.reach, list[tuple[Extreme, float, float]]()
+    kinds: tuple[tuple[Literal["max", "min"], Callable[[Array], np.intp]], ...]
+    kinds = ("max", np.nanargmax), ("min", np.nanargmin)
+    for kind, pick in kinds if np.isfinite(values).any() else ():
         k = int(pick(values))
-        x, value, at = float(found.x[k]), float(values[k]), float(found.offsets[k])
+        at, x, value = float(found.offsets[k]), float(found.x[k]), float(values[k])
         near = found.offsets[max(k - 1, 0) : k + 2]
-        if len(near) == 3 and 0 < near[2] - near[0] < 0.1 * (axis.reach.ends[1] - axis.reach.ends[0]):
+        if len(near) == 3 and 0 < near[2] - near[0] < 0.1 * (reach.ends[1] - reach.ends[0]):
             finer = np.concatenate([np.linspace(near[0], near[1], FINER), np.linspace(near[1], near[2], FINER)])
-            both = forces_of(axis.reach.motion(finer)).value(quantity.of)
-            assert both is not None
-            own = (np.abs(both) if quantity.is_size else both.real) / axis.reach.scene.units.newtons
+            own = quantity.values(None, reach.motion(finer)) / reach.scene.units.newtons
             best = int(pick(own))
-            x, value, at = float(axis.at(finer[best : best + 1])[0]), float(own[best]), float(finer[best])
-        marks.append((x, value, at))
-    return marks if marks[0][1] > marks[1][1] else marks[:1]
+            at, x, value = float(finer[best]), float(axis.at(finer[best : best + 1])[0]), float(own[best])
+        driver = float(reach.value(np.array(at)))
+        driver = driver % math.tau if reach.full and reach.turns <= 1 else driver
+        marks.append((Extreme(kind, at, driver, value), x, value))
+    return tuple(marks if marks and marks[0][2] > marks[-1][2] else marks[:1])
 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
@@ -228,7 +218,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     found = force_over_turn(axis, quantity.of)
     vector = np.asarray(found.values, dtype=complex)
     sizes = np.abs(vector)
-    jumps = _jumps(found, vector.real) + [k for k in _jumps(found, vector.imag) if k not in _jumps(found, vector.real)]
+    jumps = sorted({*_jumps(found, vector.real), *_jumps(found, vector.imag)})
     unit, name = quantity.unit(scene).text, _written(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
     k = int(np.nanargmax(sizes))
@@ -237,7 +227,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
     greatest = f"{number(float(sizes[k]))} {unit}", f"{number(float(found.x[k]), 4)}{mark}"
     facts = [f"{name}{word('colon', language)}{word('unbounded', language)}" if away
              else say(Phrase("greatest force at", greatest), language)]  # fmt: skip
-    most = span_of(np.stack([found.x, sizes], axis=1), EMPTY, bounded=not away)[1]
+    most = span_of(np.stack([found.x, sizes], axis=1), bounded=not away)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
     middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
@@ -257,10 +247,7 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
         count_steps(axes.yaxis)
         axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
         axes.axvline(0.0, zorder=BEHIND, **look(ZERO))
-        for piece in np.split(np.arange(len(vector)), [k + 1 for k in sorted(jumps)]):
-            axes.plot(vector[piece].real, vector[piece].imag, **look(SOLID_AND_DASHED[0]))
-        for j in jumps:
-            axes.plot(vector[j : j + 2].real, vector[j : j + 2].imag, **look(LEAP))
+        draw_pieces(axes, np.stack([vector.real, vector.imag], axis=1), jumps)
         for j in (j for j in at if sizes[j] <= most):
             axes.plot([vector[j].real], [vector[j].imag], **marker("circle"))
         labels = [(f"{number(float(x), 4)}{mark if mark == '°' else ''}", (vector[j].real, vector[j].imag)) for x, j in
@@ -291,6 +278,7 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
     # the way that the axis goes, from where it begins
     way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(np.radians(x))))])
     energy = _energy(needed, driving, way)
+    panel = course(Quantity("moment", "M"), "", ForceRun(offsets, x, needed), needed)
     title = word("moments and flywheel", language)
     facts = [
         say(Phrase("driving moment is", (f"{number(driving)} {moment}",)), language),
@@ -306,8 +294,8 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
         add_legend(figure, complex(LEFT, MOMENT_TOP - 9.5), entries)
         box = Box(LEFT, MOMENT_TOP, WIDTH - RIGHT, MOMENT_TOP + MOMENT_TALL)
         axes = add_panel(figure, box, "moments", f"$M$ ({moment})")
-        draw_course(axes, axis, ForceRun(offsets, x, needed), needed)
-        low, high = axes.get_ylim()
+        draw_panel(axes, panel, axis, language)
+        low, high = panel.span
         axes.set_ylim(min(low, driving - MARGIN * (high - low)), max(high, driving + MARGIN * (high - low)))
         axes.axhline(driving, **look(DRIVING))
         for over, colour in ((needed < driving, MORE), (needed > driving, LESS)):

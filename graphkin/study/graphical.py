@@ -30,7 +30,7 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_y
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import DriverRange, Motion
-from graphkin.study.driver_axis import number, title_of
+from graphkin.study.charts import number, title_of
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, say, word
 

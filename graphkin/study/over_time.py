@@ -5,28 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.scales import next_of_series
-from graphkin.drawing import Box
-from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words
+from graphkin.drawing.chart import ChartPage
 from graphkin.files import Json
 from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
-from graphkin.study.diagram_panels import MARGIN, DiagramPanel, draw_panel, quantity_title, signs_of
-from graphkin.study.driver_axis import HEIGHT, LEFT, RIGHT, WIDTH, heading, number, title_of
+from graphkin.study.charts import EMPTY, Panel, chart_page, number, quantity_title, span_of, whole_span
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
 from graphkin.words import Phrase, say, word
-
-if TYPE_CHECKING:
-    from graphkin.drawing.chart import Figure
 
 __all__ = ["TimeStudy", "study_time"]
 
@@ -34,7 +28,6 @@ Array = NDArray[np.float64]
 POINTS = 361
 BEFORE = 1e-9
 """Of the whole time: so long before a seam the piece before it is looked at."""
-TOP, GAP = 40.0, 10.0
 
 
 @dataclass(frozen=True)
@@ -98,51 +91,29 @@ class TimeStudy:
         return {name: self._page(quantities, language) for name, quantities in self.pages}
 
     def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
-        panels = [self._panel(q) for q in quantities]
         low, high = time_span(self.scene)
-        axis = _TimeAxis(low, high, next_of_series((high - low) / 12))
+        axis = _TimeAxis(low, high, next_of_series((high - low) / 12), word("time axis", language))
         subject = quantities[0]
         key = {"theta": "motion of link", "s": "motion of slide"}.get(subject.kind, "diagram of")
         shown = quantity_title(self.scene, subject) if key == "diagram of" else subject.of.split("/")[0]
         title = say(Phrase(key, (shown,)), language)
-        drives = [d.key for d in self.scene.drivers if d.law is not None]
-        facts = [say(Phrase("over the time", (", ".join(drives), number(low), number(high))), language)]
-        tall = (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
+        heads, panels = (title, [self._fact(language)]), [self._panel(q) for q in quantities]
+        return chart_page(self.scene, heads, panels, axis, language, title, {"over": "time"})
 
-        def paint(figure: Figure) -> None:
-            add_words(figure, *heading(self.scene, title, facts, language))
-            add_legend(figure, complex(LEFT, TOP - 9.5), signs_of(panels, language))
-            for k, panel in enumerate(panels):
-                top, last = TOP + k * (tall + GAP), k == len(panels) - 1
-                box = Box(LEFT, top, WIDTH - RIGHT, top + tall)
-                name = panel.quantity.name.replace("/", "-")
-                axes = add_panel(figure, box, name, panel.title, word("time axis", language) * last)
-                draw_panel(axes, panel, axis, [], language)
-                axes.tick_params(labelbottom=last)
+    def _fact(self, language: str) -> str:
+        """What drives, and how long."""
+        drives = ", ".join(d.key for d in self.scene.drivers if d.law is not None)
+        return say(Phrase("over the time", (drives, *map(number, time_span(self.scene)))), language)
 
-        return ChartPage(
-            WIDTH, TOP + len(panels) * (tall + GAP) + 10.0, paint, title=f"{title}: {title_of(self.scene, language)}",
-            desc=" ".join(facts), lang=language,
-            metadata={"scene": self.scene.name, "units": self.scene.units.length, "over": "time"},
-        )  # fmt: skip
-
-    def _panel(self, quantity: Quantity) -> DiagramPanel:
+    def _panel(self, quantity: Quantity) -> Panel:
         unit = quantity.unit(self.scene)
-        values = np.asarray(unit.of(self.values(quantity)))
-        good = values[np.isfinite(values)]
-        low, high = (float(good.min()), float(good.max())) if len(good) else (0.0, 1.0)
-        if not high - low > 1e-12 * max(abs(low), abs(high)):  # a constant
-            low, high = low - (abs(low) / 2 or 0.5), high + (abs(high) / 2 or 0.5)
-        span = low - MARGIN * (high - low), high + MARGIN * (high - low)
+        curve = np.stack([self.times, unit.of(self.values(quantity))], axis=1)
         marked = tuple((e, e.offset, unit.of(e.value)) for e in self.extremes[quantity])
-        title = quantity_title(self.scene, quantity)
-        return DiagramPanel(quantity, title, np.stack([self.times, values], axis=1), np.zeros((0, 2)), marked, span)
+        return Panel(quantity, quantity_title(self.scene, quantity), curve, EMPTY, marked, whole_span(*span_of(curve)))
 
     def lines(self, language: str) -> list[str]:
         """Of each quantity the least and the greatest value, with the moment of it, as lines of text."""
-        low, high = time_span(self.scene)
-        drives = [d.key for d in self.scene.drivers if d.law is not None]
-        lines = [say(Phrase("over the time", (", ".join(drives), number(low), number(high))), language)]
+        lines = [self._fact(language)]
         for quantity, extremes in self.extremes.items():
             unit = quantity.unit(self.scene)
             told = []
@@ -174,6 +145,7 @@ class _TimeAxis:
     left: float
     right: float
     step: float
+    title: str
 
 
 def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:

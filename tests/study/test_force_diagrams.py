@@ -15,7 +15,7 @@ from graphkin.api.report_text import verdict
 from graphkin.scene import mechanism_of
 from graphkin.solver import driver_range
 from graphkin.solver.values import flywheel_of, load_edges, needed_moment
-from graphkin.study.driver_axis import driver_axis
+from graphkin.study.charts import driver_axis
 from graphkin.study.force_diagrams import force_over_turn
 
 FORCES = Path(__file__).parent.parent / "validation" / "forces"

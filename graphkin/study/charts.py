@@ -1,0 +1,452 @@
+"""Charts over the way of the driver, or over the time, by one painter: a page has a heading, facts, a legend, and one
+panel under the other, each with a curve, its extremes, what was measured, and what is allowed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphkin.construction.scales import next_of_series
+from graphkin.drawing import Box, Primitive, Text
+from graphkin.drawing.chart import (
+    BEHIND,
+    SOLID_AND_DASHED,
+    ChartPage,
+    add_labels,
+    add_legend,
+    add_panel,
+    add_words,
+    count_steps,
+    degree_step,
+    look,
+    marker,
+)
+from graphkin.drawing.ink.primitives import Stroke
+from graphkin.drawing.text import rich
+from graphkin.scene.model import Mechanism
+from graphkin.solver import DriverRange, Motion
+from graphkin.study.extremes import Extreme
+from graphkin.study.quantities import Quantity
+from graphkin.study.turn import TurnStudy
+from graphkin.words import Phrase, say, word
+from graphkin.words.written import in_markup, true_minus
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Axes, Figure, Look
+
+__all__ = [
+    "ALONE",
+    "EMPTY",
+    "HEIGHT",
+    "LEAP",
+    "LEFT",
+    "MARGIN",
+    "RIGHT",
+    "TOP",
+    "WIDTH",
+    "ZERO",
+    "DriverAxis",
+    "Panel",
+    "chart_page",
+    "draw_panel",
+    "driver_axis",
+    "heading",
+    "legend_of",
+    "number",
+    "panel_of",
+    "quantity_title",
+    "span_of",
+    "title_of",
+    "whole_span",
+]  # fmt: skip
+
+Array = NDArray[np.float64]
+
+WIDTH, HEIGHT = 210.0, 297.0
+LEFT, RIGHT, TOP, GAP = 26.0, 14.0, 40.0, 10.0
+ALONE, THIRD = 95.0, (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
+"""Height of a panel that stands alone, and of one of three (mm)."""
+POINTS = 721
+BESIDE = 1e-3
+"""Of the driver's range: so far beside a place that may be a dead point."""
+MARGIN = 0.14
+"""Of the range of values, above and below the curve: room for the labels of its extremes."""
+ZERO, LEAP = Stroke(0.18), Stroke(0.25, (1.2, 0.9))
+LIMIT = Stroke(0.18, (4.0, 0.9, 0.9, 0.9))
+ROUNDING = 1e-10  # part of what a panel shows that is nothing but rounding
+ALLOWED = "#e4e4e4"
+LEAST_GAMMA = 40.0
+"""Degrees: the least transmission angle that is usually allowed (Sun Huan, Mechanical Principles, ch. 8: 40 to 50), and
+90 less it the greatest pressure angle."""
+EMPTY: Array = np.zeros((0, 2))
+
+
+def title_of(scene: Mechanism, language: str) -> str:
+    """The scene's title as markup."""
+    return in_markup(scene.title_in(language))
+
+
+def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:
+    """Title (markup), title of the scene, facts, one under the other."""
+    return (
+        Text(complex(LEFT, 15.0), rich(title, 5.0, bold=True)),
+        Text(complex(LEFT, 20.5), rich(title_of(scene, language), 3.5)),
+        Text(complex(LEFT, 25.5), rich("; ".join(facts), 3.5)),
+    )
+
+
+def number(value: float, digits: int = 5) -> str:
+    """A number to so many digits, with a minus sign."""
+    return true_minus(f"{value:.{digits}g}")
+
+
+# the axis
+
+
+class Axis(Protocol):
+    """What is drawn from left to right: its ends, the step of its ticks, its title."""
+
+    @property
+    def left(self) -> float: ...
+
+    @property
+    def right(self) -> float: ...
+
+    @property
+    def step(self) -> float: ...
+
+    @property
+    def title(self) -> str: ...
+
+
+@dataclass(frozen=True)
+class DriverAxis:
+    """The driver's value from left to right as it moves: degrees, or the scene's unit of length.
+
+    left, right : values at the ends; an axis of a whole turn begins at 0, going up or down
+    step : of the ticks
+    first : the offset of the driver's range at the left end
+    """
+
+    reach: DriverRange
+    left: float
+    right: float
+    step: float
+    first: float
+    title: str
+    _asked: dict[bytes, Motion] = field(default_factory=dict, compare=False, repr=False)
+
+    @cached_property
+    def offsets(self) -> Array:
+        """Offsets of the range in the order in which they are drawn; dense near the ends of a limited motion."""
+        low, high = self.reach.ends
+        if not self.reach.full:
+            half = np.linspace(0, np.pi, POINTS)
+            return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
+        return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
+
+    def motion_at(self, offsets: Array) -> Motion:
+        """The motion at offsets of dots, which many panels share."""
+        key = offsets.tobytes()
+        if key not in self._asked:
+            self._asked[key] = self.reach.motion(offsets, fine=False)
+        return self._asked[key]
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The motion at its offsets, for all curves that are drawn over it."""
+        return self.reach.motion(self.offsets, fine=False)
+
+    @cached_property
+    def beside_ends(self) -> Motion:
+        """The motion beside the start and the end of a whole range, and beside the left end of the axis."""
+        high = self.reach.ends[1]
+        beside = np.array([BESIDE * high, high - BESIDE * high, self.first + BESIDE * high])
+        return self.reach.motion(beside, fine=False)
+
+    @property
+    def ticks(self) -> Array:
+        low, high = sorted((self.left, self.right))
+        first, last = math.ceil(low / self.step - 1e-9), math.floor(high / self.step + 1e-9)
+        return np.asarray(self.step * np.arange(first, last + 1))
+
+    def at(self, offset: Array) -> Array:
+        """Where offsets lie on the axis."""
+        reach, scene = self.reach, self.reach.scene
+        if not reach.full:
+            return np.asarray(scene.unit_of(reach.driver).of(reach.value(offset)))
+        high = reach.ends[1]
+        along = (np.asarray(offset) - self.first) % high
+        along = np.where(along > high * (1 - 1e-12), 0.0, along)
+        return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
+
+    def shown(self, quantity: Quantity, offset: Array, values: Array) -> Array:
+        """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""
+        reach = self.reach
+        values = np.asarray(values, dtype=float)
+        if quantity.kind == "theta" and reach.full:
+            values = np.where(offset < self.first - 1e-12, values + self.gain(quantity), values)
+            left = quantity.values(reach, self.beside_ends)[2]
+            values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
+        return np.asarray(quantity.unit(reach.scene).of(values))
+
+    def gain(self, quantity: Quantity) -> float:
+        """How far an angle gets over the whole range, in whole turns: beside the ends, which may be dead points."""
+        first, last = quantity.values(self.reach, self.beside_ends)[:2]
+        return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
+
+    def points(self, quantity: Quantity, pairs: Sequence[tuple[float, float]]) -> Array:
+        """Offsets and values (SI) as points of a panel."""
+        if not len(pairs):
+            return EMPTY
+        at, read = np.array(pairs, dtype=float).T
+        if quantity.measure == "angle" and quantity.kind == "theta":
+            # an angle that is measured tells no whole turns
+            near = quantity.values(self.reach, self.motion_at(at))
+            read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
+        points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
+        return np.asarray(points[np.isfinite(points).all(axis=1)])
+
+
+def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
+    """The axis for the whole way of the driver."""
+    scene, driver = reach.scene, reach.driver
+    name = driver.key.split("/")[0]
+    symbol = f"$φ_{{{name}}}$ (°)" if driver.turns else f"$s_{{{name}}}$ ({scene.units.length})"
+    if reach.full:
+        low, high = 0.0, 360.0 * reach.turns
+    else:
+        low, high = sorted(float(scene.unit_of(driver).of(reach.value(np.array(e)))) for e in reach.ends)
+    wide = high - low or scene.size / scene.units.metres  # a slide that its own place alone lets stand has no way
+    step = degree_step(high - low) if driver.turns else next_of_series(wide / 12)
+    first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
+    left, right = (low, high) if reach.sense > 0 else (high, low)
+    return DriverAxis(reach, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))
+
+
+# a panel
+
+
+@dataclass(frozen=True)
+class Panel:
+    """What one panel shows, in units of the figure.
+
+    curve, dots, laid_over : shape (n, 2), place on the axis and value; the last are values from elsewhere
+    extremes : with place and value as they are shown, in ``span`` alone; ``local`` those beyond which the quantity goes
+        elsewhere in a range that ends, ``unbounded`` whether it grows without bound towards an end
+    allowed : the values within which a transmission or pressure angle shall stay; ``falling``: up to which that of a
+        cam's follower may go as it falls
+    jumps : after which points the curve jumps
+    """
+
+    quantity: Quantity
+    title: str
+    curve: Array
+    dots: Array
+    extremes: tuple[tuple[Extreme, float, float], ...]
+    span: tuple[float, float]
+    local: frozenset[Extreme] = frozenset()
+    unbounded: bool = False
+    allowed: tuple[float, float] | None = None
+    falling: float | None = None
+    laid_over: Array = field(default_factory=lambda: EMPTY)
+    jumps: tuple[int, ...] = ()
+
+    @property
+    def counts_degrees(self) -> bool:
+        return self.quantity.kind == "theta" and self.span[1] - self.span[0] > 60 * (1 + 2 * MARGIN)
+
+
+def panel_of(
+    turn: TurnStudy, axis: DriverAxis, quantity: Quantity, dots: Sequence[tuple[float, float]] = (),
+    laid_over: Sequence[tuple[float, float]] = (),
+) -> Panel:  # fmt: skip
+    """What the panel of a quantity over the driver shows.
+
+    Parameters
+    ----------
+    dots, laid_over : offset of the driver and value (SI) of what was measured on the drawing, and of what somebody else
+        measured
+    """
+    reach, scene = turn.reach, turn.scene
+    traced = next((t for t in turn.curves if t.quantity == quantity), None)
+    offsets = axis.offsets
+    x = axis.at(offsets)
+    values = axis.shown(quantity, offsets, quantity.values(reach, axis.motion))
+    if reach.full:
+        # the axis ends where it begins, a turn later
+        x[0], x[-1] = axis.left, axis.right
+        gain = axis.gain(quantity) if quantity.kind == "theta" else 0.0
+        values[-1] = values[0] + quantity.unit(scene).of(gain)
+    points, others = (axis.points(quantity, some) for some in (dots, laid_over))
+    curve = np.stack([x, values], axis=1)
+    low, high = span_of(curve, points, bounded=reach.full or quantity.is_position)
+    span = whole_span(min([low, *others[:, 1].tolist()]), max([high, *others[:, 1].tolist()]))
+    extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
+    places = np.array([e.offset for e in extremes])
+    shown = axis.shown(quantity, places, np.array([e.value for e in extremes]))
+    marked = [
+        (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
+        if span[0] <= value <= span[1]
+    ]  # fmt: skip
+    local = frozenset(e for e, _, _ in marked if traced and turn.is_local(traced, e))
+    unbounded = traced is not None and turn.is_unbounded(traced)
+    title = quantity_title(scene, quantity)
+    return Panel(
+        quantity, title, curve, points, tuple(marked), span, local, unbounded, *_allowed(quantity, scene), others
+    )  # fmt: skip
+
+
+def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
+    """Symbol and unit of a quantity as markup."""
+    letter, name = str(quantity.kind), quantity.of.split("/")[0]
+    if quantity.symbol is not None:
+        letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
+    greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
+    return f"${greek}_{{{name.replace('@', '')}}}$ ({quantity.unit(scene).written})"
+
+
+def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:
+    """Within what (degrees) a transmission or pressure angle shall stay; of a cam's follower what the scene allows as
+    it rises, and as it falls."""
+    symbol = quantity.symbol
+    cam = next((c for c in scene.cams if symbol and symbol.kind == "pressure" and c.follower == symbol.link), None)
+    if cam is not None and any(cam.allowed):
+        rise, fall = (math.degrees(limit) if limit else None for limit in cam.allowed)
+        return (0.0, float(rise or fall or 0.0)), fall if rise else None
+    return _usual(quantity), None
+
+
+def _usual(quantity: Quantity) -> tuple[float, float] | None:
+    kind = quantity.symbol.kind if quantity.symbol is not None else ""
+    return {"gamma": (LEAST_GAMMA, 90.0), "pressure": (0.0, 90.0 - LEAST_GAMMA)}.get(kind)
+
+
+def whole_span(low: float, high: float) -> tuple[float, float]:
+    """A range of values with room for labels."""
+    room = MARGIN * (high - low)
+    return low - room, high + room
+
+
+def span_of(curve: Array, dots: Array = EMPTY, bounded: bool = True) -> tuple[float, float]:
+    """The range of values worth showing: all of it, but of what grows without bound near the ends of a limited
+    motion what most of the way needs, and what is measured."""
+    x, good = curve[np.isfinite(curve[:, 1])].T
+    if not len(good):
+        return 0.0, 1.0
+    low, high = float(good.min()), float(good.max())
+    if not bounded:
+        order = np.argsort(x)
+        even = np.interp(np.linspace(x.min(), x.max(), len(x)), x[order], good[order])
+        least, most = np.percentile(even, (10, 90))
+        wide = 0.8 * (most - least)
+        low = max(low, min([float(least - wide), *dots[:, 1].tolist()]))
+        high = min(high, max([float(most + wide), *dots[:, 1].tolist()]))
+    if not high - low > 1e-12 * max(abs(low), abs(high)):  # a constant
+        half = abs(high) / 2 or 0.5
+        return low - half, high + half
+    return low, high
+
+
+# the painter
+
+
+def chart_page(
+    scene: Mechanism, heads: tuple[str, Sequence[str]], panels: Sequence[Panel], axis: Axis, language: str, of: str,
+    metadata: Mapping[str, object], limits: Sequence[float] = (),
+) -> ChartPage:  # fmt: skip
+    """A page with one panel under the other.
+
+    Parameters
+    ----------
+    heads : title (markup) and facts
+    of : what it shows in words, in the title and the description of the file
+    limits : places on the axis of limit positions
+    """
+    title, facts = heads
+    tall = THIRD if len(panels) > 1 else ALONE
+
+    def paint(figure: Figure) -> None:
+        add_words(figure, *heading(scene, title, facts, language))
+        marks = [(look(LIMIT), word("limit marks", language))] if limits else []
+        add_legend(figure, complex(LEFT, TOP - 9.5), [*legend_of(panels, language), *marks])
+        for k, panel in enumerate(panels):
+            top, last = TOP + k * (tall + GAP), k == len(panels) - 1
+            name = panel.quantity.name.replace("/", "-")
+            headed = panel.title + (word("list comma", language) + word("unbounded", language)) * panel.unbounded
+            axes = add_panel(figure, Box(LEFT, top, WIDTH - RIGHT, top + tall), name, headed, axis.title * last)
+            draw_panel(axes, panel, axis, language, limits)
+            axes.tick_params(labelbottom=last)
+
+    return ChartPage(
+        WIDTH, TOP + len(panels) * (tall + GAP) - GAP + 20.0, paint, title=f"{of}: {title_of(scene, language)}",
+        desc=" ".join(facts) or of, lang=language,
+        metadata={"scene": scene.name, "units": scene.units.length, **metadata},
+    )  # fmt: skip
+
+
+def draw_panel(axes: Axes, panel: Panel, axis: Axis, language: str, limits: Sequence[float] = ()) -> None:
+    """One panel; zero lines and limit positions lie behind the curve."""
+    axes.set_xlim(axis.left, axis.right)
+    axes.set_ylim(*panel.span)
+    count_steps(axes.xaxis, axis.step)
+    count_steps(axes.yaxis, degree_step(panel.span[1] - panel.span[0], 7) if panel.counts_degrees else None)
+    if panel.allowed is not None:
+        axes.axhspan(*panel.allowed, color=ALLOWED, linewidth=0.0, zorder=0.5)
+        inside = [value for value in (*panel.allowed, panel.falling) if value and 0.0 < value < 90.0]
+        for value in inside:
+            axes.axhline(value, zorder=BEHIND, **look(LIMIT))
+    axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
+    for limit in limits:
+        axes.axvline(limit, zorder=BEHIND, **look(LIMIT))
+    draw_pieces(axes, panel.curve, panel.jumps)
+    axes.plot(*panel.dots.T, **marker("circle"))
+    axes.plot(*panel.laid_over.T, **marker("cross"))
+    labels, toward = [], []
+    for extreme, x, value in panel.extremes:
+        kind = extreme.kind
+        axes.plot([x], [value], **marker("up" if kind == "max" else "down"))
+        mark = f" ({word('local', language)})" if extreme in panel.local else ""
+        nothing = abs(value) < ROUNDING * (panel.span[1] - panel.span[0])
+        labels.append((("0" if nothing else number(value)) + mark, (x, value)))
+        toward.append((math.pi / 2 if kind == "max" else -math.pi / 2,))
+    add_labels(axes, labels, toward=toward)
+
+
+def draw_pieces(axes: Axes, curve: Array, jumps: Sequence[int]) -> None:
+    """A curve, shape (n, 2), its jumps dashed."""
+    for piece in np.split(curve, [k + 1 for k in jumps]):
+        axes.plot(*piece.T, **look(SOLID_AND_DASHED[0]))
+    for k in jumps:
+        axes.plot(*curve[k : k + 2].T, **look(LEAP))
+
+
+def legend_of(panels: Sequence[Panel], language: str) -> list[tuple[Look, str]]:
+    """What the marks of some panels mean, as entries of a legend."""
+    entries = [(look(SOLID_AND_DASHED[0]), word("analytic curve", language))]
+    if any(len(panel.dots) for panel in panels):
+        entries.append((marker("circle"), word("measured dots", language)))
+    if any(len(panel.laid_over) for panel in panels):
+        entries.append((marker("cross"), word("laid over", language)))
+    for kind, key in (("max", "greatest"), ("min", "least")):
+        shown = [e in panel.local for panel in panels for e, _, _ in panel.extremes if e.kind == kind]
+        if shown:
+            named = f"local {key}" if all(shown) else key
+            entries.append((marker("up" if kind == "max" else "down"), word(named, language)))
+    for panel in panels:
+        if panel.allowed is not None:
+            low, high = panel.allowed
+            told = f"≥ {low:g}°" if high == 90.0 else f"≤ {high:g}°"
+            if panel.falling:
+                told = say(Phrase("rising and falling", (f"{high:g}°", f"{panel.falling:g}°")), language)
+            own = panel.quantity.symbol is not None and panel.allowed != _usual(panel.quantity)
+            entries.append((look(LIMIT), say(Phrase("allowed by scene" if own else "allowed band", (told,)), language)))
+    if any(panel.jumps for panel in panels):
+        entries.append((look(LEAP), word("load jumps", language)))
+    return entries
