@@ -60,8 +60,7 @@ if TYPE_CHECKING:
     from graphkin.api.scene_list import Listed, scenes
     from graphkin.api.solved import Solved, solve
     from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
-    from graphkin.api.sweep import sweep
-    from graphkin.api.swept import Swept
+    from graphkin.api.sweep import Swept, sweep
     from graphkin.board.server import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
     from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
@@ -173,8 +172,7 @@ _PLACES = {
     "api.scene_list": "Listed scenes",
     "api.solved": "Solved solve",
     "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
-    "api.sweep": "sweep",
-    "api.swept": "Swept",
+    "api.sweep": "Swept sweep",
     "scene.asked": "Positions PrintedTable StrokeStart",
     "scene.bodies": "Compass Disc Frame Guide Link Pin Polar",
     "scene.cams": "AllowedPressure BaseCircle Cam",

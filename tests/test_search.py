@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from graphkin.search import changes, intervals, last_true, least_value
-from graphkin.search.curves import resolve
+from graphkin.search import changes, intervals, last_true, least_value, resolve
 
 pytestmark = pytest.mark.quick
 

@@ -14,8 +14,7 @@ from hypothesis import strategies as st
 
 from graphkin import table as room
 from graphkin.errors import CallError
-from graphkin.table import Column, Table, text_column
-from graphkin.table.csv_files import parquet_of_csv, table_of_csv
+from graphkin.table import Column, Table, parquet_of_csv, table_of_csv, text_column
 
 NUMBERS = [0.0, -0.0, 1.0, -1.5, 1e-6, 9.9e-7, 1e-5, 1 / 3, 1e10, 9999999999.5, 123456789012.3, 1e22, 5e-324, 3e-17]
 

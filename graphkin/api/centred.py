@@ -21,7 +21,6 @@ from graphkin.api.arguments import (
     placed,
     write_files,
 )
-from graphkin.api.centre_speeds import TOLERANCE, Velocity, velocities_by_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.reading_rows import SpeedByCentres
 from graphkin.api.results import OfScene, Result
@@ -29,6 +28,8 @@ from graphkin.construction.centres import (
     Centre,
     Centres,
     Turning,
+    by_centres,
+    error_by_centres,
     find_centres,
     speeds,
     velocity_sentences,
@@ -38,7 +39,7 @@ from graphkin.construction.room import Room, scales_for
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef
+from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.rich_text import as_plain, rich_text
@@ -48,20 +49,12 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["ROOM", "Centred", "centres", "centres_text", "found_centres"]
+__all__ = ["ROOM", "Centred", "Velocity", "centres", "centres_text", "found_centres"]
 
 
-@dataclass(frozen=True)
-class CentresText:
-    """Heads and rows of the table, and sentences below it."""
-
-    heads: list[str]
-    rows: list[tuple[str, str, str, str]]
-    sentences: list[str]
-
-
-def centres_text(centred: Centred) -> CentresText:
-    """All centres of a position in words, in the language of the result."""
+def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
+    """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
+    below it."""
     language = languages(centred.language or centred.mechanism.sheet.language)[0]
     letter = "P" if (centred.convention or centred.mechanism.sheet.convention) in ("chinese", "russian") else "I"
 
@@ -97,7 +90,7 @@ def centres_text(centred: Centred) -> CentresText:
     verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
     sentences.append(say(verdict, language))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
-    return CentresText(heads, rows, sentences)
+    return heads, rows, sentences
 
 
 def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:
@@ -121,6 +114,72 @@ def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[objec
 MOST_PLAYED = 6  # links all of whose centres are played
 NO_MOTION = 1e-9
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
+
+
+TOLERANCE = 1e-9
+FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
+SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """A velocity or angular velocity by centres beside the exact one (SI).
+
+    ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
+    or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
+    it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
+    None, and ``by_centres`` is None where there is none at all.
+    """
+
+    symbol: Symbol
+    by_centres: complex | float | None
+    exact: complex | float
+    chain: tuple[str, ...]
+    tolerance: float
+    largest: float
+    ok: bool | None
+
+
+def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:
+    """Velocities measured through centres beside the exact ones: those the scene asks for, or all."""
+    scene = centres.links.scene
+    asked = [s for s in scene.find if s.kind in ("v", "omega")]
+    symbols = asked if scene.find else _all(centres)
+    found = []
+    # what is asked may be nought beside the rest: it is judged by the whole mechanism
+    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *_all(centres)))}
+    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
+    size = scene.size
+    largest["omega"] = max(largest["omega"], largest["v"] / size)
+    rounded = float(motion.rough[0][0])
+    for symbol in symbols:
+        value = by_centres(centres, turning, symbol)
+        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
+        if value is None:
+            found.append(Velocity(symbol, None, wanted, (), math.inf, largest[symbol.kind], None))
+            continue
+        most = max(largest[symbol.kind], 1e-300)
+        own = rounded / (1.0 if symbol.is_vector else size)
+        tolerance = max(TOLERANCE * most, own, SAFETY * error_by_centres(centres, turning, symbol))
+        close = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
+        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, most, close))
+    return tuple(found)
+
+
+def _all(centres: Centres) -> list[Symbol]:
+    links = centres.links
+    frame = links.scene.frame
+    moving = [name for name in links.names if name != frame.name]
+    pins = [p for p, names in links.scene.holders.items() if p not in frame.points and any(n in moving for n in names)]
+    return [Symbol("omega", link=name) for name in moving] + [Symbol("v", PointRef(p)) for p in pins]
+
+
+def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> tuple[str, ...]:
+    if symbol.link:
+        return turning[symbol.link].chain
+    assert symbol.of is not None
+    holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
+    return next((turning[n].chain for n in holders if n in turning), ())
 
 
 @dataclass(frozen=True, repr=False)

@@ -25,8 +25,8 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin import solver
-    from graphkin.api.design_keys import DesignKeys
     from graphkin.solver.designs import PreparedMechanisms
+    from graphkin.study.designs import DesignKeys
 
 __all__ = ["Prepared", "PreparedDesigns", "Samples", "prepare"]
 
@@ -225,8 +225,8 @@ class Prepared(Tabled, OfScene):
         CallError : a key that the scene does not have or that changes no dimension; values that are no finite numbers,
             lengths that are not positive, or values of different shapes
         """
-        from graphkin.api.design_keys import design_keys
         from graphkin.solver.designs import PreparedMechanisms
+        from graphkin.study.designs import design_keys
 
         if self.ready.loads:
             found = Phrase("forces are not given over designs", loads=', '.join(self.ready.loads))

@@ -17,7 +17,7 @@ from graphkin.words import Phrase, say
 from graphkin.words.written import ROUNDED
 
 if TYPE_CHECKING:
-    from graphkin.api.centre_speeds import Velocity
+    from graphkin.api.centred import Velocity
     from graphkin.checking.audit import Judged
     from graphkin.checking.uncertainty import Uncertainty
 

@@ -162,9 +162,9 @@ def centres(given: Given) -> None:
     paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
     if given.speaks:
         print_paths(paths)
-        told = centres_text(found)
-        print_table(told.heads, told.rows)
-        tell("\n".join(told.sentences))
+        heads, rows, sentences = centres_text(found)
+        print_table(heads, rows)
+        tell("\n".join(sentences))
     finish(given, found)
 
 

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from graphkin.scene.cams import LawCam
-from graphkin.search.curves import Pieces, resolve
+from graphkin.search import Pieces, resolve
 from graphkin.solver import DriverRange, Motion
 from graphkin.solver.cams import cam_angle
 from graphkin.solver.pose import Array

@@ -29,8 +29,7 @@ from graphkin.solver.prepared import PreparedMechanism
 from graphkin.structure import Structure, in_stages
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
-from graphkin.table import Column, Table, have
-from graphkin.table.csv_files import parquet_of_csv
+from graphkin.table import Column, Table, have, parquet_of_csv
 from graphkin.words import Phrase, from_others
 
 __all__ = [

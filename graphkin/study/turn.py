@@ -3,8 +3,8 @@ which ranges of the driver a mechanism can be assembled, and which of them the m
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
 from typing import Literal
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Unsolvable
+from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.search import intervals
@@ -22,13 +23,14 @@ from graphkin.solver.driver_range import Extremes, extremes
 from graphkin.solver.engine import positions
 from graphkin.solver.pose import Drive
 from graphkin.solver.values import FlywheelStudy, flywheel_of
-from graphkin.structure import Dyad
+from graphkin.structure import Dyad, DyadKind, Pair, Structure
 from graphkin.study.extremes import Extreme, Least, Traced, trace
-from graphkin.study.grashof import BasicLoop, loops
 from graphkin.study.quantities import Quantity, link_quantities, rates_of, slide_quantities
 
-__all__ = ["Output", "TurnStudy", "study_turn"]
+__all__ = ["BasicLoop", "Output", "TurnStudy", "four_bar_class", "study_turn"]
 
+EQUAL = 1e-9
+"""Lengths that differ by less than this part of the longest count as equal: a change point."""
 WAY = 400
 GROWS = 5.0  # a hundred times nearer to an end a rate like the root of the distance is ten times as much
 
@@ -68,6 +70,225 @@ class Output:
     def unbounded(self) -> bool:
         """Whether it goes away without bound at an end of the motion."""
         return any(not np.isfinite(e.value) for e in self.position.extremes)
+
+
+@dataclass(frozen=True)
+class BasicLoop:
+    """One basic mechanism, by name as in textbooks.
+
+    Grashof's rule for four-bars, its forms for slider-cranks and their inversions, offsets included (Norton, Design of
+    Machinery, ch. 2 and 3; 孙桓 《机械原理》, ch. 8; for the offset Hall, Kinematics and Linkage Design).
+
+    kind : "four-bar", "slider-crank", "guide bar", "oscillating block", "double slider"
+    name : "crank-rocker", "swinging guide bar", ...
+    links : its links, the frame last
+    lengths : by their names (m): "crank", "coupler", "rocker", "frame"; "crank", "rod", "offset"; "crank", "centres",
+        "offset"
+    grashof : whether some link can turn fully about another; None where the rule does not apply
+    turns : the links that can turn fully about the frame
+    """
+
+    kind: str
+    name: str
+    links: tuple[str, ...]
+    lengths: dict[str, float]
+    grashof: bool | None
+    turns: tuple[str, ...]
+
+
+def loops(structure: Structure) -> tuple[BasicLoop, ...]:
+    """The basic mechanisms of a structure: groups of two links between the frame and a link pivoted to the frame."""
+    frame, order = structure.scene.frame.name, structure.scene.order
+
+    def place(name: str) -> int:
+        return order.get(name, -1)
+
+    found: list[BasicLoop] = []
+    for group in structure.groups:
+        if isinstance(group, Dyad) and all(len(body.links) == 1 for body in group.bodies):
+            loop = _FINDERS[group.kind](structure, group)
+            if loop is not None:
+                links = (*sorted(loop.links, key=place), frame)
+                found.append(replace(loop, links=links, turns=tuple(sorted(loop.turns, key=place))))
+    return tuple(found)
+
+
+def _pivot(structure: Structure, link: str) -> str | None:
+    """The point at which a link turns about the frame."""
+    frame = structure.links[structure.scene.frame.name].points
+    return next((p for p in structure.links[link].points if p in frame), None)
+
+
+def _mate(structure: Structure, group: Dyad, joint: Pair) -> str:
+    """The link outside a group at one of its outer pins: the frame, or one that is pivoted to the frame, if there are
+    several."""
+    frame = structure.scene.frame.name
+    others = [n for n in structure.hinges.get(joint.point, (joint.b,)) if n not in group.links]
+    if frame in others or not others:
+        return frame if frame in others else joint.b
+    return next((n for n in others if _pivot(structure, n) is not None), others[0])
+
+
+def _between(structure: Structure, link: str, one: str, two: str) -> float:
+    points = structure.links[link].points
+    return abs(points[one] - points[two])
+
+
+def _on_crank(structure: Structure, group: Dyad) -> tuple[tuple[Pair, str], tuple[Pair, str], str, str] | None:
+    """Of a group that turns about a crank and about the frame: both outer pairs, each with the link of the group there,
+    first that on the crank; the crank and its pivot.  None for another group."""
+    frame = structure.scene.frame.name
+    moving = group.outer_first, group.first.links[0]
+    fixed = group.outer_second, group.second.links[0]
+    if _mate(structure, group, fixed[0]) != frame:
+        moving, fixed = fixed, moving
+    crank = _mate(structure, group, moving[0])
+    pivot = _pivot(structure, crank)
+    if _mate(structure, group, fixed[0]) != frame or crank == frame or pivot in (None, fixed[0].point):
+        return None
+    assert pivot is not None
+    return moving, fixed, crank, pivot
+
+
+def _four_bar(structure: Structure, group: Dyad) -> BasicLoop | None:
+    ends = _on_crank(structure, group)
+    if ends is None:
+        return None
+    (moving, coupler), (fixed, rocker), crank, pivot = ends
+    lengths = {
+        "crank": _between(structure, crank, pivot, moving.point),
+        "coupler": _between(structure, coupler, moving.point, group.inner.point),
+        "rocker": _between(structure, rocker, fixed.point, group.inner.point),
+        "frame": _between(structure, structure.scene.frame.name, pivot, fixed.point),
+    }
+    name, grashof, by = four_bar_class(**lengths)
+    turns = tuple({"crank": crank, "rocker": rocker}[b] for b in by)
+    return BasicLoop("four-bar", name, (crank, coupler, rocker), lengths, grashof, turns)
+
+
+def four_bar_class(crank: float, coupler: float, rocker: float, frame: float) -> tuple[str, bool, tuple[str, ...]]:
+    """Grashof's class of a four-bar, whether it is a Grashof linkage, and which of "crank" and "rocker" (the two links
+    pivoted to the frame) turn fully.
+
+    >>> four_bar_class(150, 500, 300, 400)
+    ('crank-rocker', True, ('crank',))
+    """
+    lengths = {"crank": crank, "coupler": coupler, "rocker": rocker, "frame": frame}
+    shortest, longest = min(lengths.values()), max(lengths.values())
+    excess = 2 * (shortest + longest) - added_up(lengths.values())
+    if abs(excess) <= EQUAL * longest:
+        short = [k for k, v in lengths.items() if v <= shortest + EQUAL * longest]
+        turning = {"crank", "rocker"} if len(short) > 1 or short == ["frame"] else set(short) & {"crank", "rocker"}
+        return "change point", True, tuple(k for k in ("crank", "rocker") if k in turning)
+    if excess > 0:
+        return "triple-rocker", False, ()
+    short_one = min(lengths, key=lambda k: lengths[k])
+    if short_one == "frame":
+        return "double-crank", True, ("crank", "rocker")
+    if short_one == "coupler":
+        return "double-rocker", True, ()
+    return "crank-rocker", True, (short_one,)
+
+
+def _slider_crank(structure: Structure, group: Dyad) -> BasicLoop | None:
+    frame = structure.scene.frame.name
+    pin, slide, inner = group.outer_first, group.outer_second, group.inner.point
+    rod, slider = group.first.links[0], group.second.links[0]
+    crank, guiding = _mate(structure, group, pin), slide.b
+    turning = crank if guiding == frame else guiding
+    pivot = _pivot(structure, turning)
+    if slider != slide.a or (crank == frame) == (guiding == frame) or pivot is None:
+        return None
+    turned = slide.guide.direction * slide.turn
+    on_line = slide.guide.through + turned * structure.links[slide.a].points[inner]
+    away = (structure.links[guiding].points[pivot] - on_line) * slide.guide.direction.conjugate()
+    arm, offset = _between(structure, rod, pin.point, inner), abs(float(away.imag))
+    if guiding == frame:
+        lengths = {"crank": _between(structure, crank, pivot, pin.point), "rod": arm, "offset": offset}
+        return _slider_crank_named(lengths, (crank, rod, slider))
+    if pivot == pin.point:
+        return None
+    # a turning guide carries the block at the end of a crank
+    lengths = {"crank": arm, "centres": _between(structure, frame, pivot, pin.point), "offset": offset}
+    return _guide_bar(lengths, rod, guiding, (guiding, slider, rod))
+
+
+def _slider_crank_named(lengths: dict[str, float], links: tuple[str, ...]) -> BasicLoop:
+    r, rod, e = lengths["crank"], lengths["rod"], lengths["offset"]
+    equal = EQUAL * max(r, rod, e)
+    grashof = abs(rod - r) >= e - equal
+    turns = links[:1] if grashof and rod >= r - equal else ()
+    if abs(abs(rod - r) - e) <= equal:
+        name = "slider-crank at a change point"
+    elif grashof:
+        name = "slider-crank" if turns else "slider-crank whose rod turns fully"
+    else:
+        name = "rocker-slider"
+    return BasicLoop("slider-crank", f"{'in-line' if e <= equal else 'offset'} {name}", links, lengths, grashof, turns)
+
+
+def _guide_bar(lengths: dict[str, float], crank: str, bar: str, links: tuple[str, ...]) -> BasicLoop:
+    r, d, e = lengths["crank"], lengths["centres"], lengths["offset"]
+    turns: tuple[str, ...] = (crank,)
+    if abs(abs(r - d) - e) <= EQUAL * max(r, d, e):
+        name = "guide bar at a change point"
+    elif r - d > e:
+        name, turns = "rotating guide bar (Whitworth)", (crank, bar)
+    elif d - r > e:
+        name = "swinging guide bar"
+    else:
+        name, turns = "guide bar without a full turn", ()
+    return BasicLoop("guide bar", name, links, lengths, bool(turns), turns)
+
+
+_BLOCKS = {
+    "rotating guide bar (Whitworth)": "rotating block", "swinging guide bar": "oscillating block",
+    "guide bar at a change point": "block at a change point",
+    "guide bar without a full turn": "block without a full turn",
+}  # fmt: skip
+"""Names of guide bars where it is the block that is pivoted to the frame."""
+
+
+def _inverted(structure: Structure, group: Dyad) -> BasicLoop | None:
+    ends = _on_crank(structure, group)
+    if ends is None:
+        return None
+    (moving, other), (fixed, swinging), crank, pivot = ends
+    inner = group.inner
+    pins = {link: structure.links[link].points[pair.point] for pair, link in ends[:2]}
+    # of the pivots of both links, the distance at right angles to the guide
+    of_guide = ((pins[inner.b] - inner.guide.through) * inner.guide.direction.conjugate()).imag
+    of_block = (inner.turn * pins[inner.a]).imag
+    lengths = {
+        "crank": _between(structure, crank, pivot, moving.point),
+        "centres": _between(structure, structure.scene.frame.name, pivot, fixed.point),
+        "offset": abs(of_guide - of_block),
+    }
+    bar = _guide_bar(lengths, crank, swinging, (crank, other, swinging))
+    return bar if swinging == inner.b else replace(bar, kind="oscillating block", name=_BLOCKS[bar.name])
+
+
+def _double_slider(structure: Structure, group: Dyad) -> BasicLoop | None:
+    frame = structure.scene.frame.name
+    turns = [p for p in group.pairs if p.turns]
+    onto = {end for p in group.pairs for end in (p.a, p.b)} - set(group.links)
+    if frame not in onto or len(onto) != 2 or group.kind != "RPP":
+        return None
+    other = next(name for name in onto if name != frame)
+    pivot = _pivot(structure, other)
+    if pivot is None or not turns or turns[0].b != other:
+        return None
+    crank = {"crank": _between(structure, other, pivot, turns[0].point)}
+    return BasicLoop("double slider", "Scotch yoke", (other, *group.links), crank, True, (other,))
+
+
+_FINDERS: Mapping[DyadKind, Callable[[Structure, Dyad], BasicLoop | None]] = {
+    "RRR": _four_bar,
+    "RRP": _slider_crank,
+    "RPR": _inverted,
+    "PRP": _double_slider,
+    "RPP": _double_slider,
+}
 
 
 @dataclass(frozen=True)

@@ -130,7 +130,7 @@ def apart(one: Values, another: Values) -> str:
 def clean_processes() -> ProcessPoolExecutor:
     """Processes that have solved nothing before, one for each piece of work."""
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["graphkin.api.swept", "graphkin.api.prepared", "graphkin.solver", __name__])
+    context.set_forkserver_preload(["graphkin.api.sweep", "graphkin.api.prepared", "graphkin.solver", __name__])
     return ProcessPoolExecutor(1, context, max_tasks_per_child=1)
 
 

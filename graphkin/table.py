@@ -12,6 +12,7 @@ JSON, Parquet and Arrow.
 
 from __future__ import annotations
 
+import csv
 import html
 import io
 import json
@@ -35,9 +36,10 @@ from graphkin.words import Phrase, from_others
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+    import pyarrow.csv
     import xarray
 
-__all__ = ["Array", "Column", "Table", "Values", "have", "text_column"]
+__all__ = ["Array", "Column", "Table", "Values", "have", "parquet_of_csv", "table_of_csv", "text_column"]
 
 BLOCK = 16384
 """Rows that are turned into text at once, so that a table of any length needs little more memory."""
@@ -509,3 +511,54 @@ def words_to_arrow(words: list[str]) -> pyarrow.Array:
     ends = np.zeros(len(parts) + 1, np.int32)
     np.cumsum(list(map(len, parts)), out=ends[1:])
     return pa.StringArray.from_buffers(len(parts), pa.py_buffer(ends), pa.py_buffer(b"".join(parts)))
+
+
+# a table that was written as a CSV file
+
+
+def table_of_csv(path: str | Path, like: Table) -> Table:
+    """A table from a CSV file that was written of one with the same columns (``like``, which may be empty)."""
+    if have("pyarrow"):
+        csv_file = import_module("pyarrow.csv")
+        whole = csv_file.read_csv(path, convert_options=_arrow_types(like))
+        arrays = [column.to_numpy() for column in whole.columns]
+    else:
+        with open(path, newline="", encoding="utf-8") as stream:
+            cells = np.array(list(csv.reader(stream))[1:], dtype=object).reshape(-1, len(like.columns))
+        arrays = [_read(cells[:, k], column) for k, column in enumerate(like.columns)]
+    kinds = [c.values.dtype for c in like.columns]
+    made = [
+        replace(c, values=values.astype(kind))
+        for c, values, kind in zip(like.columns, arrays, kinds, strict=True)
+    ]
+    return Table(tuple(made), like.index)
+
+
+def _read(cells: Array, like: Column) -> Array:
+    """Cells of a CSV file as what a column holds."""
+    kind = like.values.dtype.kind
+    if kind == "b":
+        return np.asarray(cells == "yes")
+    return np.where(cells == "", "nan", cells) if kind == "f" else cells
+
+
+def parquet_of_csv(path: Path, like: Table, out: IO[bytes]) -> None:
+    """Write the table of a CSV file (with the columns of ``like``) as Parquet, in bounded memory."""
+    from pyarrow import csv as csv_file
+    from pyarrow import parquet
+
+    with csv_file.open_csv(path, convert_options=_arrow_types(like)) as reader, \
+            parquet.ParquetWriter(out, reader.schema, compression="zstd") as writer:  # fmt: skip
+        for batch in reader:
+            writer.write_batch(batch)
+
+
+def _arrow_types(like: Table) -> pyarrow.csv.ConvertOptions:
+    import pyarrow as pa
+    from pyarrow import csv as csv_file
+
+    kinds = {"f": pa.float64(), "i": pa.int64(), "u": pa.int64(), "b": pa.bool_()}
+    types = {c.head: kinds.get(c.values.dtype.kind, pa.string()) for c in like.columns}
+    return csv_file.ConvertOptions(
+        column_types=types, null_values=[""], true_values=["yes"], false_values=["no"], strings_can_be_null=False
+    )
