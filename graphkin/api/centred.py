@@ -22,7 +22,7 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.reading_rows import SpeedByCentres
+from graphkin.api.reading_rows import Known, in_unit
 from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import (
     Centre,
@@ -39,7 +39,7 @@ from graphkin.construction.room import Room, scales_for
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Structure
 from graphkin.words import Phrase, languages, say, word
 from graphkin.words.rich_text import as_plain, rich_text
@@ -180,6 +180,41 @@ def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> 
     assert symbol.of is not None
     holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
     return next((turning[n].chain for n in holders if n in turning), ())
+
+
+@dataclass(frozen=True, repr=False)
+class SpeedByCentres(Known):
+    """A velocity or an angular velocity by instant centres beside the exact one; ``by_centres`` is None where they do
+    not give it.
+
+    chain : the centres it was taken through
+    tolerance : how far the two may be apart
+    ok : whether they agree; None where the centres do not determine it
+    """
+
+    by_centres: Value | None
+    exact: Value
+    chain: tuple[str, ...]
+    tolerance: float
+    ok: bool | None
+
+    @classmethod
+    def of(cls, scene: Mechanism, velocity: Velocity) -> SpeedByCentres:
+        """A velocity (SI) in the units of its scene."""
+        unit = velocity.symbol.unit(scene.units)
+
+        def shown(value: Value) -> Value:
+            own = complex(value) if velocity.symbol.is_vector else float(value.real)
+            return in_unit(unit, own, 0.0 if velocity.ok is None else velocity.tolerance)
+
+        taken = None if velocity.by_centres is None else shown(velocity.by_centres)
+        return cls(
+            velocity.symbol, unit.text, taken, shown(velocity.exact), velocity.chain, unit.of(velocity.tolerance),
+            velocity.ok,
+        )  # fmt: skip
+
+    def _values(self) -> tuple[tuple[str, Value | None], ...]:
+        return ("by centres", self.by_centres), ("exact", self.exact)
 
 
 @dataclass(frozen=True, repr=False)

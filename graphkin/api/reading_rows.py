@@ -17,12 +17,18 @@ from graphkin.words import Phrase, say
 from graphkin.words.written import ROUNDED
 
 if TYPE_CHECKING:
-    from graphkin.api.centred import Velocity
     from graphkin.checking.audit import Judged
     from graphkin.checking.uncertainty import Uncertainty
 
-__all__ = ["JudgedValue", "Known", "ReadValue", "SpeedByCentres", "finite", "reading_row",
-           "without_residues"]  # fmt: skip
+__all__ = [
+    "JudgedValue",
+    "Known",
+    "ReadValue",
+    "finite",
+    "in_unit",
+    "reading_row",
+    "without_residues",
+]  # fmt: skip
 
 RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
 TURNED = 1e-12  # rad, likewise
@@ -56,7 +62,7 @@ class Known:
         return f"{size:.6g}{unit}{way}"
 
 
-def _in(unit: Unit, value: Value, floor: float) -> Value:
+def in_unit(unit: Unit, value: Value, floor: float) -> Value:
     """A value (SI) in a unit; what of it is not above ``floor`` is 0."""
     parts = (part if abs(part) > floor else 0.0 for part in (value.real, value.imag))
     re, im = (float(unit.of(part)) for part in parts)
@@ -89,7 +95,7 @@ class ReadValue(Known):
         unit = row.symbol.unit(scene.units)
         measured, exact = (complex(v) if row.symbol.is_vector else float(v.real) for v in (row.measured, row.true))
         return cls(
-            row.symbol, unit.text, row.on_paper, _in(unit, measured, row.bound), _in(unit, exact, row.floor),
+            row.symbol, unit.text, row.on_paper, in_unit(unit, measured, row.bound), in_unit(unit, exact, row.floor),
             unit.of(row.error), unit.of(row.tolerance), math.degrees(row.direction_error), row.ok,
             None if row.uncertainty is None else unit.of(row.uncertainty.deviation),
         )  # fmt: skip
@@ -100,41 +106,6 @@ class ReadValue(Known):
     def _words(self) -> tuple[str, ...]:
         read = "" if self.on_paper is None else f"read from {self.on_paper:.6g} mm on paper"
         return read, {True: "ok", False: "out of tolerance", None: "not determined here"}[self.ok]
-
-
-@dataclass(frozen=True, repr=False)
-class SpeedByCentres(Known):
-    """A velocity or an angular velocity by instant centres beside the exact one; ``by_centres`` is None where they do
-    not give it.
-
-    chain : the centres it was taken through
-    tolerance : how far the two may be apart
-    ok : whether they agree; None where the centres do not determine it
-    """
-
-    by_centres: Value | None
-    exact: Value
-    chain: tuple[str, ...]
-    tolerance: float
-    ok: bool | None
-
-    @classmethod
-    def of(cls, scene: Mechanism, velocity: Velocity) -> SpeedByCentres:
-        """A velocity (SI) in the units of its scene."""
-        unit = velocity.symbol.unit(scene.units)
-
-        def shown(value: Value) -> Value:
-            own = complex(value) if velocity.symbol.is_vector else float(value.real)
-            return _in(unit, own, 0.0 if velocity.ok is None else velocity.tolerance)
-
-        taken = None if velocity.by_centres is None else shown(velocity.by_centres)
-        return cls(
-            velocity.symbol, unit.text, taken, shown(velocity.exact), velocity.chain, unit.of(velocity.tolerance),
-            velocity.ok,
-        )  # fmt: skip
-
-    def _values(self) -> tuple[tuple[str, Value | None], ...]:
-        return ("by centres", self.by_centres), ("exact", self.exact)
 
 
 @dataclass(frozen=True, repr=False)
