@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Literal
 
 from graphkin.scene.cams import LawCam
@@ -139,6 +138,10 @@ class Driver:
     law : how it moves over the time; the rates are those at the moment that the law asks
     ratios, through : of a follower, whose motion is in constant ratios to the drivers by rolling: its rate by that of
         each driver (m/rad where lengths and angles mix), and the links that pass the motion on
+
+    From these follow whether it ``turns`` (gives an angle, not a travel), its ``key`` (the link that it turns, or the
+    sliding pair), both ``links``, its three ``values``, what they ``measure``, whether it ``rolls`` (rolling makes it
+    follow the drivers) or is ``given`` by the scene.
     """
 
     link: str
@@ -155,40 +158,20 @@ class Driver:
     ratios: tuple[float, ...] = ()
     through: tuple[str, ...] = ()
 
-    @property
-    def turns(self) -> bool:
-        """Whether it gives an angle, not a travel."""
-        return not self.slide
+    turns: bool = field(init=False, repr=False, compare=False)
+    key: str = field(init=False, repr=False, compare=False)
+    links: tuple[str, str] = field(init=False, repr=False, compare=False)
+    values: tuple[float, float, float] = field(init=False, repr=False, compare=False)
+    measure: Measure = field(init=False, repr=False, compare=False)
+    rolls: bool = field(init=False, repr=False, compare=False)
+    given: bool = field(init=False, repr=False, compare=False)
 
-    @property
-    def key(self) -> str:
-        """Its name: the link that it turns, or the sliding pair."""
-        return self.slide or self.link
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The driven link, and that from which its motion counts."""
-        return self.link, self.relative_to
-
-    @property
-    def rolls(self) -> bool:
-        """Whether rolling makes it follow the drivers."""
-        return bool(self.ratios)
-
-    @property
-    def given(self) -> bool:
-        """Whether the scene gives it, not rolling or a cam."""
-        return not self.ratios
-
-    @property
-    def measure(self) -> Measure:
-        """What its value measures."""
-        return "angle" if self.turns else "length"
-
-    @property
-    def values(self) -> tuple[float, float, float]:
-        """Value, rate, second rate (rad or m, per s, per s2)."""
-        return self.value, self.rate, self.second
+    def __post_init__(self) -> None:
+        self.__dict__.update(
+            turns=not self.slide, key=self.slide or self.link, links=(self.link, self.relative_to),
+            values=(self.value, self.rate, self.second), measure="length" if self.slide else "angle",
+            rolls=bool(self.ratios), given=not self.ratios,
+        )  # fmt: skip
 
     def span(self, size: float) -> float:
         """What its values are measured by where they shall have no unit: 1 rad, or a size (m)."""
@@ -302,6 +285,9 @@ class Mechanism:
     acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
     (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing;
     ``scans`` are drawings to be judged; ``written`` is what it was read from, None where it was made otherwise.
+    ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
+    for each point the links that have it, the frame first; ``size`` (m), the largest distance given in the file, says
+    how large the mechanism is.
     """
 
     name: str
@@ -334,6 +320,10 @@ class Mechanism:
     scans: tuple[PlacedScan, ...] = ()
     source_zh: str = ""
     written: FileTable | None = field(default=None, compare=False, repr=False)
+    by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
+    order: Mapping[str, int] = field(init=False, repr=False, compare=False)
+    holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
+    size: float = field(init=False, repr=False, compare=False)
 
     def __hash__(self) -> int:
         return hash((self.name, self.title, tuple(link.name for link in self.links)))
@@ -361,31 +351,20 @@ class Mechanism:
         """Where the problem comes from, in a language: as the title."""
         return self.source_zh if language == "zh" and self.source_zh else self.source
 
-    @cached_property
-    def by_name(self) -> Mapping[str, PlacedLink]:
-        """Every link by its name, the frame included."""
-        return {link.name: link for link in (self.frame, *self.links)}
-
-    @cached_property
-    def order(self) -> Mapping[str, int]:
-        """Place of each link in the file; the frame is last."""
-        names = [link.name for link in self.links] + [self.frame.name]
-        return {name: i for i, name in enumerate(names)}
-
-    @cached_property
-    def holders(self) -> Mapping[str, tuple[str, ...]]:
-        """For each point the links that have it, the frame first, then in the order of the file."""
-        table: dict[str, list[str]] = {}
-        for link in (self.frame, *self.links):
+    def __post_init__(self) -> None:
+        each = self.frame, *self.links
+        holders: dict[str, list[str]] = {}
+        for link in each:
             for point in link.points:
-                table.setdefault(point, []).append(link.name)
-        return {point: tuple(names) for point, names in table.items()}
+                holders.setdefault(point, []).append(link.name)
+        self.__dict__.update(
+            by_name={link.name: link for link in each},
+            order={link.name: i for i, link in enumerate((*self.links, self.frame))},
+            holders={point: tuple(names) for point, names in holders.items()},
+            size=self._size() if self.instead_of is None else self.instead_of.size,
+        )
 
-    @cached_property
-    def size(self) -> float:
-        """A length that says how large the mechanism is (m): the largest distance given in the file."""
-        if self.instead_of is not None:
-            return self.whole.size
+    def _size(self) -> float:
         spans = [abs(z) for link in self.links for z in link.points.values()]
         fixed = list(self.frame.points.values()) + [g.through for n, g in self.frame.guides.items() if n]
         spans += [abs(a - b) for i, a in enumerate(fixed) for b in fixed[:i]]

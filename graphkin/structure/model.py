@@ -58,6 +58,9 @@ class Pair:
     turn : unit complex number from the guide's sense to a's own x axis
     pin : a's first point, if it has one
     slot : whether the block ``a`` only stands for a pin in a slot
+
+    From these follow whether it ``turns``, both ``links``, the ``point`` about which they turn ("" of a sliding pair)
+    and its ``letter``, R (revolute) or P (prismatic).
     """
 
     key: str
@@ -68,25 +71,16 @@ class Pair:
     pin: str | None = None
     slot: bool = False
 
-    @property
-    def turns(self) -> bool:
-        """Whether it is a turning pair, not a sliding one."""
-        return not self.guide.direction
+    turns: bool = field(init=False, repr=False, compare=False)
+    links: tuple[str, str] = field(init=False, repr=False, compare=False)
+    point: str = field(init=False, repr=False, compare=False)
+    letter: str = field(init=False, repr=False, compare=False)
 
-    @property
-    def links(self) -> tuple[str, str]:
-        """Both links."""
-        return self.a, self.b
-
-    @property
-    def point(self) -> str:
-        """The point about which both links turn, "" of a sliding pair."""
-        return self.key if self.turns else ""
-
-    @property
-    def letter(self) -> str:
-        """R for turning (revolute), P for sliding (prismatic)."""
-        return "R" if self.turns else "P"
+    def __post_init__(self) -> None:
+        turns = not self.guide.direction
+        self.__dict__.update(
+            turns=turns, links=(self.a, self.b), point=self.key if turns else "", letter="R" if turns else "P"
+        )
 
     def other(self, link: str) -> str:
         """The link that it joins to one of its links."""
@@ -158,14 +152,11 @@ class Rolled:
     given: ClassVar[bool] = False
     through: ClassVar[tuple[str, ...]] = ()
 
-    @property
-    def key(self) -> str:
-        return self.coordinate[1]
+    turns: bool = field(init=False, repr=False, compare=False)
+    key: str = field(init=False, repr=False, compare=False)
 
-    @property
-    def turns(self) -> bool:
-        """Whether it is an angle."""
-        return self.coordinate[0] == "angle"
+    def __post_init__(self) -> None:
+        self.__dict__.update(turns=self.coordinate[0] == "angle", key=self.coordinate[1])
 
 
 @dataclass(frozen=True)
@@ -173,7 +164,8 @@ class Driven:
     """A link that a driver, or a cam by its law, moves from links already known: crank, driven slider, follower.
 
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
-    driven link may be the sliding or the guiding one.
+    driven link may be the sliding or the guiding one.  It answers as groups do: of ``links`` and ``members`` it is the
+    only one; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the links that it hangs on.
     """
 
     link: str
@@ -183,35 +175,21 @@ class Driven:
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
-    @property
-    def rolled(self) -> Rolled | None:
-        """How it rolls on links whose motion is known, if it does."""
-        return self.driver if isinstance(self.driver, Rolled) else None
+    links: tuple[str] = field(init=False, repr=False, compare=False)
+    members: tuple[str] = field(init=False, repr=False, compare=False)
+    pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
+    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
+    rolled: Rolled | None = field(init=False, repr=False, compare=False)
+    outside: frozenset[str] = field(init=False, repr=False, compare=False)
 
-    @property
-    def links(self) -> tuple[str]:
-        """The link that it places."""
-        return (self.link,)
-
-    @property
-    def members(self) -> tuple[str]:
-        """The same."""
-        return (self.link,)
-
-    @property
-    def pairs(self) -> tuple[Pair]:
-        """The pair that holds it."""
-        return (self.pair,)
-
-    @property
-    def drivers(self) -> tuple[Driver, ...]:
-        """The driver, where it is neither a cam nor rolling without a ratio."""
-        return (self.driver,) if isinstance(self.driver, Driver) else ()
-
-    @property
-    def outside(self) -> set[str]:
-        """The links that it hangs on."""
-        return {*self.pair.links, *self.driver.links, *self.driver.through} - {self.link}
+    def __post_init__(self) -> None:
+        driver = self.driver
+        self.__dict__.update(
+            links=(self.link,), members=(self.link,), pairs=(self.pair,),
+            drivers=(driver,) if isinstance(driver, Driver) else (),
+            rolled=driver if isinstance(driver, Rolled) else None,
+            outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
+        )  # fmt: skip
 
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
@@ -228,6 +206,11 @@ class Dyad:
     the sliding one.  In ``outer_first`` and ``outer_second`` a turning pair has ``a`` in the body and ``b`` known; a
     slide has its own direction (see ``Pair``), either side may be the known one.
     ``links`` are the real links of the group in the order of the file.
+
+    From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
+    the ``outer`` ones, the ``welds`` and ``drivers`` inside its bodies, the links ``outside`` on which it hangs,
+    whether it ``is_two_lines``: found by two straight lines that cross, and so in one way only, and whether it
+    ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
     """
 
     kind: DyadKind
@@ -241,51 +224,25 @@ class Dyad:
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
-    @property
-    def bodies(self) -> tuple[Body, Body]:
-        """The first and the second."""
-        return self.first, self.second
+    bodies: tuple[Body, Body] = field(init=False, repr=False, compare=False)
+    members: tuple[str, ...] = field(init=False, repr=False, compare=False)
+    pairs: tuple[Pair, Pair, Pair] = field(init=False, repr=False, compare=False)
+    outer: tuple[Pair, Pair] = field(init=False, repr=False, compare=False)
+    welds: tuple[Weld, ...] = field(init=False, repr=False, compare=False)
+    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
+    outside: frozenset[str] = field(init=False, repr=False, compare=False)
+    is_two_lines: bool = field(init=False, repr=False, compare=False)
+    is_slider_on_bar: bool = field(init=False, repr=False, compare=False)
 
-    @property
-    def members(self) -> tuple[str, ...]:
-        """All its links, blocks of pins included."""
-        return self.first.links + self.second.links
-
-    @property
-    def welds(self) -> tuple[Weld, ...]:
-        """The links that drivers hold together in both bodies."""
-        return self.first.welds + self.second.welds
-
-    @property
-    def drivers(self) -> tuple[Driver, ...]:
-        """The drivers inside its bodies."""
-        return tuple(weld.driver for weld in self.welds)
-
-    @property
-    def outside(self) -> set[str]:
-        """The links that it hangs on."""
-        names = {name for pair in self.outer for name in pair.links}
-        return names.union(*(driver.through for driver in self.drivers)).difference(self.members)
-
-    @property
-    def outer(self) -> tuple[Pair, Pair]:
-        """The outer pairs of both bodies."""
-        return self.outer_first, self.outer_second
-
-    @property
-    def pairs(self) -> tuple[Pair, Pair, Pair]:
-        """The outer pair of the first body, the inner one, the outer pair of the second."""
-        return self.outer_first, self.inner, self.outer_second
-
-    @property
-    def is_two_lines(self) -> bool:
-        """Whether it is found by two straight lines that cross (PRP, RPP), and so in one way only."""
-        return self.kind in ("PRP", "RPP")
-
-    @property
-    def is_slider_on_bar(self) -> bool:
-        """Whether one body slides on the other, and both turn about known points (RPR)."""
-        return self.kind == "RPR"
+    def __post_init__(self) -> None:
+        one, two, outer = self.first, self.second, (self.outer_first, self.outer_second)
+        members, drivers = one.links + two.links, tuple(weld.driver for weld in one.welds + two.welds)
+        hung = {name for pair in outer for name in pair.links}.union(*(driver.through for driver in drivers))
+        self.__dict__.update(
+            bodies=(one, two), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
+            welds=one.welds + two.welds, drivers=drivers, outside=frozenset(hung.difference(members)),
+            is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
+        )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -325,17 +282,16 @@ class Cluster:
     rolling: tuple[RollingRelation, ...] = ()
     starts: tuple[Driver, ...] = ()
 
-    @property
-    def kind(self) -> str:
-        """What it is called in messages: it has no kind as dyads have."""
-        return "group of " + ", ".join(self.links)
+    kind: str = field(init=False, repr=False, compare=False)
+    outside: frozenset[str] = field(init=False, repr=False, compare=False)
 
-    @property
-    def outside(self) -> set[str]:
-        """The links that it hangs on."""
+    def __post_init__(self) -> None:
         names = {name for pair in self.pairs for name in pair.links}
         names.update(name for driver in self.drivers for name in (*driver.links, *driver.through))
-        return names.union(*(relation.links for relation in self.rolling)).difference(self.members)
+        names.update(name for relation in self.rolling for name in relation.links)
+        self.__dict__.update(
+            kind="group of " + ", ".join(self.links), outside=frozenset(names.difference(self.members))
+        )
 
 
 Element = Driven | Dyad | Cluster
@@ -360,6 +316,12 @@ class Structure:
 
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
     ``hinges`` maps each point shared by links to those links.  ``followers`` are what rolling makes follow the drivers.
+
+    From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
+    them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
+    which drivers, cams and rolling move; ``place_of`` each link the place of the element that places it.  ``kept`` is
+    what is made of the structure once and serves again, by what it is: layouts of groups, programs, the range of its
+    driver that was followed last; it is neither compared nor pickled.
     """
 
     scene: Mechanism
@@ -370,10 +332,27 @@ class Structure:
     elements: tuple[Element, ...]
     followers: tuple[Driver, ...] = ()
 
-    @property
-    def drivers(self) -> tuple[Driver, ...]:
-        """The drivers of the scene, then what follows them by rolling."""
-        return (*self.scene.drivers, *self.followers)
+    drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
+    groups: tuple[Dyad | Cluster, ...] = field(init=False, repr=False, compare=False)
+    driven: tuple[Driven, ...] = field(init=False, repr=False, compare=False)
+    dyads: Mapping[int, Dyad] = field(init=False, repr=False, compare=False)
+    larger_groups: tuple[Cluster, ...] = field(init=False, repr=False, compare=False)
+    place_of: Mapping[str, int] = field(init=False, repr=False, compare=False)
+    kept: dict[Hashable, Any] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        elements = self.elements
+        self.__dict__.update(
+            drivers=(*self.scene.drivers, *self.followers), kept={},
+            groups=tuple(e for e in elements if not isinstance(e, Driven)),
+            driven=tuple(e for e in elements if isinstance(e, Driven)),
+            dyads={i: e for i, e in enumerate(elements) if isinstance(e, Dyad)},
+            larger_groups=tuple(e for e in elements if isinstance(e, Cluster)),
+            place_of={name: i for i, e in enumerate(elements) for name in e.members},
+        )  # fmt: skip
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self.__dict__ | {"kept": {}}
 
     @property
     def rolls(self) -> bool:
@@ -391,40 +370,6 @@ class Structure:
             f.key: f.values[0] + added_up(r * way for r, way in zip(f.ratios, moved, strict=True))
             for f in self.followers
         }}  # fmt: skip
-
-    @cached_property
-    def groups(self) -> tuple[Dyad | Cluster, ...]:
-        """The Assur groups, in the order of solution."""
-        return tuple(e for e in self.elements if not isinstance(e, Driven))
-
-    @cached_property
-    def driven(self) -> tuple[Driven, ...]:
-        """The links that drivers, cams and rolling move, in the order of solution."""
-        return tuple(e for e in self.elements if isinstance(e, Driven))
-
-    @cached_property
-    def dyads(self) -> Mapping[int, Dyad]:
-        """The groups of class II, by their places in the order of solution."""
-        return {i: e for i, e in enumerate(self.elements) if isinstance(e, Dyad)}
-
-    @cached_property
-    def larger_groups(self) -> tuple[Cluster, ...]:
-        """The groups that are solved as a whole, in the order of solution."""
-        return tuple(e for e in self.elements if isinstance(e, Cluster))
-
-    @cached_property
-    def kept(self) -> dict[Hashable, Any]:
-        """What is made of the structure once and serves again, by what it is: layouts of groups, programs, the range of
-        its driver that was followed last.  It is neither compared nor pickled."""
-        return {}
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in self.__dict__.items() if name != "kept"}
-
-    @cached_property
-    def place_of(self) -> Mapping[str, int]:
-        """The place among the elements of the one that places each link."""
-        return {name: i for i, element in enumerate(self.elements) for name in element.members}
 
     @cached_property
     def hangs_on(self) -> tuple[frozenset[str], ...]:
