@@ -13,8 +13,7 @@ from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_numb
 from graphkin.api.results import Result, named
 from graphkin.checking.closed_form import FoundLength, compare_lengths
 from graphkin.construction import EXACT, Cad, Instrument, pencil
-from graphkin.construction.design_sheet import DesignSheet
-from graphkin.construction.synthesis import construct
+from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
 from graphkin.plane import degrees, direction

@@ -13,8 +13,7 @@ import numpy as np
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import EXACT, Instrument, nudged
 from graphkin.construction.cam_sheet import CamSheet, division_by_hand
-from graphkin.construction.design_sheet import DesignSheet
-from graphkin.construction.synthesis import construct
+from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
 from graphkin.scene.sheet import Tools

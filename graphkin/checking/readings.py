@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet, either_way
 from graphkin.construction.steps import DiagramName
 from graphkin.construction.strokes import Vector
+from graphkin.construction.zero_vectors import MOST_LOST
 from graphkin.errors import Problem, Unsolvable
-from graphkin.scene.symbol import Symbol, centre_links
+from graphkin.scene.symbol import PointRef, Symbol, centre_links
+from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -19,6 +24,10 @@ if TYPE_CHECKING:
     from graphkin.construction.forces import ForceSheet
 
 __all__ = ["Reading", "read_off"]
+
+Place = Callable[[str], complex | None]
+Measured = tuple[float | None, float]
+"""A length in mm on paper (None for an angle or a number) and the value (m, rad)."""
 
 
 @dataclass(frozen=True)
@@ -87,11 +96,9 @@ def _measured(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument) -> 
     asked = [s for s in dict.fromkeys(asked) if s.scope in ("position", "turn") and not s.at]
     if not asked:
         return {}
-    from graphkin.construction.measures import measured
-
     places = _centres(sheet, instrument)
-    found = {symbol: measured(sheet, symbol, instrument, places) for symbol in asked}
-    return {s: Reading(s, one.mm, one.value, "mechanism") for s, one in found.items() if one is not None}
+    found = {symbol: _position(sheet, symbol, instrument, places) for symbol in asked}
+    return {s: Reading(s, *measured, "mechanism") for s, measured in found.items() if measured is not None}
 
 
 def _as_drawn(symbol: Symbol, found: Mapping[Symbol, Reading]) -> Reading | None:
@@ -135,3 +142,113 @@ def _vector(sheet: Sheet, diagram: DiagramName, vector: Vector, instrument: Inst
     length = abs(read) if either_way(vector.symbol) in sheet.readings else abs(instrument.read(size))
     along = instrument.read_direction(vector.span / size)
     return Reading(vector.symbol, length, length * along * sheet.scales.of(diagram), diagram)
+
+
+# -- positions, measured on the drawn mechanism ------------------------------------------------------------------------
+
+
+def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place | None = None) -> Measured | None:
+    """A position or a quantity of the whole turn, measured; None where what it is of is not drawn.
+
+    Parameters
+    ----------
+    place : where a name lies (mm) that is none of the scene's points, an instant centre; None where it has no place
+
+    Raises
+    ------
+    CallError : a symbol that means nothing in this mechanism
+    """
+    if symbol.scope == "turn":
+        return _of_turn(sheet, symbol, instrument)
+    if symbol.kind in ("x", "y", "d"):
+        return _lengths(sheet, symbol, instrument, place)
+    if symbol.kind == "s":
+        slide = sliding_pair(sheet.structure, symbol)
+        if not {slide.a, slide.b} <= set(sheet.poses):
+            return None
+        return _length(sheet, instrument, travel(slide, sheet.poses, 1.0 / sheet.scales.length))
+    names = [name for name in (symbol.link, symbol.other) if name]
+    if any(name not in sheet.poses for name in names):
+        return None
+    if symbol.kind == "theta":
+        turned = sheet.poses[symbol.link].axis
+        turned = turned / sheet.poses[symbol.other].axis if symbol.other else turned
+        return None, phase(instrument.read_direction(turned))
+    joint = (
+        joint_between(sheet.structure, symbol.link, symbol.other, symbol)
+        if symbol.kind == "gamma" else joint_of_follower(sheet.structure, symbol.link, symbol)
+    )  # fmt: skip
+    if any(link not in sheet.poses for way in (joint.first, joint.second) for link, _ in way):
+        return None
+    first, second = ways(sheet, joint)
+    across = instrument.read_direction(first.conjugate() * second / abs(first * second))
+    angle = math.atan2(abs(across.imag), abs(across.real))
+    return None, angle if symbol.kind == "gamma" else math.pi / 2 - angle
+
+
+def phase(along: complex) -> float:
+    """The angle of a direction, in (-pi, pi]."""
+    angle = cmath.phase(along)
+    return math.pi if angle == -math.pi else angle
+
+
+def _length(sheet: Sheet, instrument: Instrument, mm: float) -> Measured:
+    read = math.copysign(abs(instrument.read(abs(mm))), mm)
+    return abs(read), read * sheet.scales.length
+
+
+def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place | None) -> Measured | None:
+    assert symbol.of is not None
+    spots = []
+    for ref in (symbol.of, symbol.to):
+        if ref is None:
+            continue
+        spot = sheet.points.get(PointRef(ref.point))
+        if spot is None and place is not None and ref.point not in sheet.scene.holders:
+            spot = place(ref.point)
+        if spot is None:
+            return None
+        spots.append(spot)
+    if symbol.kind == "d":
+        kept = sheet.readings.get(frozenset(ref.point for ref in (symbol.of, symbol.to) if ref))
+        if kept is not None:
+            return abs(kept), abs(kept) * sheet.scales.length
+        return _length(sheet, instrument, abs(spots[1] - spots[0]))
+    return _length(sheet, instrument, spots[0].real if symbol.kind == "x" else spots[0].imag)
+
+
+def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
+    """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmission`)."""
+
+    def of(spot: tuple[str, complex]) -> complex:
+        pose = sheet.poses[spot[0]]
+        return pose.place(spot[1] / sheet.scales.length)
+
+    first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
+    return first, second * (1j if joint.square else 1.0)
+
+
+# -- the whole turn ----------------------------------------------------------------------------------------------------
+
+
+def _of_turn(sheet: Sheet, symbol: Symbol, instrument: Instrument) -> Measured | None:
+    limits = sheet.limits.get(symbol.pair)
+    if limits is None:
+        return None
+    mm = 1.0 / sheet.scales.length
+    low, high = limits.low.poses, limits.high.poses
+    if symbol.kind == "stroke":
+        slide = sliding_pair(sheet.structure, symbol)
+        return _length(sheet, instrument, abs(travel(slide, high, mm) - travel(slide, low, mm)))
+    if symbol.kind == "swing":
+        turned = high[symbol.link].axis / low[symbol.link].axis
+        angle = phase(instrument.read_direction(turned))
+        return None, abs(angle + math.tau * round((limits.swing - angle) / math.tau))
+    driver = sheet.scene.drivers[0]
+    one, two = (poses[driver.link].axis / poses[driver.relative_to].axis for poses in (low, high))
+    between = phase(instrument.read_direction(two / one))
+    lag = math.pi - abs(between)
+    lag = 0.0 if abs(lag) < MOST_LOST else lag  # rounding of exact hands: a pencil reads no such angle
+    if symbol.kind == "theta_lag":
+        return None, lag
+    return None, (math.pi + lag) / (math.pi - lag)

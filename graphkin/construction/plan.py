@@ -12,14 +12,13 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.construction.asked_vectors import show
 from graphkin.construction.assembly import Known, assembly_at
 from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.construction.larger_groups import draw_group, drawn_group
 from graphkin.construction.net import TwoUnknowns, contacts_of
-from graphkin.construction.polygons import RATE, Polygons
+from graphkin.construction.polygons import RATE, Polygons, draw_asked
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
@@ -181,7 +180,7 @@ def draw(polygons: Polygons, order: Order, element: Element) -> None:
 def finished(task: Task, made: OnBoard) -> Sheet:
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
     polygons = made.polygons
-    show(polygons, task.asked)
+    draw_asked(polygons, task.asked)
     board = polygons.board
     sheet = Sheet(
         scene=task.structure.scene,
@@ -298,7 +297,7 @@ class GoneOn:
             self._note(polygons, number)
             self.kept.append(polygons)
         polygons = polygons.again(EXACT)
-        show(polygons, what.asked)
+        draw_asked(polygons, what.asked)
         self._note(polygons, len(self.kept))
         self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], Polygons] = {}
 
@@ -316,7 +315,7 @@ class GoneOn:
         if number < len(self.kept):
             return self._after(number, own)
         polygons = self._after(number - 1, own).again(EXACT)
-        show(polygons, self.what.asked)
+        draw_asked(polygons, self.what.asked)
         return polygons
 
     def _after(self, number: int, own: Own) -> Polygons:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 from graphkin.construction.sizes import Direction, Role
 from graphkin.scene.symbol import PointRef, Symbol
@@ -10,8 +11,27 @@ from graphkin.scene.symbol import PointRef, Symbol
 __all__ = ["Aid", "Bar", "CompassArc", "Image", "Mark", "Ray", "Stroke", "TrialCurve", "Vector"]
 
 
+LENGTHS = {"tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners"}
+"""Places and lengths of strokes (mm), which a scale changes; a direction stays."""
+
+
+class OnPaper:
+    """A stroke by its places (mm)."""
+
+    def scaled(self, times: float) -> Self:
+        """The same so many times as large."""
+        places = {name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS}
+        return replace(self, **places)  # type: ignore[type-var]
+
+
+def _times(value: Any, times: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(place * times for place in value)
+    return value if value is None else value * times
+
+
 @dataclass(frozen=True)
-class Vector:
+class Vector(OnPaper):
     """A vector drawn: ``symbol`` from ``tail`` to ``tip``."""
 
     symbol: Symbol
@@ -23,12 +43,9 @@ class Vector:
     def span(self) -> complex:
         return self.tip - self.tail
 
-    def scaled(self, times: float) -> Vector:
-        return Vector(self.symbol, self.tail * times, self.tip * times, self.role)
-
 
 @dataclass(frozen=True)
-class Aid:
+class Aid(OnPaper):
     """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
 
     symbol: Symbol
@@ -40,12 +57,9 @@ class Aid:
     def span(self) -> complex:
         return self.tip - self.tail
 
-    def scaled(self, times: float) -> Aid:
-        return Aid(self.symbol, self.tail * times, self.tip * times, self.trial)
-
 
 @dataclass(frozen=True)
-class Ray:
+class Ray(OnPaper):
     """A direction known only as a line, through a point, drawn as far as the crossing ``to`` (None: it has none)."""
 
     through: complex
@@ -54,68 +68,48 @@ class Ray:
     direction: Direction
     symbol: Symbol
 
-    def scaled(self, times: float) -> Ray:
-        to = None if self.to is None else self.to * times
-        return Ray(self.through * times, self.along, to, self.direction, self.symbol)
-
 
 @dataclass(frozen=True)
-class CompassArc:
+class CompassArc(OnPaper):
     """A compass arc about ``centre`` through the point ``at`` that it finds."""
 
     centre: complex
     radius: float
     at: complex
 
-    def scaled(self, times: float) -> CompassArc:
-        return CompassArc(self.centre * times, self.radius * times, self.at * times)
-
 
 @dataclass(frozen=True)
-class Bar:
+class Bar(OnPaper):
     """A line of the mechanism or of a construction from a to b."""
 
     a: complex
     b: complex
     link: str
 
-    def scaled(self, times: float) -> Bar:
-        return Bar(self.a * times, self.b * times, self.link)
-
 
 @dataclass(frozen=True)
-class TrialCurve:
+class TrialCurve(OnPaper):
     """Where the free ``point`` of a group comes to lie in trial positions, ``at``, and the curve through them."""
 
     curve: tuple[complex, ...]
     at: tuple[complex, ...]
     point: str
 
-    def scaled(self, times: float) -> TrialCurve:
-        return TrialCurve(tuple(z * times for z in self.curve), tuple(z * times for z in self.at), self.point)
-
 
 @dataclass(frozen=True)
-class Mark:
+class Mark(OnPaper):
     """A named point of a figure.  ``ref`` without a point name is the pole."""
 
     ref: PointRef
     at: complex
 
-    def scaled(self, times: float) -> Mark:
-        return Mark(self.ref, self.at * times)
-
 
 @dataclass(frozen=True)
-class Image:
+class Image(OnPaper):
     """The image of a link: the end points of its points, in order."""
 
     link: str
     corners: tuple[complex, ...]
 
-    def scaled(self, times: float) -> Image:
-        return Image(self.link, tuple(z * times for z in self.corners))
-
 
 Stroke = Vector | Aid | TrialCurve | Ray | CompassArc | Bar | Mark | Image
-"""Each is had so many times as large by ``scaled(times)``."""

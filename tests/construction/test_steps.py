@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import get_args
 
 import pytest
 
 from graphkin.construction import draft
+from graphkin.construction.sizes import Direction
 from graphkin.construction.steps import SENTENCES, Reason, Step
-from graphkin.construction.strokes import CompassArc
+from graphkin.construction.strokes import LENGTHS, CompassArc, Ray, Stroke, TrialCurve
 from graphkin.scene import library, mechanism_of
+from graphkin.scene.symbol import Symbol
 
 pytestmark = pytest.mark.quick
 NO_LENGTHS = {"value", "other", "per_mm", "number", "equation"}
@@ -34,6 +36,19 @@ def test_strokes_grow_with_their_step_and_a_plan_of_its_own_scale_stays() -> Non
     arc = CompassArc(1j, 2.0, 3j)
     assert [CompassArc(2j, 4.0, 6j)] == [*Step("cross", "arcs", strokes=(arc,)).scaled(2.0).strokes]
     assert 7.0 == Step("read", "plan", "velocity", mm=7.0, per_mm=0.25).scaled(2.0).mm
+
+
+def test_places_of_a_stroke_grow_and_its_direction_stays() -> None:
+    ray = Ray(1 + 2j, 1j, 3j, Direction("along", ("h",)), Symbol("v"))
+    assert Ray(2 + 4j, 1j, 6j, ray.direction, ray.symbol) == ray.scaled(2.0)
+    assert replace(ray, through=3 + 6j, to=None) == replace(ray, to=None).scaled(3.0)
+    assert TrialCurve((2j, 4j), (6j,), "B") == TrialCurve((1j, 2j), (3j,), "B").scaled(2.0)
+
+
+@pytest.mark.parametrize("stroke", get_args(Stroke))
+def test_a_place_of_a_stroke_is_one_that_a_scale_changes(stroke: type) -> None:
+    places = {f.name for f in fields(stroke) if "complex" in str(f.type) or f.type == "float"}
+    assert {"along"} >= places - LENGTHS
 
 
 @pytest.mark.parametrize("name", library()[::6])

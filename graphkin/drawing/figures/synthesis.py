@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.account.headings import number, term, written
 from graphkin.checking.closed_form import FoundLength
-from graphkin.construction.design_sheet import (
+from graphkin.construction.scales import Extent, fitting_scale
+from graphkin.construction.synthesis import (
     DesignAngle,
     DesignCircle,
     DesignLine,
@@ -21,7 +22,6 @@ from graphkin.construction.design_sheet import (
     DesignStroke,
     LineKind,
 )
-from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import WORKED, Block, panel, picture, row, steps, table, worked_page
 from graphkin.drawing.chart import ChartPage
