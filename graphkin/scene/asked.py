@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Tag
 
@@ -15,7 +15,6 @@ from graphkin.scene.bodies import Reading
 from graphkin.scene.form import path_name
 from graphkin.scene.model import Mechanism, NamedPositions, OnStroke, StatedValues
 from graphkin.scene.printed import Printed, stated
-from graphkin.scene.spelling import Spelling, read_cell, unit_factor
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.scene.tables import (
     Count,
@@ -32,6 +31,10 @@ from graphkin.scene.tables import (
     table,
 )
 from graphkin.words import Phrase
+
+if TYPE_CHECKING:
+    # all the ways in which people write are loaded where somebody wrote otherwise than a symbol and its number
+    from graphkin.scene.spelling import Spelling
 
 __all__ = [
     "Positions", "PrintedTable", "StrokeStart", "asked", "loops_named", "names_of_positions", "positions_named",
@@ -116,6 +119,8 @@ def _symbol(where: str, text: str, reading: Reading, positions: Sequence[str]) -
 
 def spelling_of(scene: Mechanism) -> Spelling:
     """What reads the names of a scene's quantities as people write them."""
+    from graphkin.scene.spelling import Spelling
+
     points = {link.name: tuple(link.points) for link in (scene.frame, *scene.links)}
     return Spelling.by_link(points, scene.units, [contact.name for contact in scene.contacts])
 
@@ -179,6 +184,8 @@ def _values(
         where = path_name((*table.split("."), text))
         symbol, unit = _symbol(where, text, reading, positions), ""
         if isinstance(symbol, Problem):
+            from graphkin.scene.spelling import Spelling
+
             spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
             name, unit = spelling.head(text)
             meant = spelling.symbol(name)
@@ -200,6 +207,8 @@ def _values(
 
 def _printed(symbol: Symbol, value: Stated, unit: str, units: Units) -> Printed:
     """One stated value.  Raises ValueError for a text that is none."""
+    if isinstance(value, str) or unit:
+        from graphkin.scene.spelling import read_cell, unit_factor
     if isinstance(value, str):
         plain = value.strip()
         read = read_cell(plain, symbol, units, unit)
