@@ -70,9 +70,10 @@ class Form(Generic[AnyTable]):
             for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
                 loc: KeyPath = tuple(item["loc"])
                 path = _written_path(loc)
-                if item["type"] == "missing" and (value_at(raw, path) is not None or path in gone):
-                    continue  # it was there under a misspelt name, or with something wrong in it
-                if path not in problems:
+                missing = item["type"] == "missing"
+                if missing and value_at(raw, path) is not None:
+                    continue  # it was there under a misspelt name
+                if path not in problems and not (missing and path in gone):  # that it is wrong was told
                     problems[path] = Problem(path_name(path), *self._sentence(loc, path, dict(item)))
                 meant = self._meant(loc, raw) if item["type"] == UNKNOWN else None
                 if meant is not None:
@@ -237,22 +238,16 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
 
 def _cut(path: KeyPath) -> KeyPath:
     """The smallest entry of the file that can be taken out for something wrong at ``path``."""
-    head = path[:1]
-    if head == ("links",):
-        return path[: 4 if len(path) > 2 and path[2] in ("at", "guides", "discs") else 3]
-    if head == ("frame",):
-        return path[: 3 if len(path) > 1 and path[1] in ("points", "guides", "discs") else 2]
-    if head == ("driver",):
-        if path[-1] in ("link", "slide"):  # without it the form of the driver is not known
-            return head
-        return path[: 3 if len(path) > 1 and isinstance(path[1], int) else 2]
-    if head == ("cams",):
-        return path[: 3 if len(path) > 2 and path[2] not in ("follower", "law", "base") else 2]
-    inside = (
-        "pins", "contacts", "gears", "sketch", "drawn", "printed", "sheet", "units", "masses", "loads", "springs",
-        "positions", "loops", "scans",
-    )  # fmt: skip
-    return path[:2] if head and head[0] in inside else head
+    head, inside = str(path[0]), str(path[2]) if len(path) > 2 else ""
+    if head == "links":
+        return path[: 4 if inside in ("at", "guides", "discs") else 3]
+    if head == "frame":
+        return path[: 3 if path[1:2] and path[1] in ("points", "guides", "discs") else 2]
+    if head == "driver" and path[-1] in ("link", "slide"):  # without it the form of the driver is not known
+        return path[:1]
+    if head == "driver":
+        return path[: 3 if isinstance(path[1:2] and path[1], int) else 2]
+    return path[: 3 if head == "cams" else 2]
 
 
 def _read_as(raw: OwnTables, path: KeyPath, key: str) -> None:
