@@ -183,9 +183,9 @@ def mechanism_said(
     slidings = sliding_pairs(reading)
     pins = pins_in_slots(pin_tables, reading, slidings)
     pairs = [*(s.key for s in slidings), *(p.key for p in pins)]
-    discs = discs_of(reading)
-    contacts = contacts_of(file.contacts, reading, discs)
-    gears = gears_of(file.gears, reading, slidings)
+    discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
+    contacts = contacts_of(file.contacts, reading, discs) if file.contacts else ()
+    gears = gears_of(file.gears, reading, slidings) if file.gears else ()
     sliding = [isinstance(own, DrivenSlide) for own in file.drivers.values()]
     numbered, also = names_of_positions(file.positions)
     first = file.positions is not None and file.positions.first is not None
@@ -217,7 +217,7 @@ def mechanism_said(
         places.check_distances(position)
     local, fixed = {n: b.local for n, b in position.bodies.items()}, position.bodies[frame.name].local
     cams = _cams(file, reading, position) if file.cams else ()
-    if not problems:
+    if (contacts or gears) and not problems:
         guides = {n: b.guides for n, b in position.bodies.items()}
         wrong_distances(contacts, gears, slidings, local, guides, reading)
     loading = Loading()
