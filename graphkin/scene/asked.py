@@ -26,9 +26,9 @@ from graphkin.scene.tables import (
     SlideRef,
     Text,
     Units,
+    file_table,
     forms,
     key,
-    table,
 )
 from graphkin.words import Phrase
 
@@ -45,7 +45,7 @@ BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
 
 
-@table
+@file_table
 class StrokeStart(FileTable):
     """A place on the stroke of a slide."""
 
@@ -60,7 +60,7 @@ Start = Annotated[
 ]
 
 
-@table
+@file_table
 class Positions(FileTable):
     """Positions with names."""
 
@@ -81,7 +81,7 @@ class Positions(FileTable):
     )
 
 
-@table
+@file_table
 class PrintedTable(FileTable):
     """A table of published values in a file beside the scene."""
 
@@ -151,9 +151,9 @@ def stated_values(
         return "computation" if by == "computation" else "drawing"
 
     usual = how("printed", printed.get("by", "drawing")) or "drawing"
-    own = _values("printed", printed, reading, positions)
-    if own:
-        found.append(StatedValues(None, own, usual))
+    values = _values("printed", printed, reading, positions)
+    if values:
+        found.append(StatedValues(None, values, usual))
     for number, row in enumerate(rows, 1):
         where, at = f"printed_rows.{number}", row.get("at")
         if not isinstance(at, int | float | str):

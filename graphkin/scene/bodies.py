@@ -27,16 +27,16 @@ from graphkin.scene.tables import (
     TwoLengths,
     TwoPoints,
     Units,
+    file_table,
     forms,
     key,
-    table,
 )
 from graphkin.words import Phrase, Wording
 
 __all__ = ["Compass", "Disc", "Flaws", "Frame", "Guide", "Link", "Pin", "Polar", "Reading", "references"]
 
 
-@table
+@file_table
 class Polar(FileTable):
     """A point at a distance and an angle from another point of the link."""
 
@@ -46,7 +46,7 @@ class Polar(FileTable):
     toward: PointName | None = key("The point of the link at which angle is 0.", default=None)
 
 
-@table
+@file_table
 class Compass(FileTable):
     """A point by its distances from two others of the link: the corner of a plate by its sides."""
 
@@ -68,7 +68,7 @@ At = Annotated[
 ]
 
 
-@table
+@file_table
 class Guide(FileTable):
     """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
 
@@ -89,7 +89,7 @@ class Guide(FileTable):
     )  # fmt: skip
 
 
-@table
+@file_table
 class Disc(FileTable):
     """A round outline that a link carries."""
 
@@ -97,7 +97,7 @@ class Disc(FileTable):
     r: Number = key("Its radius; negative: hollow, the body lies outside (a ring).", unit="length")
 
 
-@table
+@file_table
 class Frame(FileTable):
     """The fixed link."""
 
@@ -110,7 +110,7 @@ class Frame(FileTable):
     discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
 
 
-@table
+@file_table
 class Link(FileTable):
     """A moving link."""
 
@@ -139,7 +139,7 @@ class Link(FileTable):
         return _as_list(self.on)
 
 
-@table
+@file_table
 class Pin(FileTable):
     """A pin that runs in slots."""
 

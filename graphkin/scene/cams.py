@@ -16,7 +16,7 @@ from typing import ClassVar, Literal, NamedTuple
 from graphkin.plane import Values, cross, dot
 from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import FollowerLaw, LawPiece, Lift, follower_law, stated_pieces
-from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, in_si, key, table, tidy
+from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, file_table, in_si, key, tidy
 from graphkin.words import Phrase
 
 __all__ = [
@@ -29,7 +29,7 @@ AGREES = 1e-6
 # -- tables of the file ------------------------------------------------------------------------------------------------
 
 
-@table
+@file_table
 class BaseCircle(FileTable):
     """The base circle of a cam."""
 
@@ -39,7 +39,7 @@ class BaseCircle(FileTable):
     )
 
 
-@table
+@file_table
 class AllowedPressure(FileTable):
     """Greatest pressure angles that are allowed."""
 
@@ -47,7 +47,7 @@ class AllowedPressure(FileTable):
     fall: Number | None = key("Degrees, while it falls.", unit="angle", default=None)
 
 
-@table
+@file_table
 class Cam(FileTable):
     """A cam that turns about its first point, given by the law of its follower."""
 
@@ -246,34 +246,34 @@ def cams_of(
     """
     moved: dict[str, str] = {}
     found = []
-    for name, own in tables.items():
-        other = moved.setdefault(own.follower, name)
+    for name, cam in tables.items():
+        other = moved.setdefault(cam.follower, name)
         if other != name:
-            said = Phrase("link is moved by cam already", follower=own.follower, other=other)
+            said = Phrase("link is moved by cam already", follower=cam.follower, other=other)
             reading.say(f"cams.{name}.follower", said, Phrase("a follower has one cam"))
-        cam = _cam(name, own, reading, lines, places, drawn)
-        if cam is not None:
-            found.append(cam)
+        placed = _cam(name, cam, reading, lines, places, drawn)
+        if placed is not None:
+            found.append(placed)
     return tuple(found)
 
 
 def _cam(
-    name: str, own: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
+    name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
     drawn: Mapping[str, complex],
 ) -> LawCam | None:  # fmt: skip
-    where, before, si = f"cams.{name}", len(reading.problems), in_si(own, reading.units)
+    where, before, si = f"cams.{name}", len(reading.problems), in_si(cam, reading.units)
     point = _axis(where, name, reading, places)
-    swings = _swings(where, name, own, reading, lines, places)
-    law = follower_law(f"{where}.law", own.law, math.pi / 180 if swings else reading.metres, reading.problems)
+    swings = _swings(where, name, cam, reading, lines, places)
+    law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading.problems)
     roller = si.roller or 0.0
-    base = si.base.r + (roller if own.base.of == "profile" else 0.0)
-    if own.flat and own.roller is not None:
+    base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
+    if cam.flat and cam.roller is not None:
         reading.say(f"{where}.flat", Phrase("stands beside roller"), Phrase("the face is flat or it has a"))
-    if not own.flat and base <= roller:
-        reading.say(f"{where}.base.r", Phrase("found with a roller of", r=f"{own.base.r:g}", roller=f"{own.roller:g}"),
+    if not cam.flat and base <= roller:
+        reading.say(f"{where}.base.r", Phrase("found with a roller of", r=f"{cam.base.r:g}", roller=f"{cam.roller:g}"),
                     Phrase("the base circle of the pitch curve is"))
     for side in ("rise", "fall"):
-        angle = getattr(own.allow, side, None)
+        angle = getattr(cam.allow, side, None)
         if angle is not None and not 0.0 < angle < 90.0:
             reading.say(f"{where}.allow.{side}", Phrase("found value", value=f"{angle:g}"),
                         Phrase("a pressure angle lies between 0 and 90"))
@@ -282,13 +282,13 @@ def _cam(
     axis = places[point]
     motion: SlidingFollower | SwingingFollower | None
     if swings:
-        motion = _swinging(where, own, reading, axis, places, drawn)
+        motion = _swinging(where, cam, reading, axis, places, drawn)
     else:
-        motion = _sliding(where, si, reading, axis, lines[own.follower])
+        motion = _sliding(where, si, reading, axis, lines[cam.follower])
     if motion is None or law is None or len(reading.problems) > before:
         return None
     allowed = (si.allow.rise, si.allow.fall) if si.allow else (None, None)
-    return LawCam(name, own.follower, point, axis, law, own.sense, base, roller, own.flat, motion, allowed)
+    return LawCam(name, cam.follower, point, axis, law, cam.sense, base, roller, cam.flat, motion, allowed)
 
 
 def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]) -> str:
@@ -311,10 +311,10 @@ def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]
 
 
 def _swings(
-    cam: str, name: str, own: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex]
+    here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex]
 ) -> bool | None:
     """Whether the follower swings; None where it neither swings nor slides on the frame."""
-    where, follower, frame = f"{cam}.follower", own.follower, reading.frame.name
+    where, follower, frame = f"{here}.follower", cam.follower, reading.frame.name
     if reading.wrong(reading.no_link(where, follower, moving=True)):
         return None
     if follower in (name, frame):
@@ -335,10 +335,10 @@ def _swings(
         reading.say(where, Phrase("link has no point but its pivot", follower=follower),
                     Phrase("it is a bar from its pivot to"))
         return None
-    sliding = {"offset": (own.offset is not None, Phrase("an offset")), "flat": (own.flat, Phrase("a flat face"))}
+    sliding = {"offset": (cam.offset is not None, Phrase("an offset")), "flat": (cam.flat, Phrase("a flat face"))}
     for beside, (there, kind) in sliding.items():
         if there:
-            reading.say(f"{cam}.{beside}", Phrase("link swings", name=follower),
+            reading.say(f"{here}.{beside}", Phrase("link swings", name=follower),
                         Phrase("is for a sliding follower", kind=kind))
     return True
 
@@ -356,10 +356,10 @@ def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -
 
 
 def _swinging(
-    where: str, own: Cam, reading: Reading, axis: complex, places: Mapping[str, complex], drawn: Mapping[str, complex]
+    where: str, cam: Cam, reading: Reading, axis: complex, places: Mapping[str, complex], drawn: Mapping[str, complex]
 ) -> SwingingFollower | None:
     """A follower that swings about a point of the frame."""
-    link = reading.links[own.follower]
+    link = reading.links[cam.follower]
     first, second = link.points
     pivot, tip = (first, second) if first in places else (second, first)
     centre = places[pivot]
@@ -368,7 +368,7 @@ def _swinging(
                     Phrase("its pivot lies elsewhere"))
         return None
     if link.length is None:
-        reading.say(f"links.{own.follower}.length", Phrase("is missing"),
+        reading.say(f"links.{cam.follower}.length", Phrase("is missing"),
                     Phrase("the length of a swinging follower is written"))
         return None
     left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0

@@ -36,9 +36,9 @@ from graphkin.scene.tables import (
     Place,
     Text,
     Units,
+    file_table,
+    file_table_by_name,
     key,
-    table,
-    table_by_name,
     xy,
 )
 from graphkin.words import Phrase, Wording
@@ -60,7 +60,7 @@ else:
     Bars = Annotated[list["PlacedBar"], Rule(min_length=3, max_length=3)]
 
 
-@table_by_name
+@file_table_by_name
 class SliderCrankTask(FileTable):
     """A slider-crank for a stroke, an offset of the slide's line from the crank's pivot, and K."""
 
@@ -70,7 +70,7 @@ class SliderCrankTask(FileTable):
     K: Magnitude = key("coefficient of travel-speed variation")
 
 
-@table_by_name
+@file_table_by_name
 class CrankRockerTask(FileTable):
     """A crank-rocker for the swing of its rocker and K."""
 
@@ -81,7 +81,7 @@ class CrankRockerTask(FileTable):
     frame: Magnitude = key("distance AD of the fixed pivots")
 
 
-@table_by_name
+@file_table_by_name
 class GuideBarTask(FileTable):
     """A swinging guide bar that moves a ram by a rod, for the ram's stroke and K."""
 
@@ -96,7 +96,7 @@ class GuideBarTask(FileTable):
         return self.stroke if self.rod is None else self.rod
 
 
-@table_by_name
+@file_table_by_name
 class LimitsTask(FileTable):
     """A crank-rocker whose rocker stands at two angles in its limit positions."""
 
@@ -120,7 +120,7 @@ class BarPlace:
         return to.B + (place - self.B) * turn / abs(turn)
 
 
-@table
+@file_table
 class PlacedBar(FileTable):
     """Where a bar lies, as a file has it."""
 
@@ -129,7 +129,7 @@ class PlacedBar(FileTable):
     angle: Number | None = key("Instead of C: degrees of the bar.", default=None)
 
 
-@table_by_name
+@file_table_by_name
 class BarPositionsTask(FileTable):
     """A four-bar whose coupler lies in three given places, by its moving pivots B and C, or by its fixed pivots."""
 
@@ -141,7 +141,7 @@ class BarPositionsTask(FileTable):
     angles: tuple[float, ...] = field(default=(), metadata={"beside": True})  # as given, degrees
 
 
-@table_by_name
+@file_table_by_name
 class FunctionTask(FileTable):
     """A four-bar whose rocker stands at given angles for three angles of its crank."""
 
@@ -176,7 +176,7 @@ class Design:
         return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
 
 
-@table
+@file_table
 class _DesignTables(FileTable):
     """A design file but for its task."""
 

@@ -31,11 +31,11 @@ from graphkin.scene.tables import (
     ShownName,
     SlideRef,
     Units,
+    file_table,
     form_of_driver,
     form_of_list,
     in_si,
     key,
-    table,
 )
 from graphkin.words import Phrase, alternatives
 
@@ -45,7 +45,7 @@ __all__ = [
 ]  # fmt: skip
 
 
-@table
+@file_table
 class Driver(FileTable):
     """A driven angle."""
 
@@ -74,7 +74,7 @@ class Driver(FileTable):
     time: Number | None = key("Instead of angle: the moment of the law that is asked, in s.", default=None)
 
 
-@table
+@file_table
 class DrivenSlide(FileTable):
     """A driven sliding pair."""
 
@@ -123,26 +123,26 @@ def drives(
     """
     found: dict[str, model.Driver] = {}
     several = "driver" not in tables
-    for i, (where, own) in enumerate(tables.items()):
+    for i, (where, driver) in enumerate(tables.items()):
         before = len(reading.problems)
         there = (p for p in reading.flaws.paths if p[0] == "driver" and (not several or p[1:2] == (i,)))
         lost = {str(p[-1]) for p in there}
-        if isinstance(own, Driver):
-            name, base = own.link, own.relative_to or reading.frame.name
-            reading.wrong(*_angle_problems(where, own, reading, lost, len(tables) > 1))
-            if own.position is not None:
-                reading.wrong(*_position_problems(where, i, own, numbered, also, first, drawn))
+        if isinstance(driver, Driver):
+            name, base = driver.link, driver.relative_to or reading.frame.name
+            reading.wrong(*_angle_problems(where, driver, reading, lost, len(tables) > 1))
+            if driver.position is not None:
+                reading.wrong(*_position_problems(where, i, driver, numbered, also, first, drawn))
         else:
-            name, base = _pair_of(where, own, reading, slidings, pins, lost), ""
-        law = _law(where, own, reading)
-        reading.wrong(*_origin_problems(where, own, len(tables) > 1, drawn),
-                      *_driven_twice(where, name, base, found), *_too_slow(where, own))
+            name, base = _pair_of(where, driver, reading, slidings, pins, lost), ""
+        law = _law(where, driver, reading)
+        reading.wrong(*_origin_problems(where, driver, len(tables) > 1, drawn),
+                      *_driven_twice(where, name, base, found), *_too_slow(where, driver))
         if len(reading.problems) > before or lost & {"angle", "travel", "law", "time"}:
             continue
-        si = in_si(own, reading.units)
+        si = in_si(driver, reading.units)
         value = si.angle if isinstance(si, Driver) else si.travel
-        dead = None if own.origin is None or value is None else FromDeadPoint(value, si.near)
-        if law is not None and own.time is not None:
+        dead = None if driver.origin is None or value is None else FromDeadPoint(value, si.near)
+        if law is not None and driver.time is not None:
             value = law.at(law.time).lift
         value = math.nan if value is None else value
         if isinstance(si, Driver):
@@ -163,42 +163,42 @@ def drives(
     return found
 
 
-def _law(where: str, own: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
+def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLaw | None:
     """How a driver moves over the time, at the moment that the file asks."""
-    if own.law is None:
-        if own.time is not None:
+    if driver.law is None:
+        if driver.time is not None:
             reading.say(f"{where}.time", Phrase("tells the moment of a law"), Phrase("write law with it"))
         return None
-    value, given = ("angle", own.angle) if isinstance(own, Driver) else ("travel", own.travel)
+    value, given = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
     for name in ("omega", "rpm", "speed", "velocity", "alpha", "acceleration", "sense", "position", "origin"):
-        there = getattr(own, name, None)
+        there = getattr(driver, name, None)
         if there is not None and not (name in ("alpha", "acceleration") and not there):
             reading.say(f"{where}.{'from' if name == 'origin' else name}", Phrase("stands beside law"),
                         Phrase("the law gives it leave one of them"))
-    if own.time is not None and given is not None:
+    if driver.time is not None and given is not None:
         reading.say(f"{where}.time", Phrase("stands beside", value=value), Phrase("write one of the two"))
     unit = math.pi / 180 if value == "angle" else reading.metres
-    law = motion_law(f"{where}.law", own.law, unit, reading.problems)
-    if law is None or own.time is None:
+    law = motion_law(f"{where}.law", driver.law, unit, reading.problems)
+    if law is None or driver.time is None:
         return law
-    if not law.pieces[0].start <= own.time <= law.duration:
-        reading.say(f"{where}.time", Phrase("found value", value=f"{own.time:g}"),
+    if not law.pieces[0].start <= driver.time <= law.duration:
+        reading.say(f"{where}.time", Phrase("found value", value=f"{driver.time:g}"),
                     Phrase("the law goes from to s", start=f"{law.pieces[0].start:g}", duration=f"{law.duration:g}"))
-    return replace(law, time=own.time)
+    return replace(law, time=driver.time)
 
 
-def _too_slow(where: str, own: Driver | DrivenSlide) -> Iterator[Problem]:
+def _too_slow(where: str, driver: Driver | DrivenSlide) -> Iterator[Problem]:
     for name in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
-        rate = getattr(own, name, None)
+        rate = getattr(driver, name, None)
         if rate and abs(rate) < SMALLEST:
             yield Problem(f"{where}.{name}", Phrase("found value", value=f"{rate:g}"),
                           Phrase("write 0 or at least", smallest=f"{SMALLEST:g}"))
 
 
-def _origin_problems(where: str, own: Driver | DrivenSlide, several: bool, drawn: bool) -> Iterator[Problem]:
-    what, value = ("angle", own.angle) if isinstance(own, Driver) else ("travel", own.travel)
-    if own.origin is None:
-        if own.near is not None:
+def _origin_problems(where: str, driver: Driver | DrivenSlide, several: bool, drawn: bool) -> Iterator[Problem]:
+    what, value = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
+    if driver.origin is None:
+        if driver.near is not None:
             yield Problem(f"{where}.near", Phrase("tells which dead point"), Phrase("write from dead point with it"))
         return
     if value is None or value == 0.0:
@@ -212,11 +212,11 @@ def _origin_problems(where: str, own: Driver | DrivenSlide, several: bool, drawn
 
 
 def _angle_problems(
-    where: str, own: Driver, reading: Reading, lost: set[str], several: bool
+    where: str, driver: Driver, reading: Reading, lost: set[str], several: bool
 ) -> Iterator[Problem]:
     """What is wrong with a driven angle of which the keys ``lost`` were taken out."""
     links, frame = reading.links, reading.frame.name
-    for name, link in (("link", own.link), ("relative_to", own.relative_to)):
+    for name, link in (("link", driver.link), ("relative_to", driver.relative_to)):
         if link is None:
             continue
         missing = reading.no_link(f"{where}.{name}", link, moving=name == "link")
@@ -226,73 +226,73 @@ def _angle_problems(
             yield Problem(
                 f"{where}.{name}", Phrase("link is redundant", what=link), Phrase("drive by a link that counts")
             )
-    if own.link == frame and own.link not in links:
-        yield Problem(f"{where}.link", Phrase("link is the frame", name=own.link),
+    if driver.link == frame and driver.link not in links:
+        yield Problem(f"{where}.link", Phrase("link is the frame", name=driver.link),
                       Phrase("drive a moving link", moving=", ".join(list(links)[:12])))
-    if own.relative_to == own.link:
-        yield Problem(f"{where}.relative_to", Phrase("link is driven relative to itself", link=own.link),
+    if driver.relative_to == driver.link:
+        yield Problem(f"{where}.relative_to", Phrase("link is driven relative to itself", link=driver.link),
                       Phrase("name another link or leave it out for"))
-    rates = {name: rate for name in ("omega", "rpm", "speed") if (rate := getattr(own, name)) is not None}
+    rates = {name: rate for name in ("omega", "rpm", "speed") if (rate := getattr(driver, name)) is not None}
     if "omega" in rates and "rpm" in rates:
-        yield Problem(f"{where}.omega", Phrase("found omega and rpm", omega=f"{own.omega:g}", rpm=f"{own.rpm:g}"),
+        yield Problem(f"{where}.omega", Phrase("found omega and rpm", omega=f"{driver.omega:g}", rpm=f"{driver.rpm:g}"),
                       Phrase("write one of the two"))
     for other, rate in rates.items():
         if "speed" in rates and other != "speed":
-            found = Phrase("found speed and", speed=f"{own.speed:g}", other=other, rate=f"{rate:g}")
+            found = Phrase("found speed and", speed=f"{driver.speed:g}", other=other, rate=f"{rate:g}")
             yield Problem(f"{where}.speed", found, Phrase("write one of the two"))
-    if "speed" in rates and own.of is None and "of" not in lost:
+    if "speed" in rates and driver.of is None and "of" not in lost:
         yield Problem(f"{where}.of", Phrase("is missing"), Phrase("write of b the point whose speed it"))
-    if own.of is not None:
+    if driver.of is not None:
         if "speed" not in rates and "speed" not in lost:
             said = Phrase("names a point whose speed is not given")
             yield Problem(f"{where}.of", said, Phrase("write speed or leave it out"))
         moving_points = [p for n, points in reading.points.items() if n != frame for p in points]
-        if own.of not in moving_points and not reading.unsure:
-            wanted = did_you_mean(own.of, moving_points)
-            yield Problem(f"{where}.of", Phrase("no moving link has a point", name=own.of), wanted)
+        if driver.of not in moving_points and not reading.unsure:
+            wanted = did_you_mean(driver.of, moving_points)
+            yield Problem(f"{where}.of", Phrase("no moving link has a point", name=driver.of), wanted)
         if several:
             yield Problem(f"{where}.speed", Phrase("the speed of a point tells the rate"), Phrase("give omega"))
     for name, rate in rates.items():
-        if own.sense is not None and rate < 0:
-            yield Problem(f"{where}.{name}", Phrase("found beside the sense", rate=f"{rate:g}", sense=own.sense),
+        if driver.sense is not None and rate < 0:
+            yield Problem(f"{where}.{name}", Phrase("found beside the sense", rate=f"{rate:g}", sense=driver.sense),
                           Phrase("with sense write the size or leave sense"))
-    if not rates and own.law is None and not lost & {"omega", "rpm", "speed", "law"}:
+    if not rates and driver.law is None and not lost & {"omega", "rpm", "speed", "law"}:
         yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
 
 
 def _position_problems(
-    where: str, i: int, own: Driver, numbered: Sequence[str], also: Sequence[str], first: bool, drawn: bool
+    where: str, i: int, driver: Driver, numbered: Sequence[str], also: Sequence[str], first: bool, drawn: bool
 ) -> Iterator[Problem]:
     """What is wrong with a driver that names its position; the parameters are those of `drives`."""
-    named, here = str(own.position), f"{where}.position"
+    named, here = str(driver.position), f"{where}.position"
     known = [*numbered, *also]
     if i > 0:
         yield Problem(here, Phrase("positions are those of the first driver"), Phrase("give the angle"))
     elif named not in known:
         wanted = did_you_mean(named, known) if known else Phrase("name it in positions")
-        yield Problem(here, Phrase("there is no position", at=own.position), wanted)
+        yield Problem(here, Phrase("there is no position", at=driver.position), wanted)
     elif not first and named not in also:
         said = Phrase("the numbered positions count from the driver's own")
         yield Problem(here, said, Phrase("write positions.first or the angle"))
-    if own.angle is not None:
-        yield Problem(here, Phrase("found angle too", angle=f"{own.angle:g}"), Phrase("write one of the two"))
-    if own.origin is not None or drawn:
+    if driver.angle is not None:
+        yield Problem(here, Phrase("found angle too", angle=f"{driver.angle:g}"), Phrase("write one of the two"))
+    if driver.origin is not None or drawn:
         said = Phrase("what gives the driver's value stands here twice")
         yield Problem(here, said, Phrase("leave one of them out"))
 
 
 def _pair_of(
-    where: str, own: DrivenSlide, reading: Reading, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
+    where: str, driver: DrivenSlide, reading: Reading, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
     lost: set[str],
 ) -> str:  # fmt: skip
     """The key of the pair that a table drives, as far as it is known; what is wrong with it is noted."""
-    if own.velocity is None and own.law is None and not lost & {"velocity", "law"}:
+    if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", Phrase("is missing"), Phrase("write velocity per second it may be 0"))
-    what, _, on = own.slide.partition("/")
+    what, _, on = driver.slide.partition("/")
     pairs = {p.key: p.on for p in slidings if p.link == what} or {p.key: p.on for p in pins if p.point == what}
-    keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (own.relative_to or rail)]
+    keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
     known = [p.key for p in slidings] + [p.key for p in pins]
-    meant, link, here = keys[0] if len(keys) == 1 else own.slide, reading.links.get(what), f"{where}.slide"
+    meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(what), f"{where}.slide"
     if "" in reading.unsure or (link is not None and link.on is not None and not pairs):
         return meant  # its pair has a problem of its own
     if not pairs and what not in reading.points:
@@ -301,7 +301,7 @@ def _pair_of(
         drive = Phrase("drive a sliding pair", pairs=", ".join(known)) if known else Phrase("there is no sliding pair")
         reading.say(here, Phrase("link slides on nothing", what=what), drive)
     elif not keys:
-        name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", own.relative_to)
+        name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", driver.relative_to)
         reading.say(f"{where}.{name}", Phrase("does not slide on link", what=what, name=rail),
                     Phrase("it may be", names=alternatives(pairs)))
     elif len(keys) > 1:

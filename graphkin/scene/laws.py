@@ -17,7 +17,7 @@ from pydantic import Field as Rule
 
 from graphkin.errors import Problem
 from graphkin.plane import Values
-from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, key, table, tidy
+from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, file_table, key, tidy
 from graphkin.words import Phrase, Wording
 
 __all__ = [
@@ -323,7 +323,7 @@ else:
     LawName = Literal[SPELLINGS]  # as many as there are laws
 
 
-@table
+@file_table
 class LawPiece(FileTable):
     """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
 
@@ -333,7 +333,7 @@ class LawPiece(FileTable):
     by: LawName | None = key("The law of a rise or fall.", default=None)
 
 
-@table
+@file_table
 class TimePiece(FileTable):
     """A piece of the law of a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
 
@@ -343,7 +343,7 @@ class TimePiece(FileTable):
     by: LawName | None = key("The law of a rise or fall.", default=None)
 
 
-@table
+@file_table
 class DriverLaw(FileTable):
     """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
 
@@ -420,12 +420,12 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, problems: 
     return FollowerLaw(tuple(found)) if len(problems) == before else None
 
 
-def motion_law(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
+def motion_law(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
     """The law that a driver's table says, in rad or m and s; what is wrong with it is added to ``problems``."""
     ways = {
-        "table": bool(own.table),
-        "pieces": bool(own.pieces),
-        "by": any(x is not None for x in (own.to, own.rise, own.duration, own.by)),
+        "table": bool(law.table),
+        "pieces": bool(law.pieces),
+        "by": any(x is not None for x in (law.to, law.rise, law.duration, law.by)),
     }
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
@@ -433,34 +433,34 @@ def motion_law(where: str, own: DriverLaw, unit: float, problems: list[Problem])
         _say(problems, where, found, Phrase("write from and to or pieces or a table"))
         return None
     if given == ["table"]:
-        return _by_table(where, own, unit, problems)
+        return _by_table(where, law, unit, problems)
     before = len(problems)
-    start = (own.origin or 0.0) * unit
-    if own.origin is None:
+    start = (law.origin or 0.0) * unit
+    if law.origin is None:
         _say(problems, f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s"))
-    pieces = _one(where, own, unit, problems) if given == ["by"] else _several(where, own, unit, start, problems)
+    pieces = _one(where, law, unit, problems) if given == ["by"] else _several(where, law, unit, start, problems)
     return None if len(problems) > before else MotionLaw(tuple(pieces))
 
 
-def _one(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> list[LiftPiece]:
+def _one(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> list[LiftPiece]:
     """The piece of a law that goes from one value to another."""
-    if (own.to is None) == (own.rise is None):
-        both = Phrase("stands beside rise") if own.to is not None else Phrase("is missing")
+    if (law.to is None) == (law.rise is None):
+        both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
         _say(problems, f"{where}.to", both, Phrase("write to the value at the end or"))
-    if own.duration is None:
+    if law.duration is None:
         _say(problems, f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes"))
-    if own.by is None:
+    if law.by is None:
         _say(problems, f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
-    start = own.origin or 0.0
-    end = own.to if own.to is not None else start + (own.rise or 0.0)
-    return [LiftPiece(0.0, own.duration or 1.0, start * unit, end * unit, form_of(own.by))]
+    start = law.origin or 0.0
+    end = law.to if law.to is not None else start + (law.rise or 0.0)
+    return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
 
 
-def _several(where: str, own: DriverLaw, unit: float, start: float, problems: list[Problem]) -> list[LiftPiece]:
+def _several(where: str, law: DriverLaw, unit: float, start: float, problems: list[Problem]) -> list[LiftPiece]:
     """The pieces of a law, one after the other, from a value on (SI)."""
     pieces: list[LiftPiece] = []
     time, low = 0.0, start
-    for i, piece in enumerate(own.pieces, 1):
+    for i, piece in enumerate(law.pieces, 1):
         here = f"{where}.pieces.{i}"
         moves = piece.rise is not None or piece.fall is not None
         if piece.rise is not None and piece.fall is not None:
@@ -477,13 +477,13 @@ def _several(where: str, own: DriverLaw, unit: float, start: float, problems: li
     return pieces
 
 
-def _by_table(where: str, own: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
+def _by_table(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
     """A law through the values of a table."""
     here = f"{where}.table"
-    if own.origin is not None:
+    if law.origin is not None:
         _say(problems, f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
         return None
-    times, values = [t for t, _ in own.table], [v * unit for _, v in own.table]
+    times, values = [t for t, _ in law.table], [v * unit for _, v in law.table]
     if len(times) < 2:
         _say(problems, here, Phrase("has one row"), Phrase("write time value two rows or more"))
         return None

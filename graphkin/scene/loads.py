@@ -26,9 +26,9 @@ from graphkin.scene.tables import (
     Place,
     PointNames,
     SlideRef,
+    file_table,
     in_si,
     key,
-    table,
     tidy,
     xy,
 )
@@ -46,7 +46,7 @@ TURN = math.tau * (1 + 1e-12)
 # -- tables of the file ------------------------------------------------------------------------------------------------
 
 
-@table
+@file_table
 class Gravity(FileTable):
     """Where weights pull, and how much."""
 
@@ -54,7 +54,7 @@ class Gravity(FileTable):
     angle: Number = key("Its direction in degrees in the frame.", default=-90.0)
 
 
-@table
+@file_table
 class Mass(FileTable):
     """Mass of a moving link."""
 
@@ -64,7 +64,7 @@ class Mass(FileTable):
     inertia: NotNegative = key("Moment of inertia about the centre of mass.", unit="inertia", default=0.0)
 
 
-@table
+@file_table
 class LoadPhase(FileTable):
     """When a load acts: on a part of a stroke, or between two values of the driver."""
 
@@ -77,7 +77,7 @@ class LoadPhase(FileTable):
     )
 
 
-@table
+@file_table
 class Load(FileTable):
     """A force or a moment on a moving link."""
 
@@ -99,7 +99,7 @@ class Load(FileTable):
     when: LoadPhase | None = key("When it acts; always if left out.", default=None)
 
 
-@table
+@file_table
 class Spring(FileTable):
     """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
 
@@ -112,7 +112,7 @@ class Spring(FileTable):
     )
 
 
-@table
+@file_table
 class Balance(FileTable):
     """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
 
@@ -125,7 +125,7 @@ class Balance(FileTable):
     )
 
 
-@table
+@file_table
 class Flywheel(FileTable):
     """A flywheel for a wished evenness of the turn."""
 
@@ -446,24 +446,24 @@ def stated_loading(loading: Loading, driver_unit: float) -> dict[str, Any]:
     """The tables of a file that say what acts, in SI but for values of the first driver, of whose unit ``driver_unit``
     is one in SI."""
 
-    def phase(own: Phase) -> LoadPhase:
-        if own.stroke:
-            return LoadPhase(stroke=own.stroke, sense=own.sense, start=own.start, end=own.end)
-        return LoadPhase(driver=[tidy(own.start / driver_unit), tidy(own.end / driver_unit)])
+    def phase(when: Phase) -> LoadPhase:
+        if when.stroke:
+            return LoadPhase(stroke=when.stroke, sense=when.sense, start=when.start, end=when.end)
+        return LoadPhase(driver=[tidy(when.start / driver_unit), tidy(when.end / driver_unit)])
 
-    def load(own: LoadOn) -> Load:
-        when = None if own.phase is None else phase(own.phase)
-        if not own.is_force:
-            return Load(on=own.link, moment=own.size, when=when)
-        angle = None if own.against else tidy(degrees(own.turn))
-        return Load(on=own.link, at=xy(own.at), force=own.size, angle=angle, follows=own.follows or None,
-                    against=own.against or None, when=when)
+    def load(acting: LoadOn) -> Load:
+        when = None if acting.phase is None else phase(acting.phase)
+        if not acting.is_force:
+            return Load(on=acting.link, moment=acting.size, when=when)
+        angle = None if acting.against else tidy(degrees(acting.turn))
+        return Load(on=acting.link, at=xy(acting.at), force=acting.size, angle=angle, follows=acting.follows or None,
+                    against=acting.against or None, when=when)
 
     down, balance = loading.gravity, loading.balance
     made: dict[str, Any] = {
         "gravity": Gravity(g=tidy(abs(down)), angle=tidy(degrees(down))) if down else None,
         "masses": {mass.link: Mass(at=xy(mass.at), mass=mass.mass, inertia=mass.inertia) for mass in loading.masses},
-        "loads": {own.name: load(own) for own in loading.loads},
+        "loads": {acting.name: load(acting) for acting in loading.loads},
         "springs": {s.name: Spring(s.points, s.rate, s.free, s.preload, s.links) for s in loading.springs},
         "flywheel": loading.flywheel,
     }

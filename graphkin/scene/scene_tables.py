@@ -57,9 +57,9 @@ from graphkin.scene.tables import (
     Symbols,
     Text,
     Units,
+    file_table_by_name,
     in_units,
     key,
-    table_by_name,
     tidy,
     xy,
 )
@@ -81,7 +81,7 @@ MOST_LINKS = 200
 MOST_POINTS = 100
 
 
-@table_by_name
+@file_table_by_name
 class SceneTables(FileTable):
     """A mechanism at one position, with what is asked of it: the whole file."""
 
@@ -148,7 +148,7 @@ class SceneTables(FileTable):
         """The drivers by their places in the file, whether written as one table or several."""
         if isinstance(self.driver, Driver | DrivenSlide):
             return {"driver": self.driver}
-        return {f"driver.{i}": own for i, own in enumerate(self.driver, 1)}
+        return {f"driver.{i}": table for i, table in enumerate(self.driver, 1)}
 
 
 SCENE = Form(SceneTables, "graphkin scene", needed="links")
@@ -186,7 +186,7 @@ def mechanism_said(
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
     contacts = contacts_of(file.contacts, reading, discs) if file.contacts else ()
     gears = gears_of(file.gears, reading, slidings) if file.gears else ()
-    sliding = [isinstance(own, DrivenSlide) for own in file.drivers.values()]
+    sliding = [isinstance(table, DrivenSlide) for table in file.drivers.values()]
     numbered, also = names_of_positions(file.positions)
     first = file.positions is not None and file.positions.first is not None
     driven = drives(file.drivers, reading, slidings, pins, bool(file.drawn), numbered, also, first)
@@ -194,7 +194,7 @@ def mechanism_said(
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
     find = asked(file.find or (), reading, (*numbered, *also))
     stated = stated_values(file.printed, file.printed_rows, file.printed_table, reading, (*numbered, *also))
-    by_law = any(own.law is not None for own in file.drivers.values())
+    by_law = any(table.law is not None for table in file.drivers.values())
     positions = positions_named(file.positions, reading, pairs, sliding[:1] == [True], by_law)
     loops = loops_named(file.loops, reading)
     check_references(reading, file.drawn)

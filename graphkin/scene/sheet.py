@@ -30,8 +30,8 @@ from graphkin.scene.tables import (
     Symbols,
     Text,
     Tool,
+    file_table,
     key,
-    table,
 )
 from graphkin.words import Phrase, from_others
 
@@ -57,7 +57,7 @@ TURNED = 0x0112
 """The note in a picture that says how it is turned; 1 where it is upright."""
 
 
-@table
+@file_table
 class Tools(FileTable):
     """What the tools of a pencil drawing can do; used with --instrument pencil.
 
@@ -71,7 +71,7 @@ class Tools(FileTable):
     protractor: Tool = key("Step of the protractor (degrees).", default=0.5)
 
 
-@table
+@file_table
 class Background(FileTable):
     """A photograph or scan to lie under the mechanism."""
 
@@ -81,7 +81,7 @@ class Background(FileTable):
     )
 
 
-@table
+@file_table
 class ReadScan(FileTable):
     """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
 
@@ -96,7 +96,7 @@ class ReadScan(FileTable):
     within: Magnitude = key("What a line may be off, as a part of the longest: 0.01 if left out.", default=0.01)
 
 
-@table
+@file_table
 class SheetWishes(FileTable):
     """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
 
@@ -119,7 +119,7 @@ class SheetWishes(FileTable):
         return (long, short) if self.orientation == "landscape" else (short, long)
 
 
-@table
+@file_table
 class Vary(FileTable):
     """How a set of problems is drawn from a scene."""
 
@@ -181,9 +181,9 @@ class PlacedScan:
 def scans_of(tables: Mapping[Drawing, ReadScan], reading: Reading) -> tuple[PlacedScan, ...]:
     """The scans of a file; what is wrong with them is noted."""
     made = []
-    for diagram, own in tables.items():
+    for diagram, scan in tables.items():
         where, before = f"scans.{diagram}", len(reading.problems)
-        points, read = ({n: complex(x, -y) for n, (x, y) in ends.items()} for ends in (own.points, own.read))
+        points, read = ({n: complex(x, -y) for n, (x, y) in ends.items()} for ends in (scan.points, scan.read))
         if len(points) != 2 or len(set(points.values())) < len(points):
             hint = Phrase("two ends at two places set scale and")
             reading.say(f"{where}.points", Phrase("found value", value=len(points)), hint)
@@ -191,40 +191,40 @@ def scans_of(tables: Mapping[Drawing, ReadScan], reading: Reading) -> tuple[Plac
             reading.say(f"{where}.read.{name}", Phrase("stands in points too"), Phrase("leave one of them out"))
         if not read:
             reading.say(f"{where}.read", Phrase("is empty"), Phrase("write the ends that were read c 812"))
-        picture = _picture(f"{where}.file", own.file) if own.file is not None else ("", 0, 0, b"")
+        picture = _picture(f"{where}.file", scan.file) if scan.file is not None else ("", 0, 0, b"")
         if isinstance(picture, Problem):
             reading.wrong(picture)
         elif len(reading.problems) == before:
-            made.append(PlacedScan(diagram, points, read, own.within, *picture))
+            made.append(PlacedScan(diagram, points, read, scan.within, *picture))
     return tuple(made)
 
 
 def background_of(
-    own: Background, known: Mapping[str, complex], reading: Reading
+    wish: Background, known: Mapping[str, complex], reading: Reading
 ) -> PlacedBackground | None:
     """The picture that a file asks for, laid by two points whose places (m) are known; None where something is wrong,
     which is noted."""
     where, before = "sheet.background", len(reading.problems)
-    picture = _picture(f"{where}.file", own.file)
+    picture = _picture(f"{where}.file", wish.file)
     if isinstance(picture, Problem):
         reading.wrong(picture)
-    if len(own.points) != 2:
+    if len(wish.points) != 2:
         hint = Phrase("two points whose pixels are known set scale")
-        reading.say(f"{where}.points", Phrase("found value", value=len(own.points)), hint)
-    for point in own.points:
+        reading.say(f"{where}.points", Phrase("found value", value=len(wish.points)), hint)
+    for point in wish.points:
         if point not in known:
             hint = Phrase("write a point of the frame or of", hint=did_you_mean(point, known))
             reading.say(f"{where}.points.{point}", Phrase("is no point that stays where the picture"), hint)
     if isinstance(picture, Problem) or len(reading.problems) > before:
         return None
-    (p, q), (pixel, other) = own.points, (complex(x, -y) for x, y in own.points.values())
+    (p, q), (pixel, other) = wish.points, (complex(x, -y) for x, y in wish.points.values())
     if pixel == other or known[p] == known[q]:
         found = Phrase("and lie at the same place", point=p, other=q)
         reading.say(f"{where}.points", found, Phrase("name two points apart"))
         return None
     step = (known[q] - known[p]) / (other - pixel)
     kind, width, height, data = picture
-    return PlacedBackground(Path(own.file).name, kind, width, height, known[p] - step * pixel, step, data)
+    return PlacedBackground(Path(wish.file).name, kind, width, height, known[p] - step * pixel, step, data)
 
 
 def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:

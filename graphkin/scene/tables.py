@@ -24,10 +24,9 @@ __all__ = [
     "SMALLEST", "Asked", "Count", "FileTable", "GuideRef", "GuideRefs", "KeyPath", "Language", "Least", "LinkName",
     "LinkNames", "List", "Magnitude", "Measure", "NameOrPlace", "NotNegative", "Number", "NumberOrSquare", "Numbers",
     "Part", "Place", "PointName", "PointNames", "PositionName", "Share", "ShownName", "SlideRef", "Stated", "Switch",
-    "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units", "entries", "form_of_driver", "form_of_list",
-    "forms", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "path_of_key", "put_at", "table",
-    "table_by_name", "tidy", "value_at",
-    "xy",
+    "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units", "entries", "file_table",
+    "file_table_by_name", "form_of_driver", "form_of_list", "forms", "in_si", "in_units", "item_of", "key", "key_of",
+    "keys_of", "path_of_key", "put_at", "tidy", "value_at", "xy",
 ]  # fmt: skip
 
 AnyTable = TypeVar("AnyTable", bound="FileTable")
@@ -151,20 +150,20 @@ def key(
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(key, dataclasses.field))
-def table(kind: type[AnyTable]) -> type[AnyTable]:
+def file_table(kind: type[AnyTable]) -> type[AnyTable]:
     """Make a class of keys a table: an unchangeable dataclass."""
     return dataclass(frozen=True)(kind)
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(key, dataclasses.field))
-def table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
+def file_table_by_name(kind: type[AnyTable]) -> type[AnyTable]:
     """The same of a table whose keys are given by name only."""
     return dataclass(frozen=True, kw_only=True)(kind)
 
 
-def keys_of(own: FileTable | type[FileTable]) -> Iterator[Field[object]]:
+def keys_of(table: FileTable | type[FileTable]) -> Iterator[Field[object]]:
     """The fields of a table that stand in a file."""
-    return (each for each in fields(own) if not each.metadata.get("beside"))  # type: ignore[arg-type]
+    return (each for each in fields(table) if not each.metadata.get("beside"))  # type: ignore[arg-type]
 
 
 def key_of(each: Field[object]) -> str:
@@ -172,7 +171,7 @@ def key_of(each: Field[object]) -> str:
     return str(each.metadata.get("alias", each.name))
 
 
-def entries(own: FileTable) -> dict[str, object]:
+def entries(table: FileTable) -> dict[str, object]:
     """The keys of a table as they stand in a file, without those that say what holds anyway.
 
     >>> from graphkin.scene.bodies import Link
@@ -180,8 +179,8 @@ def entries(own: FileTable) -> dict[str, object]:
     {'points': ['A', 'B'], 'length': 120}
     """
     found = {}
-    for each in keys_of(own):
-        value = getattr(own, each.name)
+    for each in keys_of(table):
+        value = getattr(table, each.name)
         usual = each.default_factory() if each.default_factory is not MISSING else each.default
         empty = usual in ({}, ()) and isinstance(value, Mapping | list | tuple) and not value
         if not empty and not (type(value) is type(usual) and value == usual):
@@ -231,7 +230,7 @@ FORCES: Mapping[str, float] = {"N": 1.0, "kN": 1e3, "kgf": 9.80665, "lbf": 4.448
 MASSES: Mapping[str, float] = {"kg": 1.0, "g": 1e-3, "lb": 0.45359237}
 
 
-@table
+@file_table
 class Units(FileTable):
     """Units of the file."""
 
@@ -305,17 +304,17 @@ def _unit(units: Units, measure: str, radians: bool) -> Unit:
     }[measure]
 
 
-def in_si(own: AnyTable, units: Units) -> AnyTable:
+def in_si(table: AnyTable, units: Units) -> AnyTable:
     """A table of a file, and those in it, with every number whose key tells its unit in SI."""
-    return _converted(own, lambda number, measure: number * _unit(units, measure, False).si)
+    return _converted(table, lambda number, measure: number * _unit(units, measure, False).si)
 
 
-def in_units(own: AnyTable, units: Units) -> AnyTable:
+def in_units(table: AnyTable, units: Units) -> AnyTable:
     """A table with its numbers in SI as it stands in a file of these units, without the noise of the conversion."""
-    return _converted(own, lambda number, measure: tidy(_unit(units, measure, False).of(number)))
+    return _converted(table, lambda number, measure: tidy(_unit(units, measure, False).of(number)))
 
 
-def _converted(own: AnyTable, change: Callable[[float, str], float]) -> AnyTable:
+def _converted(table: AnyTable, change: Callable[[float, str], float]) -> AnyTable:
     """A table with its numbers changed by the measures that its keys tell."""
 
     def changed(value: Any, measure: str) -> Any:
@@ -328,8 +327,8 @@ def _converted(own: AnyTable, change: Callable[[float, str], float]) -> AnyTable
         number = isinstance(value, int | float) and not isinstance(value, bool)
         return change(value, measure) if measure and number else value
 
-    return replace(own, **{each.name: changed(getattr(own, each.name), each.metadata.get("unit", ""))
-                           for each in keys_of(own)})  # type: ignore[type-var]
+    return replace(table, **{each.name: changed(getattr(table, each.name), each.metadata.get("unit", ""))
+                           for each in keys_of(table)})  # type: ignore[type-var]
 
 
 def tidy(value: float) -> float:

@@ -15,7 +15,7 @@ from graphkin.plane import cross
 from graphkin.scene.bodies import Reading
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.model import PlacedGuide, SlidingPair
-from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, Switch, forms, key, table
+from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, Switch, file_table, forms, key
 from graphkin.words import Phrase
 
 __all__ = [
@@ -37,7 +37,7 @@ TwoTeeth = Annotated[
 ]
 
 
-@table
+@file_table
 class Contact(FileTable):
     """Two outlines that touch."""
 
@@ -51,7 +51,7 @@ class Contact(FileTable):
     rolling: Switch = key("true: rolls without slip; false: slides.", default=False)
 
 
-@table
+@file_table
 class Gear(FileTable):
     """Two wheels with teeth, or a wheel and a rack."""
 
@@ -72,17 +72,17 @@ def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
     """Every round outline by its link and its name; what is wrong with them is noted."""
     found: dict[tuple[str, str], PlacedDisc] = {}
     for where, link, body in reading.bodies:
-        for name, own in body.discs.items():
+        for name, disc in body.discs.items():
             here = f"{where}.discs.{name}"
             if name in reading.guides.get(link, ()):
                 reading.say(here, Phrase("is the name of a guide too", link=link, name=name),
                             Phrase("give one of them another"))
-            if reading.wrong(reading.no_point_of(f"{here}.centre", link, own.centre)):
+            if reading.wrong(reading.no_point_of(f"{here}.centre", link, disc.centre)):
                 continue
-            if own.r == 0:
+            if disc.r == 0:
                 reading.say(f"{here}.r", Phrase("found 0"), Phrase("write a radius a negative one is a"))
             else:
-                found[link, name] = PlacedDisc(link, name, own.centre, own.r * reading.metres)
+                found[link, name] = PlacedDisc(link, name, disc.centre, disc.r * reading.metres)
     return found
 
 
@@ -99,19 +99,19 @@ def contacts_of(tables: Mapping[str, Contact], reading: Reading, discs: Discs) -
     """The contacts of a file; what is wrong with them is noted."""
     found: list[PlacedContact] = []
     blocks: set[str] = set()
-    for name, own in tables.items():
+    for name, contact in tables.items():
         where = f"contacts.{name}"
         if any(name in points for points in reading.points.values()):
             reading.say(where, Phrase("is a point of a link already", name=name),
                         Phrase("give the contact a letter of its own"))
-        sides = [_side(f"{where}.between", ref, reading, discs) for ref in own.between]
+        sides = [_side(f"{where}.between", ref, reading, discs) for ref in contact.between]
         known = [side for side in sides if side is not None]
         if len(known) < 2:
             continue
         one, two = known
-        if not reading.wrong(*_contact_problems(where, own, one, two)):
-            contact = _contact(name, own, one, two, reading)
-            found.append(replace(contact, again=contact.flat and contact.block in blocks))
+        if not reading.wrong(*_contact_problems(where, contact, one, two)):
+            placed = _contact(name, contact, one, two, reading)
+            found.append(replace(placed, again=placed.flat and placed.block in blocks))
             blocks.add(found[-1].block)
     return tuple(found)
 
@@ -138,9 +138,9 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
     return None
 
 
-def _contact_problems(where: str, own: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
+def _contact_problems(where: str, contact: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
     """What is wrong with two sides that there are."""
-    refs, between, side = " and ".join(own.between), f"{where}.between", f"{where}.side"
+    refs, between, side = " and ".join(contact.between), f"{where}.between", f"{where}.side"
     if one.link == two.link:
         found = Phrase("are outlines of the same link", refs=refs, link=one.link)
         yield Problem(between, found, Phrase("name two links"))
@@ -150,45 +150,47 @@ def _contact_problems(where: str, own: Contact, one: _Side, two: _Side) -> Itera
         yield Problem(between, Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
         return
     if len(discs) == 1:
-        if own.side in ("outside", "inside"):
-            found = Phrase("found with a flat face", side=own.side)
+        if contact.side in ("outside", "inside"):
+            found = Phrase("found with a flat face", side=contact.side)
             yield Problem(side, found, Phrase("a face has a left and a right"))
         if discs[0].radius < 0:
             found = Phrase("is hollow", link=discs[0].link, disc=discs[0].name)
             yield Problem(between, found, Phrase("no flat face touches a hollow outline"))
         return
-    if own.side in ("left", "right"):
-        yield Problem(side, Phrase("found with two discs", side=own.side), Phrase("two discs touch outside or inside"))
+    if contact.side in ("left", "right"):
+        found = Phrase("found with two discs", side=contact.side)
+        yield Problem(side, found, Phrase("two discs touch outside or inside"))
     r1, r2 = (disc.radius for disc in discs)
     hollow = [d for d in discs if d.radius < 0]
     if len(hollow) == 2:
         yield Problem(between, Phrase("are both hollow", refs=refs), Phrase("one of them has a positive radius"))
-    elif own.side == "outside" and hollow:
+    elif contact.side == "outside" and hollow:
         wanted = Phrase("leave side out or write inside")
         yield Problem(side, Phrase("found outside with a hollow outline"), wanted)
     elif hollow and r1 + r2 >= 0:
         found = Phrase("the hollow outline is no larger than what", link=hollow[0].link, hollow=hollow[0].name)
         yield Problem(between, found, Phrase("its radius must be the larger one"))
-    elif own.side == "inside" and abs(r1) == abs(r2):
+    elif contact.side == "inside" and abs(r1) == abs(r2):
         yield Problem(side, Phrase("both radii are equal"), Phrase("inside one must be smaller than the other"))
 
 
-def _contact(name: str, own: Contact, one: _Side, two: _Side, reading: Reading) -> PlacedContact:
+def _contact(name: str, contact: Contact, one: _Side, two: _Side, reading: Reading) -> PlacedContact:
     """A contact of two sides, radii with the signs with which they meet."""
     first, second, guide = one.disc, two.disc, one.guide or two.guide
     carrier = ""
     if first and second:
-        if own.side == "inside" and first.radius > 0 and second.radius > 0:
+        if contact.side == "inside" and first.radius > 0 and second.radius > 0:
             if first.radius > second.radius:
                 first = replace(first, radius=-first.radius)
             else:
                 second = replace(second, radius=-second.radius)
-        if own.rolling:
+        if contact.rolling:
             both = {first.centre, second.centre}
             others = [n for n, points in reading.points.items() if n not in (one.link, two.link) and both <= {*points}]
             others.sort(key=lambda n: n != reading.frame.name)
             carrier = others[0] if others else ""
-    return PlacedContact(name, one.link, two.link, (first, second), guide, own.side != "right", own.rolling, carrier)
+    left = contact.side != "right"
+    return PlacedContact(name, one.link, two.link, (first, second), guide, left, contact.rolling, carrier)
 
 def stated_contact(contact: PlacedContact) -> Contact:
     """The table of a contact."""
@@ -212,26 +214,26 @@ def gears_of(
     tables: Mapping[str, Gear], reading: Reading, slidings: tuple[SlidingPair, ...]
 ) -> tuple[PlacedGear, ...]:
     """The wheels with teeth of a file, with their carriers; what is wrong with them is noted."""
-    found = (_gear(f"gears.{name}", name, own, reading, slidings) for name, own in tables.items())
-    return tuple(gear for gear in found if gear is not None)
+    found = (_gear(f"gears.{name}", name, gear, reading, slidings) for name, gear in tables.items())
+    return tuple(placed for placed in found if placed is not None)
 
 
 def _gear(
-    where: str, name: str, own: Gear, reading: Reading, slidings: tuple[SlidingPair, ...]
+    where: str, name: str, gear: Gear, reading: Reading, slidings: tuple[SlidingPair, ...]
 ) -> PlacedGear | None:
-    first, _, part = own.between[0].partition(".")
-    second, _, guide = own.between[1].partition(".")
-    (z1, z2), between, teeth, carrier_key = own.teeth, f"{where}.between", f"{where}.teeth", f"{where}.carrier"
+    first, _, part = gear.between[0].partition(".")
+    second, _, guide = gear.between[1].partition(".")
+    (z1, z2), between, teeth, carrier_key = gear.teeth, f"{where}.between", f"{where}.teeth", f"{where}.carrier"
     rack, before, say = isinstance(z2, str), len(reading.problems), reading.say
     unknown = reading.wrong(*(reading.no_link(between, link) for link in (first, second)))
     if isinstance(z1, str):
         say(teeth, Phrase("the first is rack"), Phrase("the rack is the second one of between"))
         return None
     if part or (guide and not rack):
-        ref = own.between[0] if part else own.between[1]
+        ref = gear.between[0] if part else gear.between[1]
         say(between, Phrase("found of name", name=ref), Phrase("a wheel is named by its link alone"))
     elif guide and not unknown:
-        reading.wrong(reading.no_guide(between, own.between[1]))
+        reading.wrong(reading.no_guide(between, gear.between[1]))
     for z in (z1, z2):
         if not isinstance(z, str) and (z == 0 or not float(z).is_integer()):
             say(teeth, Phrase("found value", value=f"{z:g}"), Phrase("write a number of teeth negative for internal"))
@@ -245,16 +247,16 @@ def _gear(
             say(teeth, found, Phrase("a ring has more teeth than what runs"))
     if first == second:
         say(between, Phrase("link meshes with itself", first=first), Phrase("name two links"))
-    missing = own.carrier is not None and reading.wrong(reading.no_link(carrier_key, own.carrier))
-    if own.carrier in (first, second) and not missing:
-        say(carrier_key, Phrase("link is one of the wheels", carrier=own.carrier),
+    missing = gear.carrier is not None and reading.wrong(reading.no_link(carrier_key, gear.carrier))
+    if gear.carrier in (first, second) and not missing:
+        say(carrier_key, Phrase("link is one of the wheels", carrier=gear.carrier),
             Phrase("name the link that holds both axes"))
     if len(reading.problems) > before:
         return None
     if "" in reading.unsure or any(n not in reading.points for n in (first, second)):
         return None
     others = [n for n in (reading.frame.name, *reading.links) if n not in (first, second)]
-    for carrier in [own.carrier] if own.carrier else others:
+    for carrier in [gear.carrier] if gear.carrier else others:
         axis = _axis(reading, first, carrier)
         if rack:
             pair = next((s for s in slidings if {s.link, s.on} == {second, carrier}), None)
@@ -265,9 +267,9 @@ def _gear(
         if axis and other and axis != other:
             return PlacedGear(name, (first, second), (z1, float(z2)), carrier, (axis, other))
     held = Phrase("the wheel's axis and the rack's slide") if rack else Phrase("both axes")
-    if own.carrier:
+    if gear.carrier:
         sharing = "it shares a point with a link and slides" if rack else "it shares a point with each of two links"
-        say(carrier_key, Phrase("link does not hold", carrier=own.carrier, held=held),
+        say(carrier_key, Phrase("link does not hold", carrier=gear.carrier, held=held),
             Phrase(sharing, first=first, second=second))
     else:
         say(where, Phrase("no link holds of wheels and", held=held, first=first, second=second),
@@ -277,8 +279,8 @@ def _gear(
 
 def _axis(reading: Reading, wheel: str, carrier: str) -> str:
     """The point that a wheel and its carrier share."""
-    own = reading.points.get(carrier, ())
-    return next((p for p in reading.points.get(wheel, ()) if p in own), "")
+    held = reading.points.get(carrier, ())
+    return next((p for p in reading.points.get(wheel, ()) if p in held), "")
 
 
 def stated_gear(gear: PlacedGear) -> Gear:
@@ -314,9 +316,9 @@ def wrong_distances(
         if not c.flat and c.round[0].centre == c.round[1].centre:
             reading.say(where, Phrase("both outlines have the same centre"), Phrase("two centres lie apart"))
     for g in gears:
-        where, own = f"gears.{g.name}", points[g.carrier]
+        where, carried = f"gears.{g.name}", points[g.carrier]
         if not g.is_rack:
-            if abs(own[g.axes[1]] - own[g.axes[0]]) == 0:
+            if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
                 reading.say(where, Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart"))
             continue
         height, tilt, far = rack_place(g, slidings, points, guides)

@@ -164,3 +164,10 @@ def test_a_mechanism_that_was_changed_is_said_as_it_is_and_not_as_its_file() -> 
     turned = replace(scene.mechanism, drivers=(scene.mechanism.drivers[0].at_value(1.0),))
     assert math.degrees(1.0) == pytest.approx(Scene.saying(turned).to_dict()["driver"][0]["angle"], abs=1e-9)
     assert scene.to_dict() == Scene.saying(scene.mechanism).to_dict()
+
+
+def test_inertias_are_in_pounds_and_square_feet_beside_pounds() -> None:
+    crank_with_mass = crank(
+        units=Units(mass="lb"), masses={"2": Mass(at=(0, 0), mass=1, inertia=1)}
+    ).mechanism.loading.masses[0]
+    assert (pytest.approx(0.45359237), pytest.approx(0.0421401101)) == (crank_with_mass.mass, crank_with_mass.inertia)
