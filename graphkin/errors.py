@@ -95,6 +95,11 @@ class SceneError(GraphkinError):
 class CallError(GraphkinError):
     """The call is wrong: an unknown option value, an unknown scene or symbol (exit status 2)."""
 
+    @classmethod
+    def of(cls, where: Wording, found: Wording, wanted: Wording = "") -> CallError:
+        """The error of one problem, by its clauses (see `Problem`)."""
+        return cls(Problem(where, found, wanted))
+
 
 class Unsolvable(GraphkinError):
     """The mechanism cannot be solved as asked (exit status 3).

@@ -89,7 +89,7 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
         strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
         if strange:
             found = Phrase("found value", value=f'{given[strange[0]]!r:.60}')
-            raise CallError(Problem(Phrase("answers of", name=strange[0]), found, Phrase("give v_d 480")))
+            raise CallError.of(Phrase("answers of", name=strange[0]), found, Phrase("give v_d 480"))
         heads = list(dict.fromkeys(s for values in given.values() for s in values))
         rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
         # who says nothing of a quantity was not asked for it

@@ -274,10 +274,8 @@ def audit(
     given = as_scene(scene)
     known_words(language=language)
     if answers is None and not given.stated and not given.scans:
-        raise CallError(
-            Problem(
-                "printed", Phrase("the scene has no printed values"), Phrase("write them in printed or give answers as")
-            )
+        raise CallError.of(
+            "printed", Phrase("the scene has no printed values"), Phrase("write them in printed or give answers as")
         )
     scans = _scanned(given, at) if given.scans and answers is None else ()
     scheme = scheme_of(given, grading)
@@ -563,7 +561,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     weights = given if given is not None else scene.grading
     if not isinstance(weights, Mapping):
         wanted = Phrase("give points by parts and symbols drawing 30")
-        raise CallError(Problem("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted))
+        raise CallError.of("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted)
     if not weights:
         return None
     spelling = spelling_of(scene)

@@ -223,11 +223,11 @@ def course_design(
     given = for_paper(scene)
     asked_symbols(given, find)
     if students is not None and at is not None:
-        raise CallError(Problem("at", Phrase("beside students"), Phrase("write each position into the table of the")))
+        raise CallError.of("at", Phrase("beside students"), Phrase("write each position into the table of the"))
     count = 12 if positions is None else whole_number("positions", positions, 2, 72)
     spoken, letters = language or given.sheet.language, convention or given.sheet.convention
     if rows is not None and variants is not None:
-        raise CallError(Problem("variants", Phrase("beside rows"), Phrase("give one of them")))
+        raise CallError.of("variants", Phrase("beside rows"), Phrase("give one of them"))
     sources: Mapping[str, SceneLike] = {"": scene}
     data: tuple[tuple[str, ...], ...] = ()
     if rows is not None:
@@ -363,7 +363,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
     }  # fmt: skip
     if "name" not in columns and "id" not in columns:
         found = Phrase("no column of names", names=', '.join(table.heads)[:200])
-        raise CallError(Problem(str(students), found, Phrase("write a head name or id")))
+        raise CallError.of(str(students), found, Phrase("write a head name or id"))
     problems: list[Problem] = []
     head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
     may_be_groups = len(course) == 1 and head in GROUPS
@@ -374,7 +374,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
                 Phrase("schemes without their data", schemes=schemes),
                 Phrase("give a row for each rows file.csv"),
             )
-            raise CallError(Problem(f"{students}, {head}", found, wanted))
+            raise CallError.of(f"{students}, {head}", found, wanted)
     listed = []
     for line, cells in table.rows:
         who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
@@ -400,7 +400,7 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         raise CallError(*problems)
     free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
     if not any(free.values()):
-        raise CallError(Problem("positions", Phrase("none of them can be drawn"), Phrase("give others in positions")))
+        raise CallError.of("positions", Phrase("none of them can be drawn"), Phrase("give others in positions"))
     taken: dict[str, list[str]] = {}
     for who in listed:
         if who.place:

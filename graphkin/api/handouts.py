@@ -207,7 +207,7 @@ def papers_of(
 def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     """Names of learning platforms, each once.  Raises CallError for an unknown one."""
     if isinstance(exports, str):
-        raise CallError(Problem("export", Phrase("is a text", formats=exports), Phrase("give a list", formats=exports)))
+        raise CallError.of("export", Phrase("is a text", formats=exports), Phrase("give a list", formats=exports))
     named = as_list("export", exports, Phrase("give a list of", names=", ".join(PLATFORMS)))
     if wrong := unknown_words("export", named, PLATFORMS):
         raise CallError(*wrong)

@@ -66,12 +66,10 @@ def answer(desk: Desk, message: object) -> Answer:
     head = {"id": number} if isinstance(number, int | str) else {}
     try:
         if not isinstance(message, Mapping):
-            raise CallError(
-                Problem("question", Phrase("found value", value=f"{message!r:.40}"), Phrase("send an object"))
-            )
+            raise CallError.of("question", Phrase("found value", value=f"{message!r:.40}"), Phrase("send an object"))
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
-            raise CallError(Problem("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS)))
+            raise CallError.of("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS))
         needed, told = QUESTIONS[name]
         return {**head, "ok": True, **told(desk, Message.of(message, needed))}
     except GraphkinError as error:
@@ -321,13 +319,13 @@ def _export(desk: Desk, asked: Message) -> Answer:
         drawn, _ = pictures.drawn_at(solver.structure_of(scene), asked.at, options)
         figures = drawn.figures
         if not figures:
-            raise CallError(Problem("figure", Phrase("there is nothing to draw"), Phrase("choose another figure")))
+            raise CallError.of("figure", Phrase("there is nothing to draw"), Phrase("choose another figure"))
         name, figure = next(iter(figures.items()))
         return _file(f"{scene.name}-{name}.{kind}", figure.content(kind))
     if kind == "scene":
         return _file(f"{scene.name}.toml", asked.text.encode())
     if kind not in ("papers", "variants"):
-        raise CallError(Problem("kind", f'"{kind!s:.40}"', Phrase("known here svg pdf png dxf papers variants")))
+        raise CallError.of("kind", f'"{kind!s:.40}"', Phrase("known here svg pdf png dxf papers variants"))
     with tempfile.TemporaryDirectory() as folder:
         _papers(scene, asked, options, Path(folder))
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))

@@ -46,7 +46,7 @@ def built(text: str, step: Step) -> str:
     """
     what = str(step.get("what", ""))
     if what not in STEPS:
-        raise CallError(Problem("piece", f'"{what[:60]}"', did_you_mean(what[:60], STEPS)))
+        raise CallError.of("piece", f'"{what[:60]}"', did_you_mean(what[:60], STEPS))
     text = text if text.strip() else EMPTY
     made = parsed(text)
     seen = {p: z for p, z in _tables(step, "places").items() if _place(z) and p in _points(made)}
@@ -123,9 +123,7 @@ def _points(made: Tables) -> set[str]:
 def _at(step: Step, key: str) -> list[float]:
     value = step.get(key)
     if not isinstance(value, list) or not _place(value):
-        raise CallError(
-            Problem(key, Phrase("found value", value=f"{value!r:.60}"), Phrase("give a place x y or the name"))
-        )
+        raise CallError.of(key, Phrase("found value", value=f"{value!r:.60}"), Phrase("give a place x y or the name"))
     return [_round(x) for x in value]
 
 
@@ -178,7 +176,7 @@ def _bar(made: Tables, step: Step) -> OwnTables:
     (one, p), (other, q) = _end(made, step, "from", changes), _end(made, step, "to", changes)
     long = math.dist(p, q)
     if one == other or long == 0.0:
-        raise CallError(Problem("bar", Phrase("begins and ends in the same place"), Phrase("pull it to another place")))
+        raise CallError.of("bar", Phrase("begins and ends in the same place"), Phrase("pull it to another place"))
     return {f"links.{next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
 
 
@@ -188,10 +186,8 @@ def _point_on(made: Tables, step: Step) -> OwnTables:
     own = _list(made["links"][name].get("points"))
     spots = draft(made)["points"]
     if len(own) < 2 or any(p not in spots for p in own):
-        raise CallError(
-            Problem(
-                Phrase("link of name", name=name), Phrase("has no axis of its own"), Phrase("give it two points first")
-            )
+        raise CallError.of(
+            Phrase("link of name", name=name), Phrase("has no axis of its own"), Phrase("give it two points first")
         )
     origin, end = (complex(*spots[p]) for p in own)
     along = (end - origin) / abs(end - origin)
@@ -209,7 +205,7 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
     angle = float(step.get("angle", 0.0) or 0.0)
     if not math.isfinite(angle):
-        raise CallError(Problem("angle", Phrase("found value", value=angle), Phrase("give degrees")))
+        raise CallError.of("angle", Phrase("found value", value=angle), Phrase("give degrees"))
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(angle)},
         f"links.{next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
@@ -235,7 +231,7 @@ def _pin(made: Tables, step: Step) -> OwnTables:
     point = str(step.get("point", ""))
     if point not in _points(made):
         near = did_you_mean(point[:40], _points(made))
-        raise CallError(Problem(Phrase("point", point=point[:40]), Phrase("there is no such point"), near))
+        raise CallError.of(Phrase("point", point=point[:40]), Phrase("there is no such point"), near)
     return {f"pins.{point}": {"of": _link_of(made, step, "of"), "in": _link_of(made, step, "link")}}
 
 
@@ -248,13 +244,8 @@ def _drive(made: Tables, step: Step) -> OwnTables:
     if len(own) < 2:
         on = link.get("on")
         if not own or not isinstance(on, str) or not on.startswith(f"{fixed}."):
-            raise CallError(
-                Problem(
-                    Phrase("link of name", name=name),
-                    Phrase("has no axis that could be driven"),
-                    Phrase("drive a bar or a slider"),
-                )
-            )
+            raise CallError.of(Phrase("link of name", name=name), Phrase("has no axis that could be driven"),
+                               Phrase("drive a bar or a slider"))  # fmt: skip
         guide = _tables(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
@@ -275,7 +266,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
     else:
         point = str(step.get("point", ""))
         if point not in _points(made):
-            raise CallError(Problem(Phrase("point", point=point[:40]), Phrase("there is no such point")))
+            raise CallError.of(Phrase("point", point=point[:40]), Phrase("there is no such point"))
         gone = {n for n, link in links.items() if point in _list(link.get("points"))}
         changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in _tables(link, "at")}
         if point in _frame(made)[1]:
@@ -363,12 +354,8 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
     scene = motion.scene
     kinds = movable(scene)
     if point not in kinds:
-        raise CallError(
-            Problem(
-                Phrase("point", point=point[:60]),
-                Phrase("cannot be pulled"),
-                Phrase("its place follows from the others"),
-            )
+        raise CallError.of(
+            Phrase("point", point=point[:60]), Phrase("cannot be pulled"), Phrase("its place follows from the others")
         )
     if point in scene.frame.points:
         return Pulled(_of_frame(raw, scene, point, to), {})
@@ -382,10 +369,8 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
         if point in link.points:
             changes |= _of_link(raw, motion, link.name, point, to)
     if not changes:
-        raise CallError(
-            Problem(
-                Phrase("point", point=point), Phrase("has no length that could change"), Phrase("pull another point")
-            )
+        raise CallError.of(
+            Phrase("point", point=point), Phrase("has no length that could change"), Phrase("pull another point")
         )
     return Pulled(changes, {})
 

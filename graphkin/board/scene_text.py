@@ -44,9 +44,9 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
             _put(document, key, value)
         made = _laid_out(tomlkit.dumps(document), text)
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
-        raise CallError(Problem(", ".join(changes)[:80], f"cannot be changed: {error}"[:200])) from None
+        raise CallError.of(", ".join(changes)[:80], f"cannot be changed: {error}"[:200]) from None
     if len(made) > LARGEST_FILE:
-        raise CallError(Problem(Phrase("the file"), Phrase("would be larger than kb", largest=LARGEST_FILE // 1000)))
+        raise CallError.of(Phrase("the file"), Phrase("would be larger than kb", largest=LARGEST_FILE // 1000))
     return made
 
 
@@ -67,12 +67,12 @@ def _put(document: Any, key: str, value: Any) -> None:
                 place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=holder)
             place = place[part]
         else:
-            raise CallError(Problem(key, Phrase("has nothing inside", names='.'.join(parts[:depth]))))
+            raise CallError.of(key, Phrase("has nothing inside", names='.'.join(parts[:depth])))
     last = parts[-1]
     if isinstance(place, list):
         place[_index(place, last, key)] = value
     elif not hasattr(place, "keys"):
-        raise CallError(Problem(key, Phrase("has nothing inside", names='.'.join(parts[:-1]))))
+        raise CallError.of(key, Phrase("has nothing inside", names='.'.join(parts[:-1])))
     elif value is None:
         if last in place:
             del place[last]

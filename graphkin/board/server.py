@@ -71,7 +71,7 @@ def needs_live() -> None:
 
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
     if missing:
-        raise CallError(Problem("open", Phrase("needs", missing=', '.join(missing)), 'pip install "graphkin[live]"'))
+        raise CallError.of("open", Phrase("needs", missing=', '.join(missing)), 'pip install "graphkin[live]"')
 
 
 @cache
@@ -262,7 +262,7 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
     try:
         return _widget_class()(Desk(text=text))
     except ImportError:
-        raise CallError(Problem("open_board", Phrase("needs anywidget"), 'pip install "graphkin[live]"')) from None
+        raise CallError.of("open_board", Phrase("needs anywidget"), 'pip install "graphkin[live]"') from None
 
 
 @cache

@@ -75,9 +75,7 @@ class Shelf:
         if name in library():
             return library_text(name)
         known = [*self.files(), *library()]
-        raise CallError(
-            Problem(f'"{name[:60]}"', Phrase("there is no such scene here"), did_you_mean(name[:60], known))
-        )
+        raise CallError.of(f'"{name[:60]}"', Phrase("there is no such scene here"), did_you_mean(name[:60], known))
 
     def save(self, name: str, text: str, mark: str) -> str:
         """Write a file, and return the mark of its new version.
@@ -92,7 +90,7 @@ class Shelf:
         """
         path = self._path(name)
         if len(text) > LARGEST_FILE:
-            raise CallError(Problem(name, Phrase("is larger than kb", largest=LARGEST_FILE // 1000)))
+            raise CallError.of(name, Phrase("is larger than kb", largest=LARGEST_FILE // 1000))
         try:
             before = path.read_bytes() if path.is_file() else None
             if before is not None and mark_of(before.decode("utf-8-sig", "replace")) != mark:
@@ -127,8 +125,8 @@ class Shelf:
                 if self.only
                 else Phrase("a name like four-bar.toml is wanted")
             )
-            raise CallError(Problem(f'"{name[:60]}"', Phrase("cannot be written of nothing"), wanted))
+            raise CallError.of(f'"{name[:60]}"', Phrase("cannot be written of nothing"), wanted)
         path = self.folder / name
         if path.is_symlink() and self.only != name:
-            raise CallError(Problem(name, Phrase("is a link to another place"), Phrase("open that file itself")))
+            raise CallError.of(name, Phrase("is a link to another place"), Phrase("open that file itself"))
         return path

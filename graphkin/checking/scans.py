@@ -133,9 +133,7 @@ def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:
     places = {name: corner + step * at for name, at in {**scan.points, **scan.read}.items()}
     lines = tuple(_lines(sheet, diagram, ends, places, scan.within))
     if not lines:
-        raise CallError(
-            Problem(where, Phrase("no line goes from one of these ends"), Phrase("read both ends of a line"))
-        )
+        raise CallError.of(where, Phrase("no line goes from one of these ends"), Phrase("read both ends of a line"))
     return JudgedScan(scan, diagram, lines, corner, step)
 
 

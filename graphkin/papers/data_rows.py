@@ -79,9 +79,7 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
             Problem(shown, Phrase("cannot be read", reason=from_others(reason)), Phrase("name a csv file"))
         ) from None
     if len(data) > LARGEST:
-        raise CallError(
-            Problem(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
-        )
+        raise CallError.of(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
     text = ""
     for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
         try:
@@ -95,9 +93,9 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
     except csv.Error as error:
-        raise CallError(Problem(shown, Phrase("is no table", error=error), Phrase("save it as csv"))) from None
+        raise CallError.of(shown, Phrase("is no table", error=error), Phrase("save it as csv")) from None
     if len(lines) < 2:
-        raise CallError(Problem(shown, Phrase("has no rows"), Phrase("write a line of heads and a line")))
+        raise CallError.of(shown, Phrase("has no rows"), Phrase("write a line of heads and a line"))
     return Rows(lines[0][1], tuple(lines[1:]), sign)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
@@ -83,6 +83,14 @@ def paper_of(scene: Mechanism) -> Paper:
     return Paper(*scene.sheet.size)
 
 
+NAMES = ("length", "velocity", "acceleration")
+
+
+def _scales(choice: Callable[[str], float]) -> Scales:
+    """The scale of each figure."""
+    return Scales(*map(choice, NAMES))
+
+
 def paper_plan(
     of: Mechanism | Structure, values: Mapping[str, float] | None, asked: Sequence[Symbol], share: bool = True
 ) -> Plan:
@@ -90,56 +98,40 @@ def paper_plan(
     ``share`` such that mechanism and polygon stand on one page where they stay large enough."""
     own = plan(of, values, asked)
     scene = own.structure.scene
-    paper, given = paper_of(scene), scene.sheet
+    paper = paper_of(scene)
+    wished = {name: getattr(scene.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
-        filled = own.scales_for(paper.filled)
-        own = replace(
-            own,
-            scales=Scales(
-                own.scales.length if given.length_scale else filled.length,
-                own.scales.velocity if given.velocity_scale else filled.velocity,
-                own.scales.acceleration if given.acceleration_scale else filled.acceleration,
-            ),
-        )
-    wishes = (given.length_scale, given.velocity_scale, given.acceleration_scale)
+        scales, filled = own.scales, own.scales_for(paper.filled)
+        own = replace(own, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
     fits = _fits(own, paper)
-    if all(fits):
-        return _sharing(own, paper, wishes) if share else own
-    larger = _larger(own, paper, wishes)
-    if larger is not None:
-        whole = of if isinstance(of, Mechanism) else of.scene
-        return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked, share)
-    roomed = own.scales_for(paper.most)
-    pairs = zip(
-        fits,
-        (own.scales.length, own.scales.velocity, own.scales.acceleration),
-        (roomed.length, roomed.velocity, roomed.acceleration),
-        strict=True,
-    )
-    own = replace(own, scales=Scales(*(mine if good else other for good, mine, other in pairs)))
-    return _sharing(own, paper, wishes) if share else own
+    if not all(fits.values()):
+        larger = _larger(own, paper, wished)
+        if larger is not None:
+            whole = of if isinstance(of, Mechanism) else of.scene
+            return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked, share)
+        scales, roomed = own.scales, own.scales_for(paper.most)
+        own = replace(own, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
+    return _sharing(own, paper, wished) if share else own
 
 
-def _sharing(own: Plan, paper: Paper, wishes: Sequence[float | None]) -> Plan:
+def _sharing(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Plan:
     """At scales that let the mechanism share a page with each polygon, from which directions are carried over, where
     the scene leaves them open and figures stay large enough for a pencil; else as it is."""
     if _share(own, paper):
         return own
-    names = ("length", "velocity", "acceleration")
     for part in PARTS:
-        smaller = own.scales_for(paper.part(part))
-        scales = Scales(*(
-            mine if wish else max(mine, other)
-            for wish, mine, other in zip(
-                wishes, *((s.length, s.velocity, s.acceleration) for s in (own.scales, smaller)), strict=True
-            )
-        ))  # fmt: skip
-        tried = replace(own, scales=scales)
+        tried = replace(own, scales=_coarser(own.scales, own.scales_for(paper.part(part)), wished))
         if _share(tried, paper):
-            drawn = [max(_size(tried, name)) for name in names]
-            wanted = [min(LEAST_DRAWN, max(_size(own, name))) for name in names]
-            return tried if all(a >= b for a, b in zip(drawn, wanted, strict=True)) else own
+            enough = all(max(_size(tried, name)) >= min(LEAST_DRAWN, max(_size(own, name))) for name in NAMES)
+            return tried if enough else own
     return own
+
+
+def _coarser(one: Scales, other: Scales, wished: Mapping[str, float | None]) -> Scales:
+    """The coarser scale of two for each figure, but for those that the scene wishes."""
+    return _scales(
+        lambda name: getattr(one, name) if wished[name] else max(getattr(one, name), getattr(other, name))
+    )
 
 
 def _size(own: Plan, name: str) -> tuple[float, float]:
@@ -162,24 +154,28 @@ def _share(own: Plan, paper: Paper) -> bool:
     return True
 
 
-def _fits(own: Plan, paper: Paper) -> list[bool]:
+def _fits(own: Plan, paper: Paper) -> dict[str, bool]:
     """Whether each of the three figures fits the paper."""
     sheet = execute(own)
-    most = paper.most
-    boxes = (Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration"))
-    rooms = (most.mechanism, most.polygon, most.polygon)
-    return [box.width <= room[0] and box.height <= room[1] for box, room in zip(boxes, rooms, strict=True)]
+    mechanism, polygon = paper.most.mechanism, paper.most.polygon
+    boxes = Box.around(sheet.points.values()), extent(sheet, "velocity"), extent(sheet, "acceleration")
+    return {
+        name: box.width <= wide and box.height <= high
+        for name, box, (wide, high) in zip(NAMES, boxes, (mechanism, polygon, polygon), strict=True)
+    }
 
 
-def _larger(own: Plan, paper: Paper, wishes: Sequence[float | None]) -> PaperName | None:
+def _larger(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> PaperName | None:
     """The next paper on which the figures of wished scales fit, None where they fit already or nowhere."""
-    if all(fit or wish is None for fit, wish in zip(_fits(own, paper), wishes, strict=True)):
+
+    def serves(size: Paper) -> bool:
+        return all(fit or wished[name] is None for name, fit in _fits(own, size).items())
+
+    if serves(paper):
         return None
     for name in LARGER:
         size = PAPERS[name]
-        if size[0] <= min(paper.width, paper.height):
-            continue
-        turned = size if paper.height >= paper.width else size[::-1]
-        if all(fit or wish is None for fit, wish in zip(_fits(own, Paper(*turned)), wishes, strict=True)):
+        turned = Paper(*(size if paper.height >= paper.width else size[::-1]))
+        if size[0] > min(paper.width, paper.height) and serves(turned):
             return name
     return None
