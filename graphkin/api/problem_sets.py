@@ -54,7 +54,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
 from graphkin.table import Table
-from graphkin.words import Phrase, languages
+from graphkin.words import Phrase, Wording, languages
 
 __all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
@@ -338,7 +338,7 @@ def _head_of(source: Tables, path: KeyPath) -> str:
 
 def _rows(
     source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]
-) -> Iterator[tuple[str, OwnTables, OwnTables | None, str]]:
+) -> Iterator[tuple[str, OwnTables, OwnTables | None, Wording]]:
     used: set[str] = set()
     for line, cells in lines:
         known = columns.name is not None and columns.name < len(cells)
@@ -351,8 +351,10 @@ def _rows(
             made = _with(source, settings)
             before = [s for s in settings if not s[0].startswith("driver") or not s[0].endswith((".angle", ".travel"))]
             yield name, made, _with(source, before) if before != settings else None, ""
-        except (ValueError, GraphkinError) as error:
-            yield name, {}, None, str(error).splitlines()[0]
+        except GraphkinError as error:
+            yield name, {}, None, error.problems[0].sentence
+        except ValueError as error:
+            yield name, {}, None, error.args[0]
 
 
 def _with(source: Tables, settings: Sequence[tuple[str, float]]) -> OwnTables:

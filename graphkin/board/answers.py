@@ -210,16 +210,16 @@ def _pull(desk: Desk, asked: Message) -> Answer:
     """A point pulled to a place: the figures that follow, and when the hand lets go the text that says so."""
     scene, raw = asked.scene(desk), parsed(asked.text)
     to = complex(asked.x, asked.y) * scene.units.metres
-    found = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, asked.lengths)
-    now = {**(asked.at or {}), **found.at} or None
+    changes, at = pulled(raw, pictures.motion_at(scene, asked.at), asked.point, to, asked.lengths)
+    now = {**(asked.at or {}), **at} or None
     if asked.final:
-        text = changed(asked.text, found.changes) if found.changes else asked.text
+        text = changed(asked.text, changes) if changes else asked.text
         return {**_show(desk, asked.model_copy(update={"text": text, "at": now, "quick": False})), "text": text}
-    for key, value in found.changes.items():
+    for key, value in changes.items():
         if problem := put(raw, key, value):
             raise CallError(problem)
-    there = resolved(pictures.with_own_files(raw, desk.shelf.folder), "scene")[1] if found.changes else scene
-    return {**pictures.shown(there, now, asked.options, quick=True), "changes": found.changes}
+    there = resolved(pictures.with_own_files(raw, desk.shelf.folder), "scene")[1] if changes else scene
+    return {**pictures.shown(there, now, asked.options, quick=True), "changes": changes}
 
 
 def _change(desk: Desk, asked: Message) -> Answer:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 from graphkin.board.scene_text import changed
 from graphkin.errors import CallError, Problem, did_you_mean
@@ -22,7 +21,7 @@ from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver import Motion
 from graphkin.words import Phrase
 
-__all__ = ["EMPTY", "STEPS", "Pulled", "built", "draft", "movable", "pulled", "trial_driver"]
+__all__ = ["EMPTY", "STEPS", "built", "draft", "movable", "pulled", "trial_driver"]
 
 EMPTY = 'title = "New mechanism"\n\n[units]\nlength = "mm"\n\n[frame]\nname = "0"\n'
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -301,14 +300,6 @@ def trial_driver(made: Tables) -> OwnTables | None:
 # -- a point pulled ----------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Pulled:
-    """What a pull changes: entries of the file by key, or the value of a driver in its own unit."""
-
-    changes: Tables
-    at: Mapping[str, float]
-
-
 def movable(scene: Mechanism) -> dict[str, str]:
     """What pulling each point does: it is of the "frame", it turns or shifts the "driver", or it changes "lengths";
     points of which none is true are left out."""
@@ -337,7 +328,9 @@ def _driven(scene: Mechanism, driver: Driver) -> list[str]:
     return []
 
 
-def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool = False) -> Pulled:
+def pulled(
+    raw: Tables, motion: Motion, point: str, to: complex, lengths: bool = False
+) -> tuple[Tables, Mapping[str, float]]:
     """Pull a point to a place.
 
     Parameters
@@ -346,6 +339,10 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
     motion : where everything lies now, one position
     to : the place (m)
     lengths : whether a point of a driven link changes its length instead of driving it
+
+    Returns
+    -------
+    what that changes: entries of the file by key, and the value of a driver in its own unit
 
     Raises
     ------
@@ -358,12 +355,12 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
             Phrase("point", point=point[:60]), Phrase("cannot be pulled"), Phrase("its place follows from the others")
         )
     if point in scene.frame.points:
-        return Pulled(_of_frame(raw, scene, point, to), {})
+        return _of_frame(raw, scene, point, to), {}
     if kinds[point] == "driver" and not lengths:
-        return Pulled({}, _driver(motion, point, to))
+        return {}, _driver(motion, point, to)
     changes: OwnTables = {}
     if point in raw.get("drawn", {}):
-        return Pulled(_as_drawn(motion, point, to), {})
+        return _as_drawn(motion, point, to), {}
     to = _on_guide(scene, point, to)
     for link in scene.links:
         if point in link.points:
@@ -372,7 +369,7 @@ def pulled(raw: Tables, motion: Motion, point: str, to: complex, lengths: bool =
         raise CallError.of(
             Phrase("point", point=point), Phrase("has no length that could change"), Phrase("pull another point")
         )
-    return Pulled(changes, {})
+    return changes, {}
 
 
 def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:

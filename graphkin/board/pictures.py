@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 
@@ -34,7 +33,7 @@ from graphkin.solver import Motion
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.solve import driver_range
 from graphkin.structure import Structure, mobility_of
-from graphkin.words import Phrase, Wording, languages, say
+from graphkin.words import Phrase, languages, say
 from graphkin.words.written import in_markup
 
 __all__ = [
@@ -91,11 +90,6 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
     return made
 
 
-@lru_cache(maxsize=16)
-def _range_of(scene: Mechanism) -> DriverRange:
-    return driver_range(scene)
-
-
 def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -> str:
     """The mobility with its numbers, as it is told everywhere; ``drivers`` where the scene's own are only a trial."""
     found, count = mobility_of(scene), len(scene.drivers) if drivers is None else drivers
@@ -107,22 +101,14 @@ def mobility_text(scene: Mechanism, language: str, drivers: int | None = None) -
     return plain_said(Phrase("explained miscount", (*numbers, str(count))), language)
 
 
-class Reach(NamedTuple):
-    """How far the first driver moves: its least and greatest value in its own unit, whether it turns on and on, and
-    why it ends."""
-
-    low: float
-    high: float
-    turns: bool
-    why: Wording
-
-
-def reach(scene: Mechanism) -> Reach:
-    """How far the first driver of a scene moves.  Raises GraphkinError where that cannot be found."""
-    over = _range_of(scene)
+@lru_cache(maxsize=16)
+def reach(scene: Mechanism) -> tuple[float, float, DriverRange]:
+    """How far the first driver of a scene moves: its least and greatest value in its own unit, and its range.  Raises
+    GraphkinError where that cannot be found."""
+    over = driver_range(scene)
     values = sorted(float(v) for v in over.value(np.array(over.ends)))
     low, high = (0.0, 360.0) if over.full else (scene.unit_of(over.driver).of(v) for v in values)
-    return Reach(low, high, over.full, over.limit_why)
+    return low, high, over
 
 
 def motion_at(scene: Mechanism, at: Mapping[str, float] | None) -> Motion:
@@ -175,15 +161,28 @@ def shown(
             raise
         at, said = _last(scene, at), _said(error, _spoken(options.language, scene))
         drawn, motion = drawn_at(structure, at, options)
-    answer: dict[str, Json] = {
-        "figures": _figures(drawn),
-        "points": _points(motion),
-        "at": {d.key: scene.unit_of(d).of(float(v)) for d, v in zip(scene.drivers, motion.values[0], strict=True)},
-        "scales": [drawn.plan.scales.length, drawn.plan.scales.velocity, drawn.plan.scales.acceleration],
-        "perMm": drawn.plan.scales.length / scene.units.metres,
-        "limit": said,
-    }
+    places = {p: complex(motion.position(p)[0]) for p, holders in scene.holders.items() if holders}
+    values = dict(zip((d.key for d in scene.drivers), map(float, motion.values[0]), strict=True))
+    answer = _answer(scene, _figures(drawn), places, values, drawn.plan.scales, said)
     return answer if quick else {**answer, **_whole(drawn, options)}
+
+
+def _answer(
+    scene: Mechanism, figures: Mapping[str, str], places: Mapping[str, complex], values: Mapping[str, float],
+    scales: Scales, limit: str,
+) -> dict[str, Json]:  # fmt: skip
+    """What the page shows of a position: figures, where points lie (m) and what pulling them does, values of the
+    drivers (rad, m), scales, and why it goes no farther."""
+    metres, pulls = scene.units.metres, movable(scene)
+    spots = {point: z / metres for point, z in places.items()}
+    return {
+        "figures": dict(figures),
+        "points": {point: {"x": z.real, "y": z.imag, "pull": pulls.get(point, "")} for point, z in spots.items()},
+        "at": {d.key: scene.unit_of(d).of(values[d.key]) for d in scene.drivers},
+        "scales": [scales.length, scales.velocity, scales.acceleration],
+        "perMm": scales.length / metres,
+        "limit": limit,
+    }
 
 
 _IN_MOTION: Mapping[str, DiagramName] = {n: n for n in ("mechanism", "velocity", "acceleration")}
@@ -232,17 +231,10 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     there = [name for name in options.figures if name in _IN_MOTION and _is_there(sheet, name)]
     drawn = {name: figure_in_motion(sheet, _IN_MOTION[name], **words) for name in there}
     figures = {name: svg_element(figure, named=True) for name, figure in drawn.items()}
-    unit = sheet.scales.length / scene.units.metres
-    pulls = movable(scene)
-    points = {ref.point: z * unit for ref, z in sheet.points.items() if not ref.link}
-    return {
-        "figures": figures if said or not rest else figures | _figures(drawn_at(*others)[0]),
-        "points": {p: {"x": z.real, "y": z.imag, "pull": pulls.get(p, "")} for p, z in points.items()},
-        "at": {d.key: scene.unit_of(d).of(float(sheet.drivers[d.key])) for d in scene.drivers},
-        "scales": [sheet.scales.length, sheet.scales.velocity, sheet.scales.acceleration],
-        "perMm": unit,
-        "limit": said,
-    }
+    if rest and not said:
+        figures |= _figures(drawn_at(*others)[0])
+    places = {ref.point: z * sheet.scales.length for ref, z in sheet.points.items() if not ref.link}
+    return _answer(scene, figures, places, {k: float(v) for k, v in sheet.drivers.items()}, sheet.scales, said)
 
 
 def _spoken(language: str | None, scene: Mechanism) -> str:
@@ -277,13 +269,13 @@ def _is_there(sheet: Sheet, figure: str) -> bool:
 
 def _last(scene: Mechanism, at: Mapping[str, float]) -> dict[str, float]:
     """The last position on the way to one that is not reached.  Raises Unsolvable where there is no way."""
-    found = reach(scene)
+    low, high, _ = reach(scene)
     key, wanted = next(iter(at.items()))
-    inside = NEAR_END * (found.high - found.low)
-    if scene.drivers[0].turns and not found.low <= wanted <= found.high:
-        middle = (found.low + found.high) / 2
+    inside = NEAR_END * (high - low)
+    if scene.drivers[0].turns and not low <= wanted <= high:
+        middle = (low + high) / 2
         wanted = middle + (wanted - middle + 180.0) % 360.0 - 180.0
-    return {key: min(max(wanted, found.low + inside), found.high - inside)}
+    return {key: min(max(wanted, low + inside), high - inside)}
 
 
 def _figures(drawn: Drawn) -> dict[str, str]:
@@ -302,23 +294,13 @@ def _figures(drawn: Drawn) -> dict[str, str]:
     return found
 
 
-def _points(motion: Motion) -> dict[str, Json]:
-    scene, pulls = motion.scene, movable(motion.scene)
-    places: dict[str, Json] = {}
-    for point, holders in scene.holders.items():
-        if holders:
-            z = complex(motion.position(point)[0]) / scene.units.metres
-            places[point] = {"x": z.real, "y": z.imag, "pull": pulls.get(point, "")}
-    return places
-
-
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = _spoken(options.language, scene)
     account = Account(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
     try:
-        found = reach(scene)
-        limits: dict[str, Json] = {**found._asdict(), "why": say(found.why, spoken)}
+        low, high, over = reach(scene)
+        limits: dict[str, Json] = {"low": low, "high": high, "turns": over.full, "why": say(over.limit_why, spoken)}
     except GraphkinError as error:
         limits = {"low": None, "high": None, "turns": False, "why": _said(error, spoken)}
     steps: list[dict[str, Json]] = [

@@ -44,7 +44,7 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
             _put(document, key, value)
         made = _laid_out(tomlkit.dumps(document), text)
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
-        raise CallError.of(", ".join(changes)[:80], f"cannot be changed: {error}"[:200]) from None
+        raise CallError.of(", ".join(changes)[:80], Phrase("cannot be changed", error=str(error)[:180])) from None
     if len(made) > LARGEST_FILE:
         raise CallError.of(Phrase("the file"), Phrase("would be larger than kb", largest=LARGEST_FILE // 1000))
     return made

@@ -147,7 +147,7 @@ def _names_in(text: str) -> set[str]:
 
 def _tree(text: str) -> ast.expr:
     if len(text) > LONGEST:
-        raise ValueError(f"a formula of {len(text)} signs is too long")
+        raise ValueError(Phrase("a formula of signs is too long", count=len(text)))
     try:
         return ast.parse(_PRODUCT.sub(r"\1*", text.strip()), mode="eval").body
     except (SyntaxError, RecursionError, MemoryError, ValueError):
@@ -161,20 +161,20 @@ def _evaluated(node: ast.expr, known: Mapping[str, float]) -> float:
         case ast.Name(id=name) if name in known:
             return known[name]
         case ast.Name(id=name):
-            raise ValueError(f'"{name}" is no column with a number')
+            raise ValueError(Phrase("is no column with a number", name=name))
         case ast.UnaryOp(op=ast.USub(), operand=inner):
             return -_evaluated(inner, known)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATORS:
             try:
                 return _OPERATORS[type(op)](_evaluated(left, known), _evaluated(right, known))
             except ZeroDivisionError:
-                raise ValueError("divides by zero") from None
+                raise ValueError(Phrase("divides by zero")) from None
         case ast.Call(func=ast.Name(id=name), args=[one], keywords=[]) if name in _FUNCTIONS:
             try:
                 return _FUNCTIONS[name](_evaluated(one, known))
             except ValueError:
-                raise ValueError(f"{name} has no value there") from None
-    raise ValueError("only + - * /, sqrt, sin, cos, tan, asin, acos, atan and names of columns are possible")
+                raise ValueError(Phrase("has no value there", name=name)) from None
+    raise ValueError(Phrase("only these signs are possible"))
 
 
 @dataclass(frozen=True)
@@ -237,13 +237,13 @@ def _values(texts: Mapping[str, str]) -> dict[str, float]:
         needs = {s: {n: plain[_bare(n)] for n in _names_in(text) if _bare(n) in plain} for s, text in left.items()}
         ready = [s for s in left if not set(needs[s].values()) & left.keys()]
         if not ready:
-            raise ValueError(f"{', '.join(left)} are given by one another")
+            raise ValueError(Phrase("are given by one another", names=", ".join(left)))
         for short in ready:
             known = {n: values[column] for n, column in needs[short].items()}
             try:
                 values[short] = value_of(left.pop(short), known)
             except ValueError as error:
-                raise ValueError(f"{short}: {error}") from None
+                raise ValueError(Phrase("where and what", where=short, found=error.args[0])) from None
     return values
 
 

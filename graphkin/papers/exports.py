@@ -29,7 +29,7 @@ from graphkin.papers.problem import given, scene_title
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
 
-__all__ = ["BANKED", "PLATFORMS", "AskedNumber", "KnownSlip", "Question", "bank", "files_for", "question_of"]
+__all__ = ["BANKED", "PLATFORMS", "AskedNumber", "Question", "bank", "files_for", "question_of"]
 
 PLATFORMS = ("moodle", "gift", "prairielearn")
 BANKED = ("moodle.xml", "questions.gift")
@@ -41,16 +41,9 @@ _NOTHING = re.compile(r"[^A-Za-z0-9]+")
 
 
 @dataclass(frozen=True)
-class KnownSlip:
-    """A wrong value and what was done to get it, in words."""
-
-    value: float
-    words: str
-
-
-@dataclass(frozen=True)
 class AskedNumber:
-    """One number that is asked for: its symbol, how it is written (HTML and plain), unit, right value, tolerance."""
+    """One number that is asked for: its symbol, how it is written (HTML and plain), unit, right value, tolerance; and
+    known wrong values, each with what was done to get it, in words."""
 
     symbol: str
     html: str
@@ -58,13 +51,13 @@ class AskedNumber:
     unit: str
     value: float
     tolerance: float
-    slips: tuple[KnownSlip, ...] = ()
+    slips: tuple[tuple[float, str], ...] = ()
 
     @property
     def answers(self) -> tuple[tuple[int, str, str, str], ...]:
         """The right answer and the known wrong ones: share of the mark (%), value, tolerance, what is said to it."""
         right = 100, f"{self.value:.10g}", f"{self.tolerance:.3g}", ""
-        return right, *((0, f"{slip.value:.10g}", f"{self.tolerance / 2:.3g}", slip.words) for slip in self.slips)
+        return right, *((0, f"{value:.10g}", f"{self.tolerance / 2:.3g}", words) for value, words in self.slips)
 
 
 @dataclass(frozen=True)
@@ -121,7 +114,7 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
 
 def _slips(
     lesson: Lesson, evidence: Evidence, symbol: Symbol, right: float, tolerance: float, language: str
-) -> Iterator[KnownSlip]:
+) -> Iterator[tuple[float, str]]:
     """The commonest slips whose values can be told from the right one and from each other."""
     taken = [right]
     try:
@@ -135,7 +128,7 @@ def _slips(
             continue
         taken.append(value)
         said = say(suspect.phrase, language, lambda thing: str(thing).replace("{", "").replace("}", ""))
-        yield KnownSlip(value, clean(said[:1].upper() + said[1:]))
+        yield value, clean(said[:1].upper() + said[1:])
         if len(taken) > MOST_SLIPS:
             return
 

@@ -13,7 +13,7 @@ import cmath
 import copy
 import math
 import random
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -381,48 +381,33 @@ def _vary(source: Tables) -> Tables:
     return table if isinstance(table, Mapping) else {}
 
 
-def _path_of_number(source: Tables, key: str) -> KeyPath:
-    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``.
-
-    Raises ValueError where there is no number.
-    """
+def _path_of_number(source: Tables, key: str) -> KeyPath | None:
+    """The place of a number by its key with dots: ``links.2.length``, ``frame.points.D.x``, ``driver.2.angle``; None
+    where there is no number."""
     path = path_of_key(source, key)
     value = None if path is None else value_at(source, path)
-    if path is None or isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(Phrase("is no number of the scene"))
-    return path
+    return None if isinstance(value, bool) or not isinstance(value, int | float) else path
 
 
 def rules_checked(source: Tables) -> None:
     """Raise CallError naming every key of ``[vary]`` that is no number of the scene, and every range that is none."""
     table = _vary(source)
-    problems = []
     keys = [(f"vary.ranges.{k}", k) for k in table.get("ranges", {})]
     keys += [("vary.keep", k) for k in table.get("keep", ())]
     keys += [("vary.ratios", k) for keys in table.get("ratios", ()) for k in keys]
-    for where, key in keys:
-        try:
-            _path_of_number(source, key)
-        except ValueError as error:
-            problems.append(
-                Problem(where, f'"{key}" {error}', Phrase("write a key such as links.2.length or driver.angle"))
-            )
-    problems += [
-        Problem(
-            f"vary.ranges.{k}",
-            Phrase("from to", least=f"{low:g}", greatest=f"{high:g}"),
-            Phrase("give the smaller value first"),
-        )
-        for k, (low, high) in table.get("ranges", {}).items()
-        if low > high
-    ]
+    wanted = Phrase("write a key such as links.2.length or driver.angle")
+    problems = [
+        Problem(where, Phrase("is no number of the scene", key=key), wanted)
+        for where, key in keys if _path_of_number(source, key) is None
+    ]  # fmt: skip
+    for key, (low, high) in table.get("ranges", {}).items():
+        if low > high:
+            found = Phrase("from to", least=f"{low:g}", greatest=f"{high:g}")
+            problems.append(Problem(f"vary.ranges.{key}", found, Phrase("give the smaller value first")))
     asked, most = table.get("ask"), len(table.get("find", ()))
     if asked is not None and asked > most:
-        problems.append(
-            Problem(
-                "vary.ask", Phrase("of quantities", asked=asked, most=most), Phrase("list more of them in vary.find")
-            )
-        )
+        found = Phrase("of quantities", asked=asked, most=most)
+        problems.append(Problem("vary.ask", found, Phrase("list more of them in vary.find")))
     if problems:
         raise CallError(*problems)
 
@@ -431,17 +416,21 @@ def _ruled_keys(source: Tables) -> set[KeyPath]:
     """The numbers that have a range, are tied to another, or are kept."""
     table = _vary(source)
     tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
-    return {_path_of_number(source, key) for key in (*table.get("ranges", {}), *tied, *table.get("keep", ()))}
+    return set(_paths(source, (*table.get("ranges", {}), *tied, *table.get("keep", ()))))
+
+
+def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
+    """The places of numbers that are there (`rules_checked`)."""
+    return [path for key in keys if (path := _path_of_number(source, key)) is not None]
 
 
 def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: Mapping[str, float]) -> None:
     """Draw what has a range, and let what is tied follow; ``step_of`` gives the steps of angles by the last key."""
     table = _vary(source)
-    for key, (low, high) in table.get("ranges", {}).items():
-        path = _path_of_number(source, key)
-        size = max(abs(low), abs(high), 1e-9)
+    ranges = table.get("ranges", {})
+    for path, (low, high) in zip(_paths(source, ranges), ranges.values(), strict=True):
         whole = "teeth" in path
-        step = 1.0 if whole else step_of.get(str(path[-1]), round_step(size))
+        step = 1.0 if whole else step_of.get(str(path[-1]), round_step(max(abs(low), abs(high), 1e-9)))
         if high - low < 2 * step and not whole:
             step = round_step(max(high - low, 1e-9)) * 10
         first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
@@ -449,7 +438,7 @@ def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: M
         value = min(max(value, low), high)
         put_at(made, path, round(value) if whole else float(f"{value:.12g}"))
     for keys in table.get("ratios", ()):
-        lead, *others = [_path_of_number(source, key) for key in keys]
+        lead, *others = _paths(source, keys)
         factor = value_at(made, lead) / value_at(source, lead) if value_at(source, lead) else 1.0
         for other in others:
             put_at(made, other, float(f"{value_at(source, other) * factor:.9g}"))

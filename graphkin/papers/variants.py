@@ -34,7 +34,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Cluster, Dyad, Pair, analyse
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 __all__ = [
     "Answer", "Failure", "Job", "MadeSet", "Render", "Unfit", "Variant", "accepted", "asked_of", "distinct", "examined",
@@ -352,7 +352,7 @@ class Job:
     spread: Spread | None = None
     seed: int = 0
     base: Tables | None = None
-    trouble: str = ""
+    trouble: Wording = ""
 
 
 @dataclass(frozen=True)
@@ -399,7 +399,7 @@ def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> Itera
         yield Job(f"{number:0{digits}d}", number, source, spread, seed)
 
 
-def jobs_of_rows(rows: Iterable[tuple[str, Tables, Tables | None, str]]) -> Iterator[Job]:
+def jobs_of_rows(rows: Iterable[tuple[str, Tables, Tables | None, Wording]]) -> Iterator[Job]:
     """One job for each row of data: name, scene file, the file with the driver where it was, what is wrong with it."""
     for number, (name, source, base, trouble) in enumerate(rows, 1):
         yield Job(name, number, source, base=base, trouble=trouble)
@@ -445,7 +445,7 @@ def work(job: Job, attempt: int) -> Attempt:
 
 def _row(job: Job) -> Attempt:
     """A row of data as it stands; what makes it hard to draw is a remark."""
-    why = job.trouble
+    why = (str(job.trouble).splitlines() or [""])[0]
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
             break

@@ -22,6 +22,14 @@ def papers(tmp_path_factory):
     return {path.name: path.read_text(encoding="utf-8") for path in Path(out).rglob("*.*")}
 
 
+def test_the_page_shows_the_measured_forces_beside_the_exact_ones(papers):
+    results = tests.papers.unpacked(papers["handout.html"])["positions"][0]["results"]
+    pairs = re.findall(r'<td class="right">([\d.]+)</td><td class="right">([\d.]+)</td><td>N</td>', results)
+    assert len(pairs) >= 2
+    for measured, exact in pairs:
+        assert float(exact) == pytest.approx(float(measured), rel=1e-3)
+
+
 def words(page):
     bare = re.sub(r"<(style|script)\b.*?</\1>", "", page, flags=re.DOTALL)
     return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", "", bare))
