@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
@@ -93,21 +93,21 @@ class Tabled(ABC):
         return self.table._repr_html_()
 
 
-class _OfMechanism(Protocol):
-    @property
-    def mechanism(self) -> Mechanism: ...
-
-
 class OfScene:
     """What has a mechanism, and so the scene that says it."""
 
+    if TYPE_CHECKING:
+
+        @property
+        def mechanism(self) -> Mechanism: ...
+
     @property
-    def name(self: _OfMechanism) -> str:
+    def name(self) -> str:
         """The name of the scene."""
         return self.mechanism.name
 
     @cached_property
-    def scene(self: _OfMechanism) -> Scene:
+    def scene(self) -> Scene:
         """The scene, as it was given: to be changed by key (``scene.replace("links.1.length", 60)``) and saved."""
         from graphkin.scene.scene import Scene
 

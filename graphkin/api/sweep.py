@@ -109,7 +109,7 @@ class Swept(OfScene, Result):
         watched = self.over.base.watched
         k = next((k for k, w in enumerate(watched) if w.name == name), None)
         if k is not None and self.found.arrays is not None:
-            parts = self.found.arrays.parts[k]
+            parts = self.over.base.parts(self.found.arrays[0])[k]
         elif k is not None:
             heads = [c.name for c in watched[k].columns(self.mechanism, [np.zeros(0)] * (1 + watched[k].is_vector))]
             parts = tuple(self.table[head] for head in heads[-1 - watched[k].is_vector :])
@@ -385,7 +385,8 @@ def sweep(
             raise CallError(Problem("sweep", Phrase("rows", number=over.rows), Phrase("give a folder out or o")))
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
-            return Swept(over, Found(over.rows, arrays.good, arrays=arrays), spoken, elsewhere, on_paper)
+            good = int(np.count_nonzero(arrays[1]))
+            return Swept(over, Found(over.rows, good, arrays=arrays), spoken, elsewhere, on_paper)
     if not made.keys and over.base.engine is None and not moves_by_law(given):
         _ = over.base.reach  # a start that cannot be assembled
     through = cluster(as_text("scheduler", scheduler)) if scheduler is not None else executor

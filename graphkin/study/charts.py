@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -109,37 +109,25 @@ def number(value: float, digits: int = 5) -> str:
 # the axis
 
 
-class Axis(Protocol):
+@dataclass(frozen=True)
+class Axis:
     """What is drawn from left to right: its ends, the step of its ticks, its title."""
 
-    @property
-    def left(self) -> float: ...
-
-    @property
-    def right(self) -> float: ...
-
-    @property
-    def step(self) -> float: ...
-
-    @property
-    def title(self) -> str: ...
+    left: float
+    right: float
+    step: float
+    title: str
 
 
 @dataclass(frozen=True)
-class DriverAxis:
-    """The driver's value from left to right as it moves: degrees, or the scene's unit of length.
+class DriverAxis(Axis):
+    """The driver's value as it moves: degrees, or the scene's unit of length; of a whole turn from 0 on, up or down.
 
-    left, right : values at the ends; an axis of a whole turn begins at 0, going up or down
-    step : of the ticks
     first : the offset of the driver's range at the left end
     """
 
     reach: DriverRange
-    left: float
-    right: float
-    step: float
     first: float
-    title: str
     _asked: dict[bytes, Motion] = field(default_factory=dict, compare=False, repr=False)
 
     @cached_property
@@ -227,7 +215,7 @@ def driver_axis(reach: DriverRange, language: str) -> DriverAxis:
     step = degree_step(high - low) if driver.turns else next_of_series(wide / 12)
     first = float((-reach.start[0] * reach.sense) % reach.ends[1]) if reach.full else reach.ends[0]
     left, right = (low, high) if reach.sense > 0 else (high, low)
-    return DriverAxis(reach, left, right, step, first, say(Phrase("of the driver", (symbol,)), language))
+    return DriverAxis(left, right, step, say(Phrase("of the driver", (symbol,)), language), reach, first)
 
 
 # a panel

@@ -277,31 +277,14 @@ def _columns(pairs: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
     return np.stack(values, axis=1), np.stack(off, axis=1)
 
 
-@dataclass(frozen=True)
-class _Asked:
-    """Quantities at offsets of their own, all from one motion."""
-
-    reach: DriverRange
-    quantities: Sequence[Quantity]
-
-    def values(self, offsets: Sequence[Array], fine: bool = False) -> list[Array]:
-        """Their values, for each as many as it has offsets."""
-        motion, parts = self._motion(offsets, False, fine)
-        return [q.values(self.reach, motion)[part] for q, part in zip(self.quantities, parts, strict=True)]
-
-    def rates(self, offsets: Sequence[Array]) -> tuple[list[Array], list[Array]]:
-        """First and second rates of angles and travels by the driver's own value."""
-        motion, parts = self._motion(offsets, True, False)
-        both = [rates_of(q)[1:] for q in self.quantities]
-        first, second = (
-            [own[k].values(self.reach, motion)[part] for own, part in zip(both, parts, strict=True)] for k in (0, 1)
-        )
-        return first, second
-
-    def _motion(self, offsets: Sequence[Array], unit: bool, fine: bool) -> tuple[Motion, list[slice]]:
-        ends = np.cumsum([0, *map(len, offsets)]).tolist()
-        together = np.concatenate([*offsets, np.zeros(1)])
-        return self.reach.motion(together, unit=unit, fine=fine), [slice(a, b) for a, b in pairwise(ends)]
+def _values(
+    reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array], fine: bool = False, unit: bool = False
+) -> list[Array]:
+    """Quantities at offsets of their own, for each as many as it has, all from one motion; with ``unit`` of a driver
+    that moves at the rate 1."""
+    ends = np.cumsum([0, *map(len, offsets)]).tolist()
+    motion = reach.motion(np.concatenate([*offsets, np.zeros(1)]), unit=unit, fine=fine)
+    return [q.values(reach, motion)[a:b] for q, (a, b) in zip(quantities, pairwise(ends), strict=True)]
 
 
 def _floor(reach: DriverRange, rates: Sequence[Quantity]) -> Array:
@@ -367,9 +350,11 @@ def _polished(reach: DriverRange, quantities: Sequence[Quantity], offsets: Seque
     low, high = reach.ends
     found = list(offsets)
     which = [k for k, q in enumerate(quantities) if q.kind in ("theta", "s") and len(offsets[k])]
-    asked = _Asked(reach, [quantities[k] for k in which])
+    both = [rates_of(quantities[k])[1:] for k in which]
+    asked = [q for pair in both for q in pair]
     for _ in range(POLISH if which else 0):
-        for k, rate, bend in zip(which, *asked.rates([found[k] for k in which]), strict=True):
+        rates = _values(reach, asked, [found[k] for k in which for _ in range(2)], unit=True)
+        for k, rate, bend in zip(which, rates[::2], rates[1::2], strict=True):
             with np.errstate(all="ignore"):
                 step = rate / bend
             step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
@@ -385,11 +370,11 @@ def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequen
     low, high = reach.ends
     near = 1e-6 * (high - low)
     which = [k for k, q in enumerate(quantities) if q.kind in ("omega", "v") and len(offsets[k])]
-    asked = _Asked(reach, [rates_of(quantities[k])[2] for k in which])
+    asked = [rates_of(quantities[k])[2] for k in which]
     before = [_wrapped(reach, found[k] - near) for k in which]
-    values = asked.values(before) if which else []
+    values = _values(reach, asked, before) if which else []
     for _ in range(POLISH if which else 0):
-        now = asked.values([found[k] for k in which])
+        now = _values(reach, asked, [found[k] for k in which])
         for n, k in enumerate(which):
             with np.errstate(all="ignore"):
                 step = now[n] * (found[k] - before[n]) / (now[n] - values[n])
@@ -402,18 +387,18 @@ def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequen
 def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
     reach = way.reach
     low, high = reach.ends
-    asked = _Asked(reach, [c.quantity for c in curves])
+    asked = [c.quantity for c in curves]
     seams = way.offset(way.seams)
     inner = [np.sort(places) for places in offsets]
     # only what is printed takes all its digits
-    values = asked.values(inner, fine=True)
+    values = _values(reach, asked, inner, fine=True)
     # a little beside each, and not beyond an end of the motion
     wide = 1e-4 * (high - low)
     near = [
         np.full(len(at), wide) if reach.full else np.minimum(wide, np.minimum(at - low, high - at) / 2) for at in inner
     ]
-    before = asked.values([_wrapped(reach, at - by) for at, by in zip(inner, near, strict=True)])
-    after = asked.values([_wrapped(reach, at + by) for at, by in zip(inner, near, strict=True)])
+    before = _values(reach, asked, [_wrapped(reach, at - by) for at, by in zip(inner, near, strict=True)])
+    after = _values(reach, asked, [_wrapped(reach, at + by) for at, by in zip(inner, near, strict=True)])
     at_seams = _at_seams(reach, asked, seams, [np.append(v, 0.0) for v in values])
     found: list[tuple[Extreme, ...]] = []
     for n, curve in enumerate(curves):
@@ -455,7 +440,7 @@ class _Seams:
         return bool((here & (np.abs(self.levels - value) <= self.slack)).any())
 
 
-def _at_seams(reach: DriverRange, asked: _Asked, seams: Array, values: Sequence[Array]) -> list[_Seams]:
+def _at_seams(reach: DriverRange, asked: Sequence[Quantity], seams: Array, values: Sequence[Array]) -> list[_Seams]:
     """Extremes where one part of a law gives way to the next: a curve may jump there, or leave a stretch along which it
     stands still, whose end is meant.  ``values`` are some of each curve, from which its size is seen."""
     low, high = reach.ends
@@ -468,7 +453,8 @@ def _at_seams(reach: DriverRange, asked: _Asked, seams: Array, values: Sequence[
     close = CLOSE_TO_SEAM * wide
     places = np.concatenate([_wrapped(reach, seams + by) for by in (-near, -2 * close, -close, 0.0, near)])
     found = []
-    for quantity, some, five in zip(asked.quantities, values, asked.values([places] * len(values), True), strict=True):
+    around_seams = _values(reach, asked, [places] * len(values), fine=True)
+    for quantity, some, five in zip(asked, values, around_seams, strict=True):
         before, two, one, after, beyond = five.reshape(5, -1)
         known = np.abs(np.append(some, five))
         slack = SAME_AT_SEAM * float(np.max(known, where=np.isfinite(known), initial=0.0))

@@ -16,7 +16,7 @@ from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
-from graphkin.study.charts import EMPTY, Panel, chart_page, number, quantity_title, span_of, whole_span
+from graphkin.study.charts import EMPTY, Axis, Panel, chart_page, number, quantity_title, span_of, whole_span
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
@@ -92,7 +92,7 @@ class TimeStudy:
 
     def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
         low, high = time_span(self.scene)
-        axis = _TimeAxis(low, high, next_of_series((high - low) / 12), word("time axis", language))
+        axis = Axis(low, high, next_of_series((high - low) / 12), word("time axis", language))
         subject = quantities[0]
         key = {"theta": "motion of link", "s": "motion of slide"}.get(subject.kind, "diagram of")
         shown = quantity_title(self.scene, subject) if key == "diagram of" else subject.of.split("/")[0]
@@ -136,16 +136,6 @@ class TimeStudy:
                 ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
         return {"title": self.scene.title, "time": [low, high], "outputs": found}
-
-
-@dataclass(frozen=True)
-class _TimeAxis:
-    """The time (s) from left to right."""
-
-    left: float
-    right: float
-    step: float
-    title: str
 
 
 def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:

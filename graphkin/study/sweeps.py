@@ -33,7 +33,7 @@ from graphkin.table import Column, Table, have, parquet_of_csv
 from graphkin.words import Phrase, from_others
 
 __all__ = [
-    "MANY", "Arrays", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables",
+    "MANY", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables",
 ]  # fmt: skip
 
 BLOCK = 16384
@@ -46,26 +46,9 @@ LONG = 5.0
 """Seconds of work (estimated) from which processes pay."""
 
 
-@dataclass(frozen=True)
-class Arrays:
-    """What a prepared mechanism gives at all positions of a sweep.
-
-    parts : for each quantity that is watched its values in the units of the table, two for a vector; NaN where not ok
-    residues : what rounding leaves of nothing in each
-    ok : bool, shape (positions,)
-    good : how many are ok
-    """
-
-    parts: Parts
-    residues: tuple[Array, ...]
-    ok: Array
-    good: int
-
-    @property
-    def settled(self) -> Parts:
-        """The values as people read them: 0 where they are nothing but what rounding leaves."""
-        both = zip(self.parts, self.residues, strict=True)
-        return tuple(tuple(settled(part, residue) for part in own) for own, residue in both)
+Arrays = tuple[Array, Array]
+"""What a prepared mechanism gives at all positions of a sweep: its columns, shape (columns, positions), NaN where there
+is no such position; and where there is, shape (positions,)."""
 
 
 @dataclass(frozen=True)
@@ -121,40 +104,39 @@ class FollowedDesign:
         """All of n positions at once, where the mechanism can be prepared; very many by compiled code."""
         if self.engine is None:
             return None
-        return self.arrays_of(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
+        return _known(self.engine, *self.engine.sweep(n, fast=n >= MANY and have("numba")))
 
-    def arrays_of(self, engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
-        """What an engine gave, shapes (columns, positions) and (positions,), by what is watched."""
-        good = len(ok) if engine.clear else int(np.count_nonzero(ok))
-        if good < len(ok):
-            columns[:, ~ok] = np.nan
-        by_name = dict(zip(engine.names, columns, strict=True))
+    def parts(self, columns: Array) -> Parts:
+        """What is watched among the columns of the prepared mechanism."""
+        assert self.engine is not None
+        by_name = dict(zip(self.engine.names, columns, strict=True))
         ends = {True: (".x", ".y"), False: ("",)}
-        parts = tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
-        return Arrays(parts, tuple(w.residues(engine) for w in self.watched), ok, good)
+        return tuple(tuple(by_name[w.name + e] for e in ends[w.is_vector]) for w in self.watched)
 
     def table(self, n: int, first: int, last: int) -> Table:
         """Positions ``first`` to ``last`` (not included) of n: driver values, what is watched, status and reason."""
         if self.engine is not None:
-            found = self.engine.columns(self.reach.grid(n, first, last).values)
-            return self.table_of(self.arrays_of(self.engine, *found), n, first, last)
-        if moves_by_law(self.scene):
-            times = np.array(moments(self.scene, n)[first:last])
+            arrays = _known(self.engine, *self.engine.columns(self.reach.grid(n, first, last).values))
+            return self.table_of(arrays, n, first, last)
+        times = np.array(moments(self.scene, n)[first:last]) if moves_by_law(self.scene) else None
+        if times is not None:
             motion = over_time(self.structure, times)
-            parts = tuple(w.parts(None, motion) for w in self.watched)
-            return self._rows(first, motion.values, parts, motion.status, motion.why, times)
-        motion = self.reach.motion(self.reach.table_offsets(n, first, last))
-        parts = tuple(w.parts(self.reach, motion) for w in self.watched)
-        return self._rows(first, motion.values, parts, motion.status, motion.why)
+        else:
+            motion = self.reach.motion(self.reach.table_offsets(n, first, last))
+        parts = tuple(w.parts(None if times is not None else self.reach, motion) for w in self.watched)
+        return self._rows(first, motion.values, parts, motion.status, motion.why, times)
 
     def table_of(self, arrays: Arrays, n: int, first: int, last: int) -> Table:
         """The table of what a prepared mechanism gave at positions ``first`` to ``last`` of n."""
-        rows = last - first
+        (columns, ok), rows, engine = arrays, last - first, self.engine
+        assert engine is not None
         values = np.repeat(self.reach.start[None], rows, axis=0)
         values[:, 0] = self.reach.grid(n, first, last).values
         status, why = np.full(rows, "ok", object), np.full(rows, "", object)
-        parts = arrays.settled
-        bad = np.flatnonzero(~arrays.ok) if arrays.good < rows else np.zeros(0, int)
+        both = zip(self.watched, self.parts(columns), strict=True)
+        # as people read them: 0 where they are nothing but what rounding leaves
+        parts = tuple(tuple(settled(part, w.residues(engine)) for part in own) for w, own in both)
+        bad = np.flatnonzero(~ok)
         for some in (bad[k : k + BLOCK] for k in range(0, len(bad), BLOCK)):
             # why there is nothing there the solver says, and it has the last word on whether there is
             motion = self.reach.motion(self.reach.table_offsets(n, first, last)[some])
@@ -179,6 +161,13 @@ class FollowedDesign:
         return motion_table(
             self.scene, self.watched, bool(self.asked), first, values, parts, status, why, times
         )
+
+
+def _known(engine: PreparedMechanism, columns: Array, ok: Array) -> Arrays:
+    """What an engine gave, NaN where there is no such position."""
+    if not engine.clear and not ok.all():
+        columns[:, ~ok] = np.nan
+    return columns, ok
 
 
 @dataclass(frozen=True)
@@ -381,7 +370,7 @@ def _together(sweep: Sweep, designs: Mapping[int, FollowedDesign | tuple[str, st
     if not len(numbers):
         return {}
     columns, ok, _ = PreparedMechanisms(ready, {name: x[together] for name, x in given.items()}).sweep(sweep.positions)
-    return {n: sweep.base.arrays_of(ready, columns[:, k], ok[k]) for k, n in enumerate(numbers.tolist())}
+    return {n: _known(ready, columns[:, k], ok[k]) for k, n in enumerate(numbers.tolist())}
 
 
 def _rows(
