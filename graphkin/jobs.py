@@ -35,16 +35,7 @@ from graphkin.words import Phrase
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = [
-    "Checkpoints",
-    "FinishedPiece",
-    "Progress",
-    "Started",
-    "Workers",
-    "cluster",
-    "key_of",
-    "process_pool",
-]
+__all__ = ["Checkpoints", "FinishedPiece", "Progress", "Started", "Workers", "cluster", "key_of", "process_pool"]
 
 Progress = Callable[[int, int], None]
 """Called with how much is done, and with all there is to do."""

@@ -28,29 +28,10 @@ if TYPE_CHECKING:
     from graphkin.study.quantities import Quantity
 
 __all__ = [
-    "CHART_FORMATS",
-    "FORMATS",
-    "INSTRUMENTS",
-    "MOST_SEED",
-    "ON_SHEETS",
-    "At",
-    "SceneLike",
-    "as_scene",
-    "asked_symbols",
-    "driver_values",
-    "for_paper",
-    "known_words",
-    "known_workers",
-    "own_folder",
-    "passed_words",
-    "placed",
-    "quantity_shown",
-    "require_callable",
-    "unknown_words",
-    "value_at",
-    "whole_number",
-    "write_files",
-]
+    "CHART_FORMATS", "FORMATS", "INSTRUMENTS", "MOST_SEED", "ON_SHEETS", "At", "SceneLike", "as_scene", "asked_symbols",
+    "driver_values", "for_paper", "known_words", "known_workers", "own_folder", "passed_words", "placed",
+    "quantity_shown", "require_callable", "unknown_words", "value_at", "whole_number", "write_files",
+]  # fmt: skip
 
 FORMATS = ("svg", "pdf", "png", "dxf")
 CHART_FORMATS = ("svg", "pdf", "png")

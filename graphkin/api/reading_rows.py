@@ -20,15 +20,7 @@ if TYPE_CHECKING:
     from graphkin.checking.audit import Judged
     from graphkin.checking.uncertainty import Uncertainty
 
-__all__ = [
-    "JudgedValue",
-    "Known",
-    "ReadValue",
-    "finite",
-    "in_unit",
-    "reading_row",
-    "without_residues",
-]  # fmt: skip
+__all__ = ["JudgedValue", "Known", "ReadValue", "finite", "in_unit", "reading_row", "without_residues"]
 
 RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
 TURNED = 1e-12  # rad, likewise

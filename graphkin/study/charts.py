@@ -41,29 +41,9 @@ if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure, Look
 
 __all__ = [
-    "ALONE",
-    "EMPTY",
-    "HEIGHT",
-    "LEAP",
-    "LEFT",
-    "MARGIN",
-    "RIGHT",
-    "TOP",
-    "WIDTH",
-    "ZERO",
-    "DriverAxis",
-    "Panel",
-    "chart_page",
-    "draw_panel",
-    "driver_axis",
-    "heading",
-    "legend_of",
-    "number",
-    "panel_of",
-    "quantity_title",
-    "span_of",
-    "title_of",
-    "whole_span",
+    "ALONE", "EMPTY", "HEIGHT", "LEAP", "LEFT", "MARGIN", "RIGHT", "TOP", "WIDTH", "ZERO", "Axis", "DriverAxis",
+    "Panel", "chart_page", "draw_panel", "driver_axis", "heading", "legend_of", "number", "panel_of", "quantity_title",
+    "span_of", "title_of", "whole_span",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]

@@ -23,19 +23,8 @@ from graphkin.table import Column, Table
 from graphkin.words import Wording
 
 __all__ = [
-    "Parts",
-    "Quantity",
-    "Words",
-    "all_that_moves",
-    "link_quantities",
-    "motion_table",
-    "named_quantity",
-    "place_quantity",
-    "rates_of",
-    "settled",
-    "slide_quantities",
-    "symbol_quantity",
-    "word_column",
+    "Parts", "Quantity", "Words", "all_that_moves", "link_quantities", "motion_table", "named_quantity",
+    "place_quantity", "rates_of", "settled", "slide_quantities", "symbol_quantity", "word_column",
 ]  # fmt: skip
 
 Kind = Literal["theta", "omega", "alpha", "s", "v", "a", "place", "force", "moment", "symbol"]
