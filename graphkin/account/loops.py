@@ -23,8 +23,7 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet import Convention
-from graphkin.structure.loop_values import ArrowValue, LoopBlock, LoopValue, Root, loops_in_numbers
-from graphkin.structure.loops import Unknown
+from graphkin.structure.loops import ArrowValue, LoopBlock, LoopValue, Root, Unknown, loops_in_numbers
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from itertools import islice, product
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.structure.constraints import Constraints, Node, Unknown
-from graphkin.structure.groups import components, element_of, match
+from graphkin.structure.groups import Constraints, Node, Unknown, components, element_of, match
 from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Pair, Structure
 from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.words import Phrase, Wording, about, clauses

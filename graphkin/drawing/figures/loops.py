@@ -26,7 +26,7 @@ from graphkin.drawing.place.piece import Piece, moved_piece
 from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
-from graphkin.structure.loop_values import LoopBlock, LoopValue, loops_in_numbers
+from graphkin.structure.loops import LoopBlock, LoopValue, loops_in_numbers
 from graphkin.words import Neutral, Phrase, in_all, languages, say
 
 __all__ = ["FIGURES", "loop_blocks", "loops_figure"]
