@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import islice, pairwise, product
 
@@ -32,8 +32,6 @@ from graphkin.words import Phrase
 __all__ = ["Known", "all_fits", "as_sketched", "assembly_at", "fits_between", "nearest_assembly", "own_position"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
-# to either side of a sketch, looked at one after the other
-WINDOWS = (*map(math.radians, (3.0, 10.0, 30.0, 90.0)), math.pi)
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
 Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
@@ -137,29 +135,23 @@ def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[
 
 
 def _cluster_by_sketch(choices: Choices, paper: PlacedLinks, cluster: Cluster) -> Poses:
-    found: list[dict[str, Pose]] = []
-    # by several trial drivers: what one passes over at its dead point another sees
-    by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
-    for reduced in choices.of[cluster]:
-        by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
+    """The assembly of a larger group that is meant: one that is sketched, improved until everything fits; where the
+    sketch does not tell it, of all that fit the one nearest to what is sketched."""
     structure = choices.structure
-    # where a sketch tells where to look, it is looked there
-    ways = sorted(by_driver.values(), key=lambda reduced: _sketched(reduced, paper) is None)
-    # the positions that are sketched, improved until everything fits
-    near = (
-        fit for rough in as_sketched(structure, cluster, paper) for reduced in choices.of[cluster]
-        if (fit := fitted(reduced, paper, rough)) is not None
-    )  # fmt: skip
-    if len(ways[0].trial) > 1:
-        # a grid of several trial values is coarse: the sketch comes first, by whichever trial drivers it leads to a fit
-        found += _as_told(structure, paper, near)
-    for reduced in () if found else ways[:TRIALS]:
-        for fit in _nearest_fits(reduced, paper, found):  # a fit at a value of the grid is met from both sides
-            if not any(_near(fit, other) for other in found):
-                found.append(fit)
-    if not any(_is_told(structure, paper, fit) for fit in found):
-        # between two values of the grid a fit and a place where nothing can be drawn may lie side by side
-        found += [fit for fit in _as_told(structure, paper, near) if not any(_near(fit, other) for other in found)]
+    sketched = [
+        fit for rough in as_sketched(structure, cluster, paper)
+        if (fit := next(filter(None, (fitted(reduced, paper, rough) for reduced in choices.of[cluster])), None))
+    ]  # fmt: skip
+    found: list[dict[str, Pose]] = []
+    _add_new(found, (fit for fit in sketched if _is_told(structure, paper, fit)))
+    if not found:
+        # by several trial drivers: what one passes over at its dead point another sees
+        by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
+        for reduced in choices.of[cluster]:
+            by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
+        for reduced in list(by_driver.values())[:TRIALS]:
+            _add_new(found, all_fits(reduced, paper))
+        _add_new(found, sketched)
     if not found:
         names = ", ".join(cluster.links)
         raise Unsolvable(
@@ -170,15 +162,11 @@ def _cluster_by_sketch(choices: Choices, paper: PlacedLinks, cluster: Cluster) -
     return found[pick(structure.scene, cluster.links, candidates, None).index]
 
 
-def _as_told(structure: Structure, paper: PlacedLinks, fits: Iterator[dict[str, Pose]]) -> list[dict[str, Pose]]:
-    """The first fit that has its points about where they are sketched; where none has, all that there are."""
-    found: list[dict[str, Pose]] = []
-    for poses in fits:
-        if _is_told(structure, paper, poses):
-            return [poses]
-        if not any(_near(poses, other) for other in found):
-            found.append(poses)
-    return found
+def _add_new(found: list[dict[str, Pose]], fits: Iterable[dict[str, Pose]]) -> None:
+    """Add the positions that are not among those found yet: a fit at a value of the grid is met from both sides."""
+    for fit in fits:
+        if not any(_near(fit, other) for other in found):
+            found.append(fit)
 
 
 def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
@@ -206,61 +194,6 @@ def _without_twins(
         if all(apart > TWINS * structure.scene.size for apart in twins):
             kept.append((poses, places))
     return [poses for poses in found if any(poses is one for one, _ in kept)]
-
-
-def _nearest_fits(
-    reduced: ReducedMechanism, known: PlacedLinks, before: Sequence[Poses]
-) -> Iterator[dict[str, Pose]]:
-    """The positions at which a group fits: all of them, or where a point of the trial link is sketched those that can
-    be nearest to the sketch, for an assembly that is nearer has that point nearer too."""
-    sketched = _sketched(reduced, known)
-    if sketched is None:
-        yield from all_fits(reduced, known)
-        return
-    middle, away, distance = sketched
-    found = list(before)
-    nearest = min((distance(poses) for poses in before), default=0.0)
-    least = math.asin(nearest / away) if nearest < away else math.pi
-    for half in WINDOWS:
-        if half < least and half != WINDOWS[-1]:
-            continue
-        fresh = list(fits_between(reduced, known, middle - half, middle + half))
-        nearest = min((distance(poses) for poses in (*found, *fresh)), default=math.inf)
-        wide = math.asin(nearest / away) if nearest < away else math.pi
-        if wide <= half or half == WINDOWS[-1]:
-            yield from fresh
-            return
-
-
-def _sketched(
-    reduced: ReducedMechanism, known: PlacedLinks
-) -> tuple[float, float, Callable[[Poses], float]] | None:
-    """The trial value of a turned link at which a point of it lies in the direction of its sketch, how far from the
-    hinge it is sketched, and how far an assembly lies from the sketch; None where nothing tells."""
-    scene, structure = reduced.structure.scene, reduced.structure
-    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
-    driver = reduced.trial[0]
-    if len(reduced.trial) > 1 or not driver.turns or not places:
-        return None
-    held, link = known.poses.get(driver.relative_to), structure.links[driver.link]
-    hinge = next((p for p in link.points if p in structure.links[driver.relative_to].points), "")
-    far = max((p for p in link.points if p in places and p != hinge),
-              key=lambda p: abs(link.points[p] - link.points[hinge]) if hinge else 0.0, default="")  # fmt: skip
-    if held is None or not hinge or not far:
-        return None
-    way = places[far] - known.point(driver.relative_to, hinge)
-    own = link.points[far] - link.points[hinge]
-    if abs(way) == 0.0 or abs(own) == 0.0:
-        return None
-    axis = way / own
-    fresh = {p for n in reduced.cluster.members for p in structure.links[n].points if p in places}
-    fresh -= {p for n in known.poses for p in structure.links[n].points}
-
-    def distance(poses: Poses) -> float:
-        there = known.fresh({n: poses[n] for n in reduced.cluster.members if n in poses})
-        return math.sqrt(added_up(abs(there[p] * known.mm - places[p]) ** 2 for p in fresh if p in there))
-
-    return cmath.phase(axis / held.axis), abs(way), distance
 
 
 def _near(one: Poses, other: Poses) -> bool:

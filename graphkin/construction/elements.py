@@ -1,39 +1,87 @@
-"""What driven links and dyads add to the polygons."""
+"""What each element adds to the polygons: driven links, dyads, larger groups.
+
+Of a larger group contours of known shape come first, then special points or trial polygons.  Everything is linear in a
+rate that is assumed.  So two trial polygons with two assumed rates give the true one by proportional division of what
+each leaves open; with k rates left open it takes k + 1 polygons (method of superposition: Hain, Applied Kinematics;
+Artobolevsky, Theory of mechanisms).
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
+from itertools import chain, product
+
+import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.construction.equations import (
     at_contacts,
     draw_equation,
+    draw_relative,
     first_ends,
     known_turns,
+    parts_of,
     same_turn,
     share_rate,
+    spread,
+    turned,
 )
-from graphkin.construction.net import ClosingVector, Edge, Joined, TwoUnknowns, equation_of, node
-from graphkin.construction.polygons import Polygons
-from graphkin.construction.sheet import Rate
+from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
+from graphkin.construction.net import (
+    ClosingVector,
+    Edge,
+    Joined,
+    Net,
+    Path,
+    RollingPoint,
+    Turning,
+    TwoUnknowns,
+    contacts_of,
+    equation_of,
+    node,
+)
+from graphkin.construction.polygons import RATE, Polygons, letter
+from graphkin.construction.proportional_division import divide, magnified
+from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
+from graphkin.construction.sheet import DrawnGroup, Rate, Remark
 from graphkin.construction.sizes import Direction, Order
+from graphkin.construction.steps import FarPoint, RateTrial, Step, Superposed, TakenOff
+from graphkin.construction.strokes import Aid, Bar, Mark, Vector
+from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
+from graphkin.plane import added_up, dot, unit
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
-from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, Dyad, Pair, Rolled
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Rolled, Weld, driver_pair
 from graphkin.words import Phrase
+from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["draw_element"]
+__all__ = ["draw_element", "drawn_group"]
+
+LETTERS = tuple("SQTUVWXYZ") + tuple(f"S{i}" for i in range(1, 30))  # of special points
+MOST_WAYS = 12  # choices of held links that are tried
+MUCH_BETTER = 2.0  # so many times as well must another plan find the rates
+NAUGHT = 1e-9  # part of the largest vector that an end that meets may be off in a trial polygon
+NEARER = (0.25, 0.2, 0.15, 0.1, 0.07, 0.05, 0.03, 0.02, 0.01, 0.005)  # of a rate, by which it is assumed off
+SLOW = 1.2  # so many times these, of the driver's rate, where the true one is nearly naught
+BEYOND = 0.08  # of the size of the true polygon, by which a trial polygon may reach beyond it
 
 
-def draw_element(plot: Polygons, order: Order, element: Driven | Dyad) -> None:
-    """Draw what a driven link or a dyad adds to a polygon."""
+def draw_element(plot: Polygons, order: Order, element: Element) -> None:
+    """Draw what a driven link, a dyad or a larger group adds to a polygon."""
     if isinstance(element, Driven):
         _driven(plot, order, element)
-    else:
+    elif isinstance(element, Dyad):
         known_turns(plot, order, element)
         if element not in plot.chains:
-            plot.chains[element] = _found(plot, element)
+            plot.chains[element] = _equation_of(plot, element)
         draw_equation(plot, order, element, plot.chains[element])
+    else:
+        _draw_group(plot, order, element)
+        return
     for name in element.members:
         plot.complete(order, name)
 
@@ -107,21 +155,9 @@ def _slide_edge(plot: Polygons, slide: Pair, point: str) -> Edge:
     return Edge(b, a, labels, Direction("along", plot.guide_names(slide)), slide=slide)
 
 
-def _found(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
-    welds = tuple(w for body in dyad.bodies for w in body.welds)
-    pairs = (dyad.outer_first, dyad.inner, dyad.outer_second, *(w.pair for w in welds))
-    slides = [p for p in pairs if not p.turns]
-    joined = Joined(dyad.members, pairs, welds)
-    chain = equation_of(
-        plot.links,
-        plot.ground,
-        at_contacts(plot, dyad, joined),
-        plot.places,
-        {s.key: plot.guide_names(s) for s in slides},
-        plot.ends["velocity"],
-        same_turn(plot, dyad),
-        plot.tiny,
-    )
+def _equation_of(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
+    """The shortest equation with two unknown sizes of a dyad."""
+    chain = equation_of(_net_of(plot, dyad), plot.ends["velocity"])
     if chain is None:
         # every dyad has an equation with two unknowns, but its points must be apart on the sheet
         names = ", ".join(dyad.links)
@@ -130,3 +166,613 @@ def _found(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
             Problem(Phrase("links", links=names), Phrase("points of theirs fall together on any sheet")),
         )
     return chain
+
+
+# -- larger groups -----------------------------------------------------------------------------------------------------
+
+
+def _draw_group(plot: Polygons, order: Order, group: Cluster) -> None:
+    """Draw what a larger group adds to a polygon."""
+    known_turns(plot, order, group)
+    _rolling_points(plot, group)
+    if group in plot.plans:
+        plot.contours[group] = plot.plans[group].contours
+        _draw_by(plot, order, group, plot.plans[group])
+    else:
+        _draw_first(plot, order, group)
+
+
+def drawn_group(plot: Polygons, group: Cluster, kept: Sequence[str]) -> DrawnGroup:
+    """How a group was drawn, said."""
+    plan = plot.plans[group]
+    points = tuple((m.letter, m.link) for m in plan.moves if isinstance(m, Special))
+    closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
+    return DrawnGroup(group, plan.way, tuple(kept), tuple(unknown.name for unknown in plan.tried), closing, points)
+
+
+def _draw_first(plot: Polygons, order: Order, group: Cluster) -> None:
+    """Find how a group is drawn, and draw it so."""
+    plain = _plans(plot, group)
+    first = next(plain, None)
+    if first is None or not first.tried:
+        _take(plot, order, group, () if first is None else (first,))
+        return
+    shorter, far = _with_fewer_trials(plot, group, len(first.tried))
+    if shorter:
+        plot.contours[group] = shorter[0].contours
+        _draw_contours(plot, order, group)
+        _take(plot, order, group, shorter)
+    else:
+        _take(plot, order, group, (replace(p, far=p.far or far) for p in chain((first,), plain)))
+
+
+def _take(plot: Polygons, order: Order, group: Cluster, plans: Iterable[GroupPlan]) -> None:
+    """Draw a group by the first plan without trials, else by that whose trials find the rates best; all have as
+    many."""
+    best: tuple[float, GroupPlan] | None = None
+    for found in plans:
+        if not found.tried:
+            best = 1.0, found
+            break
+        quality, made = _judged(plot, order, group, found)
+        if best is None or quality > MUCH_BETTER * best[0]:
+            best = quality, made
+        if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
+            break  # none can be so much better
+    if best is None or not best[0]:
+        names = ", ".join(group.links)
+        raise Unsolvable(
+            "dead point",
+            Problem(Phrase("links", links=names), Phrase("no drawing tells how this group moves here")),
+        )
+    plot.plans[group] = best[1]
+    _draw_by(plot, order, group, best[1])
+
+
+def _draw_by(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> None:
+    _draw_contours(plot, order, group)
+    if order == "velocity":
+        for _, one, two in plan.parallel:
+            plot.board.notice("mechanism", Remark("parallel legs", (one, two)))
+    if plan.tried:
+        plan = plot.plans[group] = _with_assumptions(plot, order, group, plan)
+        _assume(plot, order, group, plan, _true_rates(plot, order, group, plan))
+    _complete(plot, order, group)
+    for move in plan.moves:
+        _draw_move(plot, order, group, move)
+    for edge in _left_over(plot, order, plan.net):
+        draw_equation(plot, order, group, ClosingVector((edge,)))
+
+
+# -- moves -------------------------------------------------------------------------------------------------------------
+
+
+def _draw_move(plot: Polygons, order: Order, group: Cluster, step: Move) -> None:
+    """Draw a move of a plan."""
+    for edge in (e for path in step.sides for e in path if e.held):
+        # the point of the contour that the equation needs
+        apart = plot.seen_from(edge.held)
+        before = len(apart.board.steps), len(apart.board.equations)
+        apart.end(order, edge.end if edge.forward else edge.start)
+        if not plot.trial:
+            copy_steps(plot, order, group, edge.held, *before)
+    if isinstance(step, Special):
+        _special_point(plot, order, group, step)
+    else:
+        draw_equation(plot, order, group, step)
+    _complete(plot, order, group)
+
+
+def _complete(plot: Polygons, order: Order, group: Cluster) -> None:
+    """All points of links that turn at known rates and of which one point is known, by images."""
+    ends = plot.ends[order]
+    left = [n for n in group.members if n in plot.rates[order]]
+    while ready := [n for n in left if any(plot.on(ref, n) for ref in ends)]:
+        for name in ready:
+            plot.complete(order, name)
+            left.remove(name)
+
+
+def _left_over(plot: Polygons, order: Order, net: Net) -> list[Edge]:
+    """What moves along the guides of a group, or slips at its contacts, and has not been drawn."""
+    found = []
+    for ref in net.nodes:
+        for edge in net.edges[ref]:
+            s = edge.slide
+            if not edge.forward or not (edge.contact or (s is not None and edge.start.point == s.pin)):
+                continue
+            symbol = Symbol(letter(order), plot.label(edge.labels[1]), plot.label(edge.labels[0]))
+            if symbol not in plot.drawn[order] and not plot.fixed(edge.start):
+                found.append(edge)
+    return found
+
+
+def _special_point(plot: Polygons, order: Order, group: Cluster, move: Special) -> None:
+    """The end point of a special point by both legs; of one relative to another moving link how it moves relative to
+    that: nothing in velocity where nothing drives a leg, but in acceleration."""
+    link, name = move.link, move.letter
+    if name not in plot.places:
+        _mark_special(plot, move)
+    if not move.base:
+        ref = PointRef(name)
+        turns = link in plot.rates[order]
+        right, left = ((*leg, *_to_special(plot, group, leg, leg[-1].end, ref, link, turns)) for leg in move.legs)
+        draw_equation(plot, order, group, TwoUnknowns(ref, left, right))
+        return
+    base, ref = PointRef(name, move.base), PointRef(name, link)
+    paths = []
+    for leg in move.legs:
+        # what both links turn by lies along the line that the leg leaves free: its size is not asked
+        before = _to_special(plot, group, leg, leg[0].start, base, move.base)
+        after = _to_special(plot, group, leg, leg[-1].end, ref, link)
+        paths.append((*(e.reversed() for e in before), *leg, *after))
+    symbol = Symbol(letter(order), plot.label(ref), plot.label(base))
+    plot.ties[order, name] = draw_relative(plot, order, group, symbol, paths)
+
+
+def _to_special(
+    plot: Polygons, group: Cluster, leg: Path, joint: PointRef, ref: PointRef, link: str, turns: bool = False
+) -> tuple[Edge, ...]:
+    """From the joint of a leg to the special point; nothing where it is the joint itself."""
+    if abs(plot.places[joint.point] - plot.places[ref.point]) <= plot.tiny:
+        return ()
+    unknown = None if turns else Turning(same_turn(plot, group).get(link, link))
+    # written as the leg's own direction, for the two lie along one line
+    free = next(e for e in leg if e.unknown)
+    return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown),)
+
+
+def _mark_special(plot: Polygons, move: Special) -> None:
+    """The special point on the mechanism: where the lines of two legs cross."""
+    (p, d), (q, e) = (_leg_line(plot, leg) for leg in move.legs)
+    d = plot.slip.line(Symbol("v", PointRef(move.letter)), d)
+    at = plot.board.cross("mechanism", p, d, q, e, move.letter)
+    plot.special.add(move.letter)
+    plot.places[move.letter] = at
+    if not move.base:
+        pose = plot.paper.poses[move.link]
+        points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.paper.mm}
+        plot.links[move.link] = replace(plot.links[move.link], points=points)
+    joints = tuple(leg[-1].end.point for leg in move.legs)
+    driven = any(not e.unknown and (e.slide or e.weld) for leg in move.legs for e in leg)
+    strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
+    step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
+    plot.board.do(replace(step, base=move.base, kind="driven" if driven else ""))
+
+
+def _leg_line(plot: Polygons, leg: Path) -> tuple[complex, complex]:
+    free = next(e for e in leg if e.unknown)
+    return plot.places[leg[-1].end.point], 1j * _direction(plot, free, plot.places)
+
+
+# -- nets --------------------------------------------------------------------------------------------------------------
+
+
+def _free_letters(plot: Polygons) -> Sequence[str]:
+    taken = {*plot.places, *(p for link in plot.links.values() for p in link.points)}
+    return [name for name in LETTERS if name not in taken]
+
+
+def _plans(plot: Polygons, group: Cluster, wide: bool = False) -> Iterator[GroupPlan]:
+    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Joined`."""
+    net = _net_of(plot, group, wide)
+    return plan_group(net, same_turn(plot, group), partial(_direction, plot), _free_letters(plot))
+
+
+def _net_of(plot: Polygons, group: Dyad | Cluster, wide: bool = False) -> Net:
+    """The points of a group and their relative motions; ``wide`` as in `Joined`."""
+    if isinstance(group, Dyad):
+        welds = [w for body in group.bodies for w in body.welds]
+        pairs = (*group.pairs, *(w.pair for w in welds))
+        joined = Joined(group.members, pairs, welds)
+    else:
+        held = [(d, driver_pair(d, plot.links, plot.structure.slides)) for d in group.drivers if d.turns]
+        welds = [Weld(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None]
+        driven = frozenset(d.key for d in group.drivers if not d.turns)
+        rolling = _rolling_points(plot, group)
+        seen = [(held, n) for held, rest in plot.contours.get(group, ()) for n in rest.links]
+        pairs = group.pairs
+        joined = Joined(group.members, pairs, welds, driven, near=True, rolling=rolling, contours=seen, wide=wide)
+    names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
+    joined = at_contacts(plot, group, joined)
+    return Net(plot.links, plot.ground, joined, plot.places, names, same_turn(plot, group), plot.tiny)
+
+
+def _rolling_points(plot: Polygons, group: Cluster) -> list[RollingPoint]:
+    """The points where links of a group roll on each other: contacts by their name, those of wheels by a free
+    letter, marked on the mechanism."""
+    scene = plot.structure.scene
+    between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
+    found = []
+    for relation in group.rolling:
+        letter = relation.name
+        if relation.name not in plot.touching:
+            letter = plot.pitch_points.get(relation.name) or _mark_pitch_point(plot, relation.name)
+        found.append(RollingPoint(relation.name, letter, between[relation.name]))
+    return found
+
+
+def _mark_pitch_point(plot: Polygons, name: str) -> str:
+    letter = plot.pitch_points[name] = next(iter(_free_letters(plot)))
+    touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
+    at = plot.board.instrument.point(touching.rolling_centres(name)[0])
+    plot.special.add(letter)
+    plot.places[letter] = at
+    wheels = next(g.wheels for g in plot.structure.scene.gears if g.name == name)
+    plot.board.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=wheels))
+    return letter
+
+
+def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> complex:
+    if edge.rolling:
+        touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
+        return 1j * touching.rolling_centres(edge.rolling)[1]
+    if edge.slide is not None:
+        return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
+    if edge.contact:
+        return -1j * plot.contact(edge.contact)[2]
+    if edge.weld is not None and edge.weld.pair.turns:  # both ends lie at one place, off the hinge
+        return 1j * unit(places[edge.end.point] - places[edge.weld.pair.point])
+    return 1j * unit(places[edge.end.point] - places[edge.start.point])
+
+
+# -- contours of known shape -------------------------------------------------------------------------------------------
+
+
+def _with_fewer_trials(plot: Polygons, group: Cluster, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
+    """The plans of a group with fewer trials than so many, special points carried over to all links that turn with
+    theirs, its contours drawn first where that spares more; none where neither does, and then the special point
+    met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
+    seen."""
+    choices = [_rests_on(plot, group, links) for links in _contours_of(plot, group)]
+    choices = [some for some in choices if some]
+    best: tuple[tuple[int, bool], list[GroupPlan]] | None = None
+    far: FarPoint | None = None
+    for number, chosen in enumerate(chain([()], product(*choices) if choices else ())):
+        plot.contours[group] = chosen
+        plans = _plans(plot, group, wide=True)
+        first = next(plans, None)
+        if first is not None and len(first.tried) >= trials:
+            far = far or first.far
+        elif first is not None:
+            cost = len(first.tried), _against(first)
+            if best is None or cost < best[0]:
+                best = cost, [replace(p, contours=chosen) for p in (first, *(plans if first.tried else ()))]
+        if number + 1 == MOST_WAYS or (best is not None and best[0] == (0, False)):
+            break
+    del plot.contours[group]
+    return (best[1] if best is not None else []), far
+
+
+def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
+    if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
+        return []
+    inside = set(group.members)
+    keys = {d.key for d in group.drivers if not d.turns}
+    held = [driver_pair(d, plot.links, plot.structure.slides) for d in group.drivers]
+    hinged = {frozenset((p.a, p.b)) for p in held if p is not None and p.turns}
+    joints = []
+    for pair in group.pairs:
+        if not {pair.a, pair.b} <= inside:
+            continue
+        if not pair.turns:
+            along = plot.paper.poses[pair.b].axis * pair.guide.direction
+            at = plot.places[pair.pin] if pair.pin else plot.paper.poses[pair.a].origin
+            joints.append(Joint((pair.a, pair.b), at, along, pair.key in keys))
+        else:
+            driven = frozenset((pair.a, pair.b)) in hinged
+            joints.append(Joint((pair.a, pair.b), plot.places[pair.point], None, driven))
+    turning = [(a, b) for a, b, _ in turned(plot, None, group) if {a, b} <= inside]
+    return contours(group.members, joints, turning)
+
+
+def _rests_on(plot: Polygons, group: Cluster, contour: Sequence[str]) -> list[tuple[str, Cluster]]:
+    """The links of a contour that can be held still so that the rest is drawn on it without trials; those first on
+    which the most hangs besides."""
+    outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
+    found = []
+    for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
+        rest = _on(group, held, contour)
+        made = with_held(plot, group, held)
+        plan = next(_plans(made, rest), None)
+        if plan is not None and not plan.tried:
+            plot.plans[rest] = plan
+            found.append((held, rest))
+    return found
+
+
+def _turn_driven(plot: Polygons, order: Order, rest: Cluster) -> None:
+    """Lay off points of links that turn at known rates about hinges of the held link."""
+    for pair in (p for p in rest.pairs if p.turns and plot.ground in (p.a, p.b)):
+        name, pivot = pair.b if pair.a == plot.ground else pair.a, PointRef(pair.point)
+        if name not in plot.rates[order] or name in plot.still:
+            continue
+        for end in first_ends(plot, name, pair.point):
+            if end not in plot.ends[order]:
+                way = Direction("square", (pivot.point, end.point))
+                draw_equation(plot, order, rest, ClosingVector((Edge(pivot, end, (pivot, end), way, link=name),)))
+
+
+def _draw_contours(plot: Polygons, order: Order, group: Cluster) -> None:
+    """Draw the contours of a group, each as it moves seen from one of its links."""
+    for held, rest in plot.contours.get(group, ()):
+        if held not in plot.seen:
+            plot.seen[held] = with_held(plot, group, held)
+        apart = plot.seen_from(held)
+        if rest.members[0] in apart.rates[order]:
+            continue
+        before = len(apart.board.steps), len(apart.board.equations)
+        spread(apart, order, held, rest)
+        _turn_driven(apart, order, rest)
+        _draw_group(apart, order, rest)
+        for name in rest.members:
+            apart.complete(order, name)
+        _take_special_points(plot, apart, before[0])
+        first = len(plot.board.equations) + 1 if len(apart.board.equations) > before[1] else None
+        plot.board.do(Step("carry over", "seen from", order, (), first, held=held, links=rest.links))
+        copy_steps(plot, order, group, held, *before)
+    for held, rest in plot.contours.get(group, ()):
+        for name in (held, *rest.members):
+            if name in plot.rates[order]:
+                spread(plot, order, name, group)
+
+
+def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> None:
+    """The special points that other polygons have marked on the mechanism, where these met them first."""
+    plot.special, plot.places, plot.links = other.special, other.places, other.links
+    for step in other.board.steps[since:]:
+        if step.diagram == "mechanism":
+            plot.board.do(step)
+
+
+def _on(group: Cluster, held: str, contour: Sequence[str]) -> Cluster:
+    """The links of a contour besides the held one, as a group of their own."""
+    rest = tuple(n for n in contour if n != held)
+    within = set(contour)
+    drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
+    pairs = tuple(p for p in group.pairs if within.issuperset(p.links))
+    return Cluster(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
+
+
+def _against(plan: GroupPlan) -> bool:
+    """Whether a plan lays off what was seen from a link in the other sense."""
+    return any(e.held and not e.forward for move in plan.moves for path in move.sides for e in path)
+
+
+# -- trial polygons ----------------------------------------------------------------------------------------------------
+
+
+def _assume(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan, rates: Sequence[float]) -> None:
+    """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
+    for unknown, value in zip(plan.tried, rates, strict=True):
+        if isinstance(unknown, Turning):
+            plot.rates[order][unknown.name] = Rate(unknown.name, value)
+            spread(plot, order, unknown.name, group)
+        else:
+            plot.tried[order, unknown.name] = value
+
+
+def _trial_polygon(
+    plot: Polygons, order: Order, group: Cluster, plan: GroupPlan, number: int, rates: Sequence[float]
+) -> Polygons:
+    trial = plot.fork(number)
+    _assume(trial, order, group, plan, rates)
+    _complete(trial, order, group)
+    for move in plan.moves:
+        _draw_move(trial, order, group, move)
+    return trial
+
+
+def _trial_rates(plot: Polygons, order: Order, plan: GroupPlan) -> list[list[float]]:
+    """The assumptions of each trial polygon: none moves in the first, then each in turn."""
+    drivers = plot.structure.scene.drivers
+    fastest = max((abs(d.values[1]) for d in drivers if d.turns), default=0.0)
+    if not fastest:
+        travel = max((abs(d.values[1]) for d in drivers), default=0.0)
+        fastest = travel / plot.structure.scene.size or 1.0
+    base = fastest if order == "velocity" else fastest**2
+    once = [base * (1.0 if isinstance(t, Turning) else plot.structure.scene.size) for t in plan.tried]
+    return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
+
+
+def _ends_apart(plot: Polygons, order: Order, plan: GroupPlan) -> dict[tuple[Edge, bool], float]:
+    """How far ends that should meet lie apart (mm) after a trial: along each edge, and square to it."""
+    found: dict[tuple[Edge, bool], float] = {}
+    for ref in plan.net.nodes:
+        for edge in plan.net.edges[ref]:
+            bare = edge.slide is not None and edge.slide.pin is None  # no point of it is a joint
+            if edge.forward and (bare or plan.net.natural >= {edge.start, edge.end}):
+                for across in (False, True):
+                    value = _gap(plot, order, edge, across)
+                    if value is not None:
+                        found[edge, across] = value
+    return found
+
+
+def _gap(plot: Polygons, order: Order, edge: Edge, across: bool) -> float | None:
+    whole = replace(edge, unknown=None)
+    parts = parts_of(plot, order, whole)
+    missing = plot.end(order, edge.end) - plot.end(order, edge.start)
+    missing -= added_up((p.span for p in parts if p.span is not None), 0j)
+    if not across and any(p.span is None for p in parts):
+        return None
+    return dot(missing, _measured_along(plot, edge, across))
+
+
+def _measured_along(plot: Polygons, edge: Edge, across: bool) -> complex:
+    """Direction in which what an edge leaves open is measured: along it, or square to it."""
+    way = _direction(plot, edge, plot.places)
+    way = way if edge.slide is not None or edge.contact else -1j * way
+    return 1j * way if across else way
+
+
+def _taken_off(plot: Polygons, order: Order, edge: Edge, across: bool) -> Iterator[TakenOff]:
+    """What is known of an edge and has a part in the direction in which it is left open."""
+    way = _measured_along(plot, edge, across)
+    parts = parts_of(plot, order, replace(edge, unknown=None))
+    for p in parts:
+        if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
+            yield TakenOff(p.symbol, p.size, dot(p.span, way))
+
+
+def _judged(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
+    """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
+    the ends by which the true rates are known."""
+    try:
+        trials = [
+            _trial_polygon(plot, order, group, plan, i + 1, rates)
+            for i, rates in enumerate(_trial_rates(plot, order, plan))
+        ]
+        rows = [_ends_apart(trial, order, plan) for trial in trials]
+    except Unsolvable:
+        return 0.0, plan
+    keys = [k for k in rows[0] if all(k in row for row in rows)]
+    slopes = np.array([[row[k] - rows[0][k] for row in rows[1:]] for k in keys])
+    scale = max((abs(v) for trial in trials for v in trial.ends[order].values()), default=0.0)
+    scale = max(scale, float(np.abs(slopes).max(initial=0.0)))
+    chosen: list[int] = []
+    left = slopes.copy()
+    quality = 1.0
+    for _ in plan.tried:
+        sizes = np.hypot.reduce(left, axis=1) if len(left) else np.zeros(1)
+        best = int(np.argmax(sizes))
+        if not len(left) or sizes[best] <= NAUGHT * scale:
+            return 0.0, plan
+        quality = min(quality, float(sizes[best]) / scale)
+        chosen.append(best)
+        e = left[best] / sizes[best]
+        left = left - np.outer(left @ e, e)
+    return quality, replace(plan, open_ends=tuple(keys[i] for i in chosen))
+
+
+def _with_assumptions(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> GroupPlan:
+    """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
+    side of it, all on the one side in the first trial, each in its turn on the other in those that follow; the
+    nearer to the true ones, the further a trial polygon would reach beyond the true one."""
+    if order in plan.assumed:
+        return plan
+    once = _trial_rates(plot, order, plan)
+    trials = [_trial_polygon(plot, order, group, plan, 1, assumed) for assumed in once]
+    true = [float(rate) for rate in divide(once, [_gaps(plot, order, plan, trial) for trial in trials])]
+    reach = _Reach([trial.drawn[order] for trial in trials], once)
+    most = reach.at(true) + BEYOND * reach.size(true)
+    # what hardly moves is tried by a part of the driver's rate
+    bases = (rates[i] for i, rates in enumerate(once[1:]))
+    ways = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
+
+    def fitting(choices: Iterable[list[float]]) -> list[float]:
+        for row in choices:
+            if (reach.at(row) <= most).all():
+                break
+        return row
+
+    low = fitting([_round(x, -share * way) for x, way in zip(true, ways, strict=True)] for share in NEARER)
+    fair = [low]
+    for i, (x, way) in enumerate(zip(true, ways, strict=True)):
+        fair.append(fitting([*low[:i], _round(x, share * way), *low[i + 1 :]] for share in NEARER))
+    return replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))})
+
+
+def _gaps(plot: Polygons, order: Order, plan: GroupPlan, trial: Polygons) -> list[float]:
+    """What a trial leaves open (mm, or as read)."""
+    return [_gap(trial, order, *one) or 0.0 for one in plan.open_ends]
+
+
+def _true_rates(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> list[float]:
+    """The true rates by proportional division of what trial polygons leave open."""
+    rates = plan.assumed[order]
+    apart: list[list[float]] = []
+    ends: list[dict[PointRef, complex]] = []
+    far = plan.far and replace(plan.far, away=plan.far.away * plot.scales.length)
+    for number, assumed in enumerate(rates, 1):
+        trial = _trial_polygon(plot, order, group, plan, number, assumed)
+        apart.append([plot.board.instrument.read(mm) for mm in _gaps(plot, order, plan, trial)])
+        ends.append(trial.ends[order])
+        _take_special_points(plot, trial)
+        steps = [step for step in trial.board.steps if step.diagram == order]
+        strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
+        told = RateTrial(number, _as_symbols(plot, order, plan, assumed), far)
+        plot.board.do(Step("trial", "polygon", order, tuple(strokes), data=told))
+    shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
+    places = [[end[ref] for ref in shared] for end in ends]
+    plot.board.notice(order, Remark("magnified", (", ".join(group.links),), magnified(places, apart)))
+    found = _as_noted(plot, plan, rates, apart)
+    closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
+    ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
+    between = tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e, _ in plan.open_ends)
+    less = tuple(tuple(_taken_off(trial, order, *one)) for one in plan.open_ends)
+    named = _as_symbols(plot, order, plan, found)
+    divided = Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less)
+    plot.board.do(Step("divide", "open ends", order, data=divided))
+    return found
+
+
+def _as_noted(
+    plot: Polygons, plan: GroupPlan, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]
+) -> list[float]:
+    """The divided rates as they are written down: the way from the first that was assumed with the figures of the
+    lengths that are divided, of several parts with as many as such have."""
+    noted, made = plot.board.instrument.noted, []
+    for i, (unknown, rate) in enumerate(zip(plan.tried, map(float, divide(rates, apart)), strict=True)):
+        unit = 1.0 if isinstance(unknown, Turning) else plot.structure.scene.units.rates.metres
+        low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
+        if len(plan.tried) == 1:
+            lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
+            added = noted(rate / unit - low, figures(*lengths))
+        else:
+            added = noted((rate / unit - low) / more, MOST - 1) * more
+        made.append(noted(low + added, MOST) * unit)
+    return made
+
+
+def _as_symbols(
+    plot: Polygons, order: Order, plan: GroupPlan, values: Sequence[float]
+) -> tuple[tuple[Symbol, float], ...]:
+    """Rates by their symbols, in scene units."""
+    named = []
+    metres = plot.structure.scene.units.rates.metres
+    for unknown, value in zip(plan.tried, values, strict=True):
+        if isinstance(unknown, Turning):
+            named.append((Symbol(RATE[order], link=unknown.name), value))
+            continue
+        slide = plot.structure.slide(unknown.name)
+        point = slide.pin or next(iter(plot.links[slide.a].points), "")
+        of, to = plot.label(PointRef(point, slide.a)), plot.label(PointRef(point, slide.b))
+        named.append((Symbol("v" if order == "velocity" else "ar", of, to), value / metres))
+    return tuple(named)
+
+
+def _left_open(edge: Edge, across: bool) -> Direction:
+    """Along which direction a trial leaves an edge open."""
+    names = (edge.start.point, edge.end.point) if edge.link else edge.direction.names
+    return Direction("square" if across else "along", names)
+
+
+class _Reach:
+    """How far a polygon reaches to each side of its pole, whatever is assumed: every vector of it is linear in that."""
+
+    def __init__(self, drawn: Sequence[Mapping[Symbol, Vector]], rates: Sequence[Sequence[float]]) -> None:
+        shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
+        ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
+        self.rest = ends[0]
+        self.slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
+
+    def at(self, rates: Sequence[float]) -> NDArray[np.float64]:
+        """Right, up, left and down (mm)."""
+        ends = self.rest + np.array(rates) @ self.slopes
+        return np.array([np.max((ends * turn).real) for turn in (1, -1j, -1, 1j)])
+
+    def size(self, rates: Sequence[float]) -> float:
+        """Of width and height the larger (mm)."""
+        right, up, left, down = self.at(rates)
+        return float(max(right + left, up + down))
+
+
+def _round(value: float, step: float) -> float:
+    """About a step off a value, with as few figures as that takes: easy to lay off."""
+    wanted = value + step
+    for carried in range(1, 9):
+        found = float(f"{wanted:.{carried}g}")
+        if abs(found - wanted) <= 0.35 * abs(step):
+            return found
+    return wanted

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
-from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Path, Turning, TwoUnknowns, Unknown
+from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Path, Turning, TwoUnknowns, Unknown, split
 from graphkin.construction.steps import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
@@ -220,8 +220,7 @@ class _Search:
             return False
         path = best[1]
         second = [i for i, e in enumerate(path) if e.unknown][1]
-        equation = TwoUnknowns(path[second].start, tuple(e.reversed() for e in reversed(path[second:])), path[:second])
-        self.moves.append(equation)
+        self.moves.append(split(path, second))
         self.learn(path)
         return True
 

@@ -28,7 +28,7 @@ from graphkin.structure import Cluster, Dyad, Pair, Structure, Weld
 
 __all__ = [
     "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
-    "TwoUnknowns", "Unknown", "contacts_of", "equation_of", "joined_at_contacts", "node",
+    "TwoUnknowns", "Unknown", "contacts_of", "equation_of", "joined_at_contacts", "node", "split",
 ]  # fmt: skip
 
 
@@ -380,55 +380,34 @@ def _near(
     return on
 
 
-def equation_of(
-    links: Mapping[str, PlacedLink],
-    frame: str,
-    joined: Joined,
-    places: Mapping[str, complex],
-    guide_names: Mapping[str, tuple[str, ...]],
-    drawn: Mapping[PointRef, complex],
-    same_turn: Mapping[str, str],
-    tiny: float,
-) -> TwoUnknowns | None:
+def equation_of(net: Net, drawn: Collection[PointRef]) -> TwoUnknowns | None:
     """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
 
     Parameters
     ----------
-    places : where each letter lies on paper (mm)
-    guide_names : how the direction of each sliding pair is written, by its key
     drawn : nodes that stand in the polygon already (preferred as starting points)
-    same_turn : for each link of the group the one link whose angular velocity it shares
-    tiny : points nearer to each other than this (mm) give no direction
     """
-    net = Net(links, frame, joined, places, guide_names, same_turn, tiny)
-    known = [n for n in net.nodes if net.known(n)]
     best: tuple[tuple[float, ...], TwoUnknowns] | None = None
-    for start in known:
+    for start in (n for n in net.nodes if net.known(n)):
         for path in net.paths(start):
-            chain = _as_chain(path, frame, links)
-            if chain is None:
+            first, second = (i for i, e in enumerate(path) if e.unknown)
+            if path[first].unknown == path[second].unknown:
                 continue
             ends = (path[0].start, path[-1].end)
             strangers = {n for e in path for n in (e.start, e.end)} - net.natural
             cost = (
                 len(path) + 0.6 * len(strangers) + 0.1 * sum(n not in drawn for n in ends),
-                float(net.fixed(path[0].start)),
-                float(net.order[path[0].start]),
+                float(net.fixed(start)),
+                float(net.order[start]),
             )
             if best is None or cost < best[0]:
-                best = (cost, chain)
+                best = cost, split(path, second)
     return best[1] if best else None
 
 
-def _as_chain(path: Sequence[Edge], frame: str, links: Mapping[str, PlacedLink]) -> TwoUnknowns | None:
-    """Split a path with two unknowns at the node before the second."""
-    places = [i for i, e in enumerate(path) if e.unknown]
-    if len(places) != 2 or path[places[0]].unknown == path[places[1]].unknown:
-        return None
-    cut = places[1]
-    right = tuple(path[:cut])
-    left = tuple(e.reversed() for e in reversed(path[cut:]))
-    return TwoUnknowns(right[-1].end, left, right)
+def split(path: Path, at: int) -> TwoUnknowns:
+    """A path with two unknowns split at the node before the second of them, the edge of that number."""
+    return TwoUnknowns(path[at].start, tuple(e.reversed() for e in reversed(path[at:])), path[:at])
 
 
 def contacts_of(structure: Structure, group: Dyad | Cluster) -> tuple[PlacedContact, ...]:

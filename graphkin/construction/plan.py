@@ -7,16 +7,14 @@ again with other errors, or gone on with from values of somebody's own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.assembly import Known, assembly_at
-from graphkin.construction.elements import draw_element
+from graphkin.construction.elements import draw_element, drawn_group
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
-from graphkin.construction.inversion import Inversion, inversions_of, opened_at_triangles, own_assembly
-from graphkin.construction.larger_groups import draw_group, drawn_group
 from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import RATE, Polygons, draw_asked
 from graphkin.construction.position import draw_position, place
@@ -25,18 +23,24 @@ from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Scales, Sheet, either_way
 from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
-from graphkin.construction.steps import DIAGRAMS, Cause, DiagramName, Step
+from graphkin.construction.steps import DiagramName, Step
 from graphkin.construction.touching import Touching, outlines_on_paper
+from graphkin.construction.triangles import (
+    Inversion,
+    TriangleDrawn,
+    drawn_apart,
+    inversions_of,
+    opened_at_triangles,
+    own_assembly,
+)
 from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import Unsolvable
-from graphkin.plane import dot
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
     Cluster,
     Driven,
-    DrivenTriangle,
     Dyad,
     Element,
     Structure,
@@ -52,7 +56,7 @@ if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
 
 __all__ = [
-    "GoneOn", "OnBoard", "Plan", "Redrawn", "Task", "carried_out", "draft", "draw", "execute", "finished", "plan",
+    "GoneOn", "OnBoard", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan",
     "positioned",
 ]  # fmt: skip
 
@@ -139,7 +143,7 @@ def positioned(
     found: list[TriangleDrawn] = []
     values, rates = dict(task.values), dict[str, tuple[float, float]]()
     for inversion, branch in task.triangles:
-        carried = _drawn_apart(inversion, instrument, scales, task.values, branch)
+        carried = drawn_apart(inversion, instrument, scales, task.values, branch)
         values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
         rates[inversion.key] = carried.rate, carried.second
         found.append(carried)
@@ -165,16 +169,8 @@ def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip
     """Position and both polygons on a board."""
     made = positioned(task, scales, instrument, slip)
     for order, element in task.in_order:
-        draw(made.polygons, order, element)
+        draw_element(made.polygons, order, element)
     return made
-
-
-def draw(polygons: Polygons, order: Order, element: Element) -> None:
-    """Draw what an element adds to a polygon."""
-    if isinstance(element, Cluster):
-        draw_group(polygons, order, element)
-    else:
-        draw_element(polygons, order, element)
 
 
 def finished(task: Task, made: OnBoard) -> Sheet:
@@ -251,7 +247,7 @@ class Redrawn:
         """What stood there after so many acts."""
         for order, element in what.in_order:
             self.kept.append((still.acts, made.polygons.again(still)))
-            draw(made.polygons, order, element)
+            draw_element(made.polygons, order, element)
         self.kept.append((still.acts, made.polygons.again(still)))
         self.sheet = finished(what, made)
 
@@ -267,7 +263,7 @@ class Redrawn:
             made = OnBoard(polygons.again(hand), {}, ())
             left = [*self.what.in_order][len(before) - 1 :]
         for order, element in left:
-            draw(made.polygons, order, element)
+            draw_element(made.polygons, order, element)
         return finished(self.what, made)
 
 
@@ -293,7 +289,7 @@ class GoneOn:
         """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
         for number, (order, element) in enumerate(self.in_order, 1):
             polygons = polygons.again(EXACT)
-            draw(polygons, order, element)
+            draw_element(polygons, order, element)
             self._note(polygons, number)
             self.kept.append(polygons)
         polygons = polygons.again(EXACT)
@@ -327,62 +323,11 @@ class GoneOn:
         if key not in self.others:
             polygons = self._after(number - 1, own).again(EXACT)
             polygons.slip = self.slip(own)
-            draw(polygons, *self.in_order[number - 1])
+            draw_element(polygons, *self.in_order[number - 1])
             while len(self.others) >= self.KEPT:
                 del self.others[next(iter(self.others))]
             self.others[key] = polygons
         return self.others[key]
-
-
-# -- driven triangles, drawn apart -------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class TriangleDrawn:
-    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
-
-    triangle: DrivenTriangle
-    value: float
-    rate: float
-    second: float
-    causes: tuple[tuple[int, Cause], ...]
-    steps: Sequence[Step]
-
-    def carried_over(self) -> Iterator[Step]:
-        """What is carried over to each diagram."""
-        t = self.triangle
-        kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
-        for diagram, kind, value in zip(DIAGRAMS, kinds, (self.value, self.rate, self.second), strict=True):
-            yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
-                       kind=kind, value=value)  # fmt: skip
-
-
-def _drawn_apart(
-    inversion: Inversion, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int
-) -> TriangleDrawn:
-    """The triangle on a board of its own, with its two polygons."""
-    board = Board(instrument)
-    elements = [*inversion.structure.dyads.values()]
-    position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
-    draw_position(board, inversion.structure, elements, position, {0: branch})
-    board.causes[:] = position.causes
-    polygons = Polygons(board, inversion.structure, position.paper, scales)
-    for order in ORDERS:
-        draw_element(polygons, order, elements[0])
-    value, rates = inversion.read(position.paper), _rates_apart(inversion, polygons)
-    return TriangleDrawn(inversion.triangle, value, *rates, tuple(board.causes), board.steps)
-
-
-def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float]:
-    pair, other = inversion.triangle.pair, inversion.triangle.links[0]
-    if pair.turns:
-        return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
-    # the other link cannot turn on the held one: all its points move alike
-    along = polygons.paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
-    points = [PointRef(p) for p in inversion.structure.links[other].points]
-    end = next(ref for ref in points if ref in polygons.ends["velocity"])
-    speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
-    return speed, push
 
 
 # -- planned -----------------------------------------------------------------------------------------------------------

@@ -12,9 +12,9 @@ import pytest
 import graphkin
 from graphkin.checking.readings import read_off
 from graphkin.checking.slips import Consequences
-from graphkin.construction import execute, larger_groups, plan
+from graphkin.construction import elements, execute, plan
 from graphkin.construction.instruments import EXACT, nudged
-from graphkin.construction.plan import Redrawn, draw, positioned
+from graphkin.construction.plan import Redrawn, positioned
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.scene import mechanism_of
 from graphkin.scene.sheet import Tools
@@ -92,11 +92,11 @@ def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: st
 def test_whichever_link_of_a_contour_is_held_still_every_reading_agrees(
     name: str, links: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    usual = larger_groups._rests_on
-    monkeypatch.setattr(larger_groups, "_against", lambda plan: False)
+    usual = elements._rests_on
+    monkeypatch.setattr(elements, "_against", lambda plan: False)
     for link in links:
         monkeypatch.setattr(
-            larger_groups, "_rests_on", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
+            elements, "_rests_on", lambda *args, link=link: [h for h in usual(*args) if h[0] == link]
         )
         result = graphkin.check(SCENES[name])
         assert {link} == {step.held for step in result.sheet.steps if step.reason == "seen from"}
@@ -199,7 +199,7 @@ def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name
     before = copy.deepcopy(vars(begun)["ends"]), set(begun.special), set(begun.ties), set(begun.seen)
     gone_on = begun.again(EXACT)
     for order, element in what.in_order:
-        draw(gone_on, order, element)
+        elements.draw_element(gone_on, order, element)
     assert before == (begun.ends, begun.special, set(begun.ties), set(begun.seen))
     # how elements are drawn, once that is found
     same = {"chains", "contours", "plans"}

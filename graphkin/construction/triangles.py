@@ -13,15 +13,22 @@ from itertools import product
 
 from graphkin.construction.assembly import assembly_at
 from graphkin.construction.dyads import assembled, drive, meant, meet
-from graphkin.construction.instruments import EXACT
+from graphkin.construction.elements import draw_element
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading, start_board, travel
-from graphkin.construction.position import place
+from graphkin.construction.polygons import Polygons
+from graphkin.construction.position import draw_position, place
+from graphkin.construction.sheet import Board, Scales
+from graphkin.construction.sizes import ORDERS
+from graphkin.construction.steps import DIAGRAMS, Cause, Step
 from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import dot
 from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.symbol import PointRef
 from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Structure, analyse, pick
 from graphkin.words import Phrase
 
-__all__ = ["Inversion", "inversions_of", "opened_at_triangles", "own_assembly"]
+__all__ = ["Inversion", "TriangleDrawn", "drawn_apart", "inversions_of", "opened_at_triangles", "own_assembly"]
 
 FITS = 1e-6  # of the size: so well the slide must have its travel in an assembly
 
@@ -193,3 +200,54 @@ def _has_its_travel(paper: PlacedLinks, inversion: Inversion, poses: Mapping[str
     if slide.a not in poses or slide.b not in poses:
         return True
     return abs(travel(slide, poses, paper.mm) - paper.values[slide.key] * paper.mm) < FITS
+
+
+# -- driven triangles, drawn apart -------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class TriangleDrawn:
+    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
+
+    triangle: DrivenTriangle
+    value: float
+    rate: float
+    second: float
+    causes: tuple[tuple[int, Cause], ...]
+    steps: Sequence[Step]
+
+    def carried_over(self) -> Iterator[Step]:
+        """What is carried over to each diagram."""
+        t = self.triangle
+        kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
+        for diagram, kind, value in zip(DIAGRAMS, kinds, (self.value, self.rate, self.second), strict=True):
+            yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
+                       kind=kind, value=value)  # fmt: skip
+
+
+def drawn_apart(
+    inversion: Inversion, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int
+) -> TriangleDrawn:
+    """The triangle on a board of its own, with its two polygons."""
+    board = Board(instrument)
+    elements = [*inversion.structure.dyads.values()]
+    position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
+    draw_position(board, inversion.structure, elements, position, {0: branch})
+    board.causes[:] = position.causes
+    polygons = Polygons(board, inversion.structure, position.paper, scales)
+    for order in ORDERS:
+        draw_element(polygons, order, elements[0])
+    value, rates = inversion.read(position.paper), _rates_apart(inversion, polygons)
+    return TriangleDrawn(inversion.triangle, value, *rates, tuple(board.causes), board.steps)
+
+
+def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float]:
+    pair, other = inversion.triangle.pair, inversion.triangle.links[0]
+    if pair.turns:
+        return polygons.rates["velocity"][other].value, polygons.rates["acceleration"][other].value
+    # the other link cannot turn on the held one: all its points move alike
+    along = polygons.paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+    points = [PointRef(p) for p in inversion.structure.links[other].points]
+    end = next(ref for ref in points if ref in polygons.ends["velocity"])
+    speed, push = (dot(along, polygons.ends[order][end]) * polygons.scales.of(order) for order in ORDERS)
+    return speed, push
