@@ -81,13 +81,13 @@ class Task:
     values: Mapping[str, float]
     branches: Mapping[int, int]
     trials: Mapping[Cluster, GroupTrial]
-    chains: Mapping[Dyad, TwoUnknowns]
-    plans: Mapping[Cluster, GroupPlan]
     triangles: tuple[tuple[Inversion, int], ...]
-    limits: Mapping[str, Limits]
-    acting: Mapping[str, bool | None]
-    growing: tuple[Sheet, ...]
-    touching: bool = field(default=False, kw_only=True)
+    chains: Mapping[Dyad, TwoUnknowns] = field(default_factory=dict)
+    plans: Mapping[Cluster, GroupPlan] = field(default_factory=dict)
+    limits: Mapping[str, Limits] = field(default_factory=dict)
+    acting: Mapping[str, bool | None] = field(default_factory=dict)
+    growing: tuple[Sheet, ...] = ()
+    touching: bool = False
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
@@ -336,7 +336,7 @@ class GoneOn:
 NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Plan(Task):
     """A task as exact hands carry it out, and the scales of its figures.
 
@@ -434,8 +434,7 @@ def plan(
     here = {d.key: values[d.key] for d in opened.scene.drivers}
     branches, trials, rolled = assembly_at(opened, elements, here, start)
     values |= rolled
-    task = Task(structure, opened, asked, elements, values, branches, trials, {}, {}, triangles, {}, {}, ())
-    return _planned(task, room)
+    return _planned(Task(structure, opened, asked, elements, values, branches, trials, triangles), room)
 
 
 def _known(sheet: Sheet) -> Known:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
 
-from graphkin.construction.dyads import Meeting, Story, assemble, drive, meet, refuse
+from graphkin.construction.dyads import Meeting, assemble, drive, meet, refuse
+from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
 from graphkin.construction.sheet import Board, Remark
@@ -27,18 +27,6 @@ __all__ = ["Branches", "draw_position", "place"]
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 
 
-class TrialPlacing(Protocol):
-    """By which trial positions a larger group is placed."""
-
-    def place(self, paper: PlacedLinks) -> None:
-        """Place the group among the links known already."""
-        ...
-
-    def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
-        """What is drawn to place it."""
-        ...
-
-
 @dataclass(frozen=True)
 class Position:
     """The links placed, and how each dyad was found."""
@@ -55,7 +43,7 @@ def place(
     values: Mapping[str, float],
     branches: Branches,
     instrument: Instrument = EXACT,
-    trials: Mapping[Cluster, TrialPlacing] | None = None,
+    trials: Mapping[Cluster, GroupTrial] | None = None,
 ) -> Position:
     """Place the links of the elements at some driver values.
 
@@ -101,7 +89,7 @@ def draw_position(
     elements: Sequence[Element],
     position: Position,
     branches: Mapping[int, int],
-    trials: Mapping[Cluster, TrialPlacing] | None = None,
+    trials: Mapping[Cluster, GroupTrial] | None = None,
 ) -> dict[str, Phrase]:
     """Record how each link was placed; returns the words for each assembly, by the group's links."""
     paper = position.paper

@@ -13,9 +13,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, across, reading, travel
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_lines, dot
+from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure, regrouped, unrolled
 from graphkin.words import Phrase
@@ -300,16 +300,22 @@ class RemovedConstraint:
             turn = poses[self.driver.link].axis / poses[self.driver.relative_to].axis
             return cmath.phase(turn * cmath.rect(1.0, -values[self.driver.key]))
         if self.driver is not None:
-            start, along, origin = self._rail(poses, mm)
-            return dot(along, origin - start) - values[self.driver.key] * mm
+            assert self.slide is not None
+            return travel(self.slide, poses, mm) - values[self.driver.key] * mm
         if self.second is not None:
-            return cmath.phase(self._turned(poses, self.second) / self._turned(poses, self.slide))
-        at = [_place(links, poses, mm, *end) for end in self.ends]
+            return cmath.phase(self._slid(self.second, poses).axis / self._slid(self.slide, poses).axis)
         if self.slide is None:
+            (p, here), (q, there) = self.ends
             points = links[self.left_out].points
-            return abs(at[1] - at[0]) - abs(points[self.ends[1][0]] - points[self.ends[0][0]]) * mm
-        start, along, _ = self._rail(poses, mm)
-        return cross(along, at[0] - start) - self._offset(links) * mm
+            return abs(_place(links, poses, mm, q, there) - _place(links, poses, mm, p, here)) - (
+                abs(points[q] - points[p]) * mm
+            )
+        lies, other, guide = self.placed(links, poses, mm), poses[self.other_side], self.slide.guide
+        assert lies is not None
+        blocked = self.slide.a == self.left_out
+        block, rail = (lies, other) if blocked else (other, lies)
+        off = cross(rail.axis * guide.direction, block.origin - rail.place(guide.through * mm))
+        return off if blocked else -off
 
     def coordinates(self, poses: Poses, mm: float) -> dict[str, float]:
         """The angles within a turn and the travel of what rolls (rad, m), by the names of the coordinates."""
@@ -317,9 +323,8 @@ class RemovedConstraint:
         for kind, name in self.rolling.terms if self.rolling is not None else ():
             if kind == "angle":
                 found[f"{kind} {name}"] = cmath.phase(poses[name].axis)
-            else:
-                start, along, origin = self._rail(poses, mm)
-                found[f"{kind} {name}"] = dot(along, origin - start) / mm
+            elif self.slide is not None:
+                found[f"{kind} {name}"] = travel(self.slide, poses, mm) / mm
         return found
 
     def _rolled_off(self, poses: Poses, mm: float, values: Mapping[str, float]) -> float:
@@ -332,29 +337,33 @@ class RemovedConstraint:
         return gap * mm if self.rolling.in_lengths else gap
 
     def placed(self, links: Mapping[str, PlacedLink], poses: Poses, mm: float) -> Pose | None:
-        """Where the link left out lies, where it fits; None where a driver was left out."""
-        if self.second is not None and self.slide is not None:
-            axis = self._turned(poses, self.slide)
-            p, d = self._track(poses, self.slide, axis, mm)
-            q, e = self._track(poses, self.second, axis, mm)
-            at_both = cross_lines(p, d, q, e)
-            return None if at_both is None else Pose(at_both, axis)
-        if not self.ends:
+        """Where the link left out lies, where it fits; None where a driver was left out.
+
+        A bar lies by its two hinges, a block by its hinge and the direction of its guide, a link that slides on two
+        where both put it.
+        """
+        if not self.left_out:
             return None
+        if self.second is not None:
+            (p, to_p), (q, to_q) = ([self._slid(slide, poses, way, mm).origin for way in (0.0, mm)]
+                                    for slide in (self.slide, self.second))  # fmt: skip
+            at_both = cross_lines(p, to_p - p, q, to_q - q)
+            return None if at_both is None else Pose(at_both, self._slid(self.slide, poses).axis)
         at = [_place(links, poses, mm, *end) for end in self.ends]
         own = [links[self.left_out].points[point] * mm for point, _ in self.ends]
-        if self.slide is None:
-            axis = (at[1] - at[0]) / (own[1] - own[0])
-            axis /= abs(axis)
-        else:
-            axis = self._turned(poses, self.slide)
+        axis = self._slid(self.slide, poses).axis if self.slide else unit((at[1] - at[0]) / (own[1] - own[0]))
         return Pose(at[0] - axis * own[0], axis)
+
+    def _slid(self, slide: Pair | None, poses: Poses, way: float = 0.0, mm: float = 1.0) -> Pose:
+        """The link left out as a sliding pair puts it, at a travel (mm)."""
+        assert slide is not None
+        return across(slide, self.left_out, poses[slide.other(self.left_out)], way, mm)
 
     @property
     def other_side(self) -> str:
         """The link on which a block left out slides, or that slides on it."""
         assert self.slide is not None
-        return self.slide.b if self.slide.a == self.left_out else self.slide.a
+        return self.slide.other(self.left_out)
 
     @property
     def turned(self) -> float:
@@ -366,45 +375,8 @@ class RemovedConstraint:
     def along(self, poses: Poses) -> complex:
         """Direction of the guide of a block left out."""
         assert self.slide is not None
-        if self.slide.b != self.left_out:
-            return poses[self.slide.b].axis * self.slide.guide.direction
-        return poses[self.slide.a].axis * self.slide.turn.conjugate()
-
-    def _turned(self, poses: Poses, slide: Pair | None) -> complex:
-        """Direction of the link left out, from the link on which it slides or that slides on it."""
-        assert slide is not None
-        turn = slide.guide.direction * slide.turn
-        if slide.a == self.left_out:
-            return poses[slide.b].axis * turn
-        return poses[slide.a].axis * turn.conjugate()
-
-    def _track(self, poses: Poses, slide: Pair, axis: complex, mm: float) -> tuple[complex, complex]:
-        """The line on which the origin of the link left out lies by a sliding pair."""
-        if slide.a == self.left_out:
-            rail = poses[slide.b]
-            return rail.origin + rail.axis * slide.guide.through * mm, rail.axis * slide.guide.direction
-        return poses[slide.a].origin - axis * slide.guide.through * mm, axis * slide.guide.direction
-
-    def _rail(self, poses: Poses, mm: float) -> tuple[complex, complex, complex]:
-        """A point of the guide, its direction, and the sliding link's origin (or the hinge of a block left out)."""
-        s = self.slide
-        assert s is not None
-        if s.b != self.left_out:
-            rail = poses[s.b]
-            start = rail.origin + rail.axis * s.guide.through * mm
-            along = rail.axis * s.guide.direction
-            return start, along, poses[s.a].origin if s.a in poses and s.a != self.left_out else start
-        along = poses[s.a].axis * s.turn.conjugate()
-        return poses[s.a].origin, along, poses[s.a].origin
-
-    def _offset(self, links: Mapping[str, PlacedLink]) -> float:
-        """Distance (m) of a block's hinge from the guide, to its left."""
-        s = self.slide
-        assert s is not None
-        hinge = links[self.left_out].points[self.ends[0][0]]
-        if s.a == self.left_out:
-            return (s.turn * hinge).imag
-        return cross(s.guide.direction, hinge - s.guide.through)
+        rail = self._slid(self.slide, poses) if self.slide.b == self.left_out else poses[self.slide.b]
+        return rail.axis * self.slide.guide.direction
 
 
 def _place(links: Mapping[str, PlacedLink], poses: Poses, mm: float, point: str, link: str) -> complex:

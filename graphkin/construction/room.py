@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.seen_from import vectors_seen
@@ -16,9 +15,6 @@ from graphkin.construction.steps import DIAGRAMS, DiagramName
 from graphkin.construction.strokes import Aid, Vector
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.scene.model import Mechanism
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = [
     "Room", "chosen_scales", "drawn_sizes", "extents_around", "extents_of", "leading_on", "scales_for",
