@@ -39,11 +39,9 @@ class Box(NamedTuple):  # a page has thousands
     def corners(self) -> tuple[complex, complex, complex, complex]:
         """Left top, right top, right bottom, left bottom."""
         return (
-            complex(self.left, self.top),
-            complex(self.right, self.top),
-            complex(self.right, self.bottom),
+            complex(self.left, self.top), complex(self.right, self.top), complex(self.right, self.bottom),
             complex(self.left, self.bottom),
-        )
+        )  # fmt: skip
 
     def moved(self, by: complex) -> Box:
         return Box(self.left + by.real, self.top + by.imag, self.right + by.real, self.bottom + by.imag)
@@ -55,11 +53,9 @@ class Box(NamedTuple):  # a page has thousands
 
     def joined(self, other: Box) -> Box:
         return Box(
-            min(self.left, other.left),
-            min(self.top, other.top),
-            max(self.right, other.right),
+            min(self.left, other.left), min(self.top, other.top), max(self.right, other.right),
             max(self.bottom, other.bottom),
-        )
+        )  # fmt: skip
 
     def overlaps(self, other: Box) -> bool:
         """Whether the two share an area; touching edges do not count."""
@@ -97,11 +93,9 @@ class Box(NamedTuple):  # a page has thousands
         step = end - start
         enter, leave = 0.0, 1.0
         for rate, room in (
-            (-step.real, start.real - self.left),
-            (step.real, self.right - start.real),
-            (-step.imag, start.imag - self.top),
-            (step.imag, self.bottom - start.imag),
-        ):
+            (-step.real, start.real - self.left), (step.real, self.right - start.real),
+            (-step.imag, start.imag - self.top), (step.imag, self.bottom - start.imag),
+        ):  # fmt: skip
             if rate == 0.0:
                 if room < 0.0:
                     return None

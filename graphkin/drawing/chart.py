@@ -244,15 +244,11 @@ def look(stroke: Stroke) -> Look:
 def marker(shape: Shape) -> Look:
     """A marker as matplotlib's properties of a line that is not drawn itself; whole also at the edge of a panel."""
     return {
-        "linestyle": "",
-        "color": "#000000",
-        "marker": _SIGNS[shape],
+        "linestyle": "", "color": "#000000", "marker": _SIGNS[shape],
         "markersize": MARKER * _SMALLER.get(shape, 1.0) * POINTS_PER_MM,
-        "markerfacecolor": "#ffffff" if shape == "circle" else "#000000",
-        "markeredgewidth": 0.25 * POINTS_PER_MM,
-        "clip_on": False,
-        "snap": False,
-    }
+        "markerfacecolor": "#ffffff" if shape == "circle" else "#000000", "markeredgewidth": 0.25 * POINTS_PER_MM,
+        "clip_on": False, "snap": False,
+    }  # fmt: skip
 
 
 def count_steps(axis: Axis, step: float | None = None, most: int = 6) -> None:
@@ -291,11 +287,9 @@ def count_powers(axes: Axes, which: Literal["x", "y"], low: float, high: float, 
 
 
 def add_labels(
-    axes: Axes,
-    labels: Sequence[tuple[str, ArrayLike]],
-    sizes: Sequence[float] = (NUMBER,),
+    axes: Axes, labels: Sequence[tuple[str, ArrayLike]], sizes: Sequence[float] = (NUMBER,),
     toward: Sequence[tuple[float, ...]] = (),
-) -> None:
+) -> None:  # fmt: skip
     """Words at points or stretches of the curves, in the panel and clear of all that is drawn there and of each other.
 
     Parameters

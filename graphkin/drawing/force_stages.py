@@ -129,8 +129,7 @@ def _known(writer: _StageWriter) -> Iterator[ForceStage]:
     state = writer.forces.states[0]
     inertia = [
         writer.step(
-            Phrase("force step inertia", (link,)),
-            [inertia_line(writer.sheet, one, writer.letters)],
+            Phrase("force step inertia", (link,)), [inertia_line(writer.sheet, one, writer.letters)],
             [Symbol("Fi", link=link)],
         )
         for link, one in writer.forces.inertias.items()

@@ -100,10 +100,9 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
     for share in (0.5, 1.0) if spare > 0 else ():
         up = share * spare
         yield replace(
-            plan,
-            mechanism=Box(panel.left, panel.top, panel.right, panel.bottom - up),
+            plan, mechanism=Box(panel.left, panel.top, panel.right, panel.bottom - up),
             equations=Box(equations.left, equations.top - up, equations.right, equations.bottom),
-        )
+        )  # fmt: skip
 
 
 def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[SheetPlan]:

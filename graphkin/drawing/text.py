@@ -248,9 +248,8 @@ def _set(atoms: tuple[Atom, ...], x: float, y: float, size: float, level: int, b
             drop = _DROP_STACKED if atom.sup else _DROP
             x = max(
                 _hang(runs, atom.sub, x + _GAP_SUB * size, y + drop * size, level, base),
-                _hang(runs, atom.sup, max(x, reach) + _GAP_SUPER * size, y - _RISE * size, level, base),
-                x,
-            )
+                _hang(runs, atom.sup, max(x, reach) + _GAP_SUPER * size, y - _RISE * size, level, base), x,
+            )  # fmt: skip
     flush()
     return runs, x
 
@@ -329,11 +328,9 @@ def run_box(run: Run) -> Box:
     slanted letters reach further."""
     before, ascent, after, descent = _reach(run.text, style_of(run.italic, run.bold))
     return Box(
-        run.x - before * run.size,
-        run.y - ascent * run.size,
-        run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size,
-        run.y + descent * run.size,
-    )
+        run.x - before * run.size, run.y - ascent * run.size,
+        run.x + width(run.text, run.size, run.italic, run.bold) + after * run.size, run.y + descent * run.size,
+    )  # fmt: skip
 
 
 @lru_cache(maxsize=4096)
@@ -344,11 +341,9 @@ def _reach(text: str, style: Style) -> tuple[float, float, float, float]:
         return 0.0, ASCENT, 0.0, DESCENT
     first, last = found[0], found[-1]
     return (
-        max(0, -first.box[0]) / EM,
-        max(ASCENT, *(g.box[3] / EM for g in found)),
-        max(0, last.box[2] - last.advance) / EM,
-        max(DESCENT, *(-g.box[1] / EM for g in found)),
-    )
+        max(0, -first.box[0]) / EM, max(ASCENT, *(g.box[3] / EM for g in found)),
+        max(0, last.box[2] - last.advance) / EM, max(DESCENT, *(-g.box[1] / EM for g in found)),
+    )  # fmt: skip
 
 
 def runs_width(runs: tuple[Run, ...]) -> float:
@@ -376,8 +371,5 @@ def box_about(runs: tuple[Run, ...], anchor: str = "start") -> Box:
     """Box of the text of some runs about its own point (mm)."""
     boxes = [run_box(run) for run in start_runs(Text(0j, runs, anchor))]
     return Box(
-        min(b.left for b in boxes),
-        min(b.top for b in boxes),
-        max(b.right for b in boxes),
-        max(b.bottom for b in boxes),
+        min(b.left for b in boxes), min(b.top for b in boxes), max(b.right for b in boxes), max(b.bottom for b in boxes)
     )

@@ -223,9 +223,8 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
     kinds: dict[str, Callable[[Centre], bool]] = {
         "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
         "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
-        "by Kennedy": lambda c: c.kind == "found" and not c.way,
-        "otherwise": lambda c: bool(c.way),
-    }
+        "by Kennedy": lambda c: c.kind == "found" and not c.way, "otherwise": lambda c: bool(c.way),
+    }  # fmt: skip
     for kind, holds in kinds.items():
         one = next((c for c in centres.found if holds(c)), None)
         if one is not None:

@@ -42,15 +42,10 @@ Places = NDArray[np.complex128]
 
 
 def centres_in_motion(
-    centres: Centres,
-    origins: Mapping[str, Places],
-    turned: Mapping[str, NDArray[np.float64]],
-    points: Mapping[str, Places],
-    paths: Mapping[LinkPair, Places],
-    *,
-    language: str | None = None,
+    centres: Centres, origins: Mapping[str, Places], turned: Mapping[str, NDArray[np.float64]],
+    points: Mapping[str, Places], paths: Mapping[LinkPair, Places], *, language: str | None = None,
     convention: str | None = None,
-) -> Drawing:
+) -> Drawing:  # fmt: skip
     """Draw a mechanism with its centres, all moving together, and the paths of the centres.
 
     Parameters
@@ -160,16 +155,9 @@ FIXED, MOVING, COUPLER = Stroke(0.5), Stroke(0.5, (3.0, 1.2)), Stroke(0.25, (0.8
 
 
 def centrodes_figure(
-    centres: Centres,
-    link: str,
-    fixed: Sequence[Branch],
-    moving: Sequence[Branch],
-    curve: Sequence[Branch] = (),
-    point: str = "",
-    *,
-    language: str | None = None,
-    convention: str | None = None,
-) -> Drawing:
+    centres: Centres, link: str, fixed: Sequence[Branch], moving: Sequence[Branch], curve: Sequence[Branch] = (),
+    point: str = "", *, language: str | None = None, convention: str | None = None,
+) -> Drawing:  # fmt: skip
     """Draw the centrodes of a link about the mechanism, cut off where they leave its surroundings.
 
     Parameters

@@ -88,8 +88,7 @@ def diagram_figure(
     title = FIGURE_WORDS[diagram]
     unit = dimensions_in(sheet, spoken) if diagram == "mechanism" else ""
     return page.drawing(
-        page.at_drivers(page.term(title)),
-        column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
+        page.at_drivers(page.term(title)), column(told, page.panel(content.height + 2 * ROOM + strip, drawn), gap=GAP),
         ",  ".join(filter(None, (page.scale(diagram), unit))), title=title, said=describe(sheet, (diagram,), spoken),
         note="" if diagram == "mechanism" else page.term("step number"),
     )  # fmt: skip

@@ -48,9 +48,7 @@ OFFSETS = tuple(side * far for far in (9.0, 12.5, 17.0, 22.0, 28.0, 35.0, 43.0, 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9)  # of an arc, where its number may stand
 # Radii of arcs: of theta and of the crank's ways, by the crank's length, and of a swing (mm).
 AROUND, WITHIN, SWING_RADII = (
-    (1.18, 1.3, 1.5, 1.65, 1.9),
-    (0.55, 0.4, 0.7, 0.85, 1.35, 1.5, 1.75, 2.0),
-    (16.0, 20.0, 25.0, 31.0, 13.0),
+    (1.18, 1.3, 1.5, 1.65, 1.9), (0.55, 0.4, 0.7, 0.85, 1.35, 1.5, 1.75, 2.0), (16.0, 20.0, 25.0, 31.0, 13.0)
 )
 NUMBERED, LIMIT, PATH = Stroke(0.18), Stroke(0.35, (3.0, 1.2)), Stroke(0.25, (4.0, 0.8, 0.5, 0.8))
 

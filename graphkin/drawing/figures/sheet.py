@@ -101,15 +101,10 @@ def sheet_page(
         shown = (*shown, "acceleration")
         pieces += [_panel(plan.acceleration, _caption(page, "acceleration")), acceleration]
     pieces += [
-        heading(page, plan.page),
-        _panel(plan.mechanism, _caption(page, "mechanism")),
-        _panel(plan.velocity, _caption(page, "velocity")),
-        _mechanism(page, plan.mechanism),
-        velocity,
-        *writing,
-        _step_number(page, plan.page),
-        title_block(page, [row.compared for row in rows if row.compared], plan.block),
-    ]
+        heading(page, plan.page), _panel(plan.mechanism, _caption(page, "mechanism")),
+        _panel(plan.velocity, _caption(page, "velocity")), _mechanism(page, plan.mechanism), velocity, *writing,
+        _step_number(page, plan.page), title_block(page, [row.compared for row in rows if row.compared], plan.block),
+    ]  # fmt: skip
     further = overleaf(page, rest, plan.page)
     for kind in ("plan", "loops") if sheet.scene.sheet.loops else ("plan",):
         figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)

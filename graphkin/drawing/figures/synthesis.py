@@ -50,12 +50,9 @@ ROOM = 9.0  # mm around the construction, for names
 PANEL = (168.0, 128.0)  # mm that the construction may fill
 FAR, WHOLE = 2.2, 1.3  # a help point, or the whole of a circle, that makes the figure so many times larger is cut off
 _KINDS: dict[LineKind, Stroke] = {
-    "given": strokes.LINK,
-    "construction": strokes.CONSTRUCTION,
-    "direction": strokes.DIRECTION,
-    "limit": Stroke(0.35, (3.0, 1.0)),
-    "mechanism": Stroke(0.7),
-}
+    "given": strokes.LINK, "construction": strokes.CONSTRUCTION, "direction": strokes.DIRECTION,
+    "limit": Stroke(0.35, (3.0, 1.0)), "mechanism": Stroke(0.7),
+}  # fmt: skip
 _NAME = re.compile(r"([A-Z])(\d*)")
 
 

@@ -68,15 +68,9 @@ def arrow(
 
 
 def vector_group(
-    id: str,
-    step: int | None,
-    tail: complex,
-    tip: complex,
-    kind: ArrowKind = RESULTANT,
-    colour: str = strokes.BLACK,
-    title: str = "",
-    classes: tuple[str, ...] = (),
-) -> Group:
+    id: str, step: int | None, tail: complex, tip: complex, kind: ArrowKind = RESULTANT, colour: str = strokes.BLACK,
+    title: str = "", classes: tuple[str, ...] = (),
+) -> Group:  # fmt: skip
     """The group of one vector: its line first, then its arrowhead.
 
     Parameters
@@ -155,11 +149,7 @@ def guide(
 
 
 def block(
-    at: complex,
-    angle: float,
-    colour: str = strokes.BLACK,
-    length: float = BLOCK_LENGTH,
-    width: float = BLOCK_WIDTH,
+    at: complex, angle: float, colour: str = strokes.BLACK, length: float = BLOCK_LENGTH, width: float = BLOCK_WIDTH
 ) -> tuple[Polygon, ...]:
     """Sliding block, white inside, its long side along ``angle``."""
     return (Polygon(_rectangle(at, angle, length, width), strokes.WHITE, strokes.OUTLINE.coloured(colour)),)

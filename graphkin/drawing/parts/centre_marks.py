@@ -125,8 +125,7 @@ class _Marks:
         return [
             Group(
                 mark_of(c, self.frame, spot) if i == 0 else (Circle(on_page(c.point or 0j), 0.3, strokes.BLACK),),
-                id=self._id(c),
-                classes=("centre", c.kind, *((f"step-{c.number:02d}",) if c.number else ())),
+                id=self._id(c), classes=("centre", c.kind, *((f"step-{c.number:02d}",) if c.number else ())),
             )
             for i, c in enumerate(group)
         ]

@@ -380,11 +380,9 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     tips = [centre + REACH * on_page(way) for way in (slip, turned)]
     arc = sense_arc(centre, 3.6, phase(slip) + sense * math.pi / 4, sense, math.radians(72))
     parts: tuple[Primitive, ...] = (
-        *arrow(centre, tips[0], COMPONENT, strokes.BLACK),
-        *arrow(centre, tips[1], COMPONENT, colour),
-        *arc,
+        *arrow(centre, tips[0], COMPONENT, strokes.BLACK), *arrow(centre, tips[1], COMPONENT, colour), *arc,
         Circle(centre, 0.4, fill=strokes.BLACK),
-    )
+    )  # fmt: skip
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     id = vector.symbol.id
     links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""

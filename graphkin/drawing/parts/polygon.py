@@ -456,15 +456,10 @@ def _vectors(here: PolygonOnPage) -> Piece:
 def _arrow(here: PolygonOnPage, step: int, vector: Vector) -> Group:
     tail, tip = here.drawn(vector)
     group = vector_group(
-        vector.symbol.id,
-        step,
-        tail,
-        tip,
-        RESULTANT if vector.role == "resultant" else COMPONENT,
-        colour_of_vector(here.sheet, vector.symbol),
-        spoken_vector(vector.symbol, here.language),
+        vector.symbol.id, step, tail, tip, RESULTANT if vector.role == "resultant" else COMPONENT,
+        colour_of_vector(here.sheet, vector.symbol), spoken_vector(vector.symbol, here.language),
         classes=(vector.role,),
-    )
+    )  # fmt: skip
     if vector.symbol not in here.shifts:
         return group
     true = here.at(vector.tail), here.at(vector.tip)

@@ -142,13 +142,9 @@ class Obstacles:
 
     def __add__(self, other: Obstacles) -> Obstacles:
         return Obstacles(
-            self.solid + other.solid,
-            self.dashed + other.dashed,
-            self.areas + other.areas,
-            self.writing + other.writing,
-            self.thick + other.thick,
-            self.vectors + other.vectors,
-        )
+            self.solid + other.solid, self.dashed + other.dashed, self.areas + other.areas,
+            self.writing + other.writing, self.thick + other.thick, self.vectors + other.vectors,
+        )  # fmt: skip
 
 
 STEP = 6.0  # mm from one place tried to the next along the edge of the panel

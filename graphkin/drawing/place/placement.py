@@ -570,8 +570,7 @@ def _forms(position: LabelPosition, space: complex) -> tuple[float, ...]:
         foot, tip = position.leader
         distances, reaches = leader_forms(foot.real, foot.imag, tip.real - foot.real, tip.imag - foot.imag)
     return (
-        -x, 1.0, 0.0, -y, 0.0, 1.0, *distances,
-        half_x + space.real, 1.0, 0.0, half_y + space.imag, 0.0, 1.0, *reaches,
+        -x, 1.0, 0.0, -y, 0.0, 1.0, *distances, half_x + space.real, 1.0, 0.0, half_y + space.imag, 0.0, 1.0, *reaches,
         1.0, x, y, 1.0, half_x, half_y, 1.0, foot.real, foot.imag, 1.0, tip.real, tip.imag,
     )  # fmt: skip
 

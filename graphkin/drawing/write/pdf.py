@@ -56,19 +56,10 @@ _CHINESE_FILES = re.compile("cjk|sourcehan|songti|simsun|uming|pingfang|msyh|sim
 
 # Everything of the user's matplotlib settings that could change a stroke or a letter.
 _SETTINGS = {
-    "text.parse_math": False,
-    "text.usetex": False,
-    "text.hinting": "none",
-    "text.antialiased": True,
-    "lines.scale_dashes": False,
-    "path.simplify": False,
-    "path.snap": False,
-    "path.sketch": None,
-    "path.effects": [],
-    "pdf.compression": 6,
-    "pdf.use14corefonts": False,
-    "pdf.inheritcolor": False,
-}
+    "text.parse_math": False, "text.usetex": False, "text.hinting": "none", "text.antialiased": True,
+    "lines.scale_dashes": False, "path.simplify": False, "path.snap": False, "path.sketch": None, "path.effects": [],
+    "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,
+}  # fmt: skip
 _ALONE = RLock()
 
 
@@ -245,15 +236,8 @@ def _add_shape(
     fill = thing.fill if isinstance(thing, Polygon | Circle) else ""
     figure.add_artist(
         PathPatch(
-            _path(thing),
-            facecolor=fill or "none",
-            capstyle="butt",
-            joinstyle="round",
-            transform=page,
-            zorder=order,
-            clip_on=False,
-            snap=False,
-            **look,
+            _path(thing), facecolor=fill or "none", capstyle="butt", joinstyle="round", transform=page, zorder=order,
+            clip_on=False, snap=False, **look,
         )
     )
 
@@ -301,22 +285,11 @@ def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
 def _add_text(figure: Figure, text: Text, page: Transform, order: int, family: list[str]) -> None:
     for k, run in enumerate(start_runs(text)):
         figure.text(
-            run.x,
-            run.y,
-            run.text,
-            transform=page,
-            family=family,
-            size=run.size * POINTS_PER_MM,
-            style="italic" if run.italic else "normal",
-            weight="bold" if run.bold else "normal",
-            color=text.colour,
-            ha="left",
-            va="baseline",
-            zorder=order,
-            clip_on=False,
-            parse_math=False,
+            run.x, run.y, run.text, transform=page, family=family, size=run.size * POINTS_PER_MM,
+            style="italic" if run.italic else "normal", weight="bold" if run.bold else "normal", color=text.colour,
+            ha="left", va="baseline", zorder=order, clip_on=False, parse_math=False,
             gid=text.id if text.id and k == 0 else None,
-        )
+        )  # fmt: skip
 
 
 def _needs_more(drawing: Page) -> bool:
