@@ -16,6 +16,7 @@ from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.place.labels import Label
+from graphkin.drawing.place.obstacles import distances
 from graphkin.drawing.place.piece import Piece, obstacles_of
 from graphkin.drawing.text import SMALLEST, rich, stacked
 from graphkin.plane import cross, dot, unit
@@ -245,11 +246,7 @@ class _Marks:
     def _crowd(self, tail: complex, tip: complex) -> float:
         """How much is drawn near an arrow."""
         lines = np.array(self.solid, dtype=complex).reshape(-1, 2)
-        start, span = lines[:, 0], lines[:, 1] - lines[:, 0]
-        off = (tail + (tip - tail) * np.arange(4) / 3)[:, None] - start
-        long = np.maximum((span * span.conj()).real, 1e-30)
-        share = np.clip((off * span.conj()).real / long, 0.0, 1.0)
-        gaps = np.abs(off - share * span).min(axis=0)
+        gaps = distances(tail + (tip - tail) * np.arange(4) / 3, lines).min(axis=0)
         return float(np.maximum(0.0, 7.0 - gaps).sum())
 
     def _far_name(self, group: list[Centre], tail: complex, tip: complex) -> Label:

@@ -8,10 +8,7 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Collection, Iterator, Sequence
-from itertools import pairwise
-
-import numpy as np
+from collections.abc import Collection, Iterator
 
 from graphkin.account.notation import Letters
 from graphkin.account.voice import SAME
@@ -45,7 +42,7 @@ from graphkin.drawing.parts.mechanism_on_paper import (
 from graphkin.drawing.parts.polygon import same_place
 from graphkin.drawing.parts.touching import contact_marks, faces_of_frame, outlines_of, wheels_of
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.obstacles import Floats, Points
+from graphkin.drawing.place.obstacles import RateArrowClearance
 from graphkin.drawing.place.piece import Piece, cut_to, dated, ink_box, joined, kept_in, middle_of
 from graphkin.drawing.text import plain, symbol
 from graphkin.plane import added_up, cross, dot, unit
@@ -424,71 +421,6 @@ def _with_lengths(
     if lengths is None:
         return None
     return joined((bare, dated(lengths, here.stands), link_names(here, panel), _marks(here)))
-
-
-RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
-HALF_SPAN = math.radians(37)
-LABEL_AT = 3.6  # mm beyond the arc: where its name would stand
-CLEAR, CLEAR_LABEL = 1.9, 2.6  # mm
-_MIDDLES = np.arange(20) * (2 * math.pi / 20)
-_SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
-
-
-class RateArrowClearance:
-    """Segments (mm) that arcs keep clear of; arcs that were given a place are added to them."""
-
-    def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
-        self.segments = list(segments)
-
-    def arc(self, centres: Sequence[complex], radius: float) -> tuple[complex, float, float]:
-        """Centre, radius (mm) and middle direction (rad) of the arc about one of some centres that is clearest.
-
-        ``radius`` is the least radius; centres are in the order of liking.
-        """
-        near = self._near(centres, radius + RADII[-1] - RADII[0] + LABEL_AT + CLEAR_LABEL)
-        radii = np.array([radius + r - RADII[0] for r in RADII])
-        ways = np.exp(1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
-        arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
-        names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(1j * _MIDDLES)
-        cost = 10.0 * np.clip(CLEAR - _distance(arcs, near), 0.0, None).sum(axis=-1)
-        cost += 2.0 * np.clip(CLEAR_LABEL - _distance(names, near), 0.0, None)
-        cost += 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
-        cost += 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
-        c, r, m = np.unravel_index(int(np.argmin(np.round(cost, 6))), cost.shape)
-        found = centres[int(c)], float(radii[r]), float(_MIDDLES[m])
-        course = [complex(z) for z in arcs[c, r, m]]
-        self.segments += pairwise(course)
-        name = complex(names[c, r, m])
-        self.segments.append((name - 1.2, name + 1.2))
-        return found
-
-    def _near(self, centres: Sequence[complex], reach: float) -> tuple[Points, Points]:
-        """Start and way of each segment that comes within reach of a centre."""
-        ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
-        start, along = ends[:, 0], ends[:, 1] - ends[:, 0]
-        off = _off(np.array(centres, dtype=complex), start, along)
-        close = (off < reach**2).any(axis=0)
-        return start[close], along[close]
-
-
-def _distance(points: Points, segments: tuple[Points, Points]) -> Floats:
-    """Least distance of each point to any segment."""
-    if not len(segments[0]):
-        return np.full(points.shape, np.inf)
-    least: Floats = np.sqrt(_off(points, *segments).min(axis=-1))
-    return least
-
-
-def _off(points: Points, start: Points, along: Points) -> Floats:
-    """Square of the distance of each point to each segment."""
-    # copies lie side by side in memory, which halves the time
-    way_x, way_y = along.real.copy(), along.imag.copy()
-    x, y = points.real[..., None] - start.real.copy(), points.imag[..., None] - start.imag.copy()
-    share = np.clip((x * way_x + y * way_y) / np.maximum(way_x**2 + way_y**2, 1e-18), 0.0, 1.0)
-    x -= share * way_x
-    y -= share * way_y
-    far: Floats = x * x + y * y
-    return far
 
 
 DRIVER_RADIUS, RADIUS = 6.5, 5.5

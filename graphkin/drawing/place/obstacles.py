@@ -1,6 +1,6 @@
 """What stands in the way on a figure: solid lines, dashed lines, and areas that nothing may cover; whether lines and
 upright boxes meet, for many at once; and what takes the first free of its places: numbers of steps, insets, lists of
-names.
+names, arcs of rates.
 
 Many boxes are arrays of complex numbers, by their middle and half size; many segments have their two ends in the last
 dimension.
@@ -8,10 +8,11 @@ dimension.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import accumulate
-from typing import TypeAlias
+from itertools import accumulate, pairwise
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,8 +24,9 @@ from graphkin.drawing.ink.primitives import (
 from graphkin.plane import cross
 
 __all__ = [
-    "CLEAR", "ON_LINE", "Flags", "Floats", "Indices", "Obstacles", "Points", "crosses", "first_free", "free_boxes",
-    "joined", "meets", "near", "separated", "sides", "sides_around", "touching",
+    "CLEAR", "ON_LINE", "Flags", "Floats", "Indices", "Obstacles", "Points", "RateArrowClearance", "crosses",
+    "distances", "first_free", "free_boxes", "joined", "meets", "near", "separated", "sides", "sides_around",
+    "touching",
 ]  # fmt: skip
 
 Points: TypeAlias = NDArray[np.complex128]
@@ -217,3 +219,63 @@ def _places(size: tuple[float, float], panel: Box) -> list[Box]:
     corners = [(x, y) for y in (low, panel.top) for x in (right, panel.left)]
     edges = [(x, y) for y in (low, panel.top) for x in xs] + [(x, y) for x in (right, panel.left) for y in ys]
     return [Box(x, y, x + width, y + height) for x, y in (*corners, *edges)]
+
+
+ARC_RADII = (5.5, 8.0, 11.0)  # mm, in the order of liking
+HALF_SPAN = math.radians(37)
+LABEL_AT = 3.6  # mm beyond the arc: where its name would stand
+CLEAR_ARC, CLEAR_LABEL = 1.9, 2.6  # mm
+_MIDDLES = np.arange(20) * (2 * math.pi / 20)
+_SPREAD = np.linspace(-HALF_SPAN, HALF_SPAN, 5)
+
+
+class RateArrowClearance:
+    """Segments (mm) that arcs keep clear of; arcs that were given a place are added to them."""
+
+    def __init__(self, segments: Sequence[tuple[complex, complex]]) -> None:
+        self.segments = list(segments)
+
+    def arc(self, centres: Sequence[complex], radius: float) -> tuple[complex, float, float]:
+        """Centre, radius (mm) and middle direction (rad) of the arc about one of some centres that is clearest.
+
+        ``radius`` is the least radius; centres are in the order of liking.
+        """
+        ends = np.array(self.segments, dtype=complex).reshape(-1, 2)
+        reach = radius + ARC_RADII[-1] - ARC_RADII[0] + LABEL_AT + CLEAR_LABEL
+        near = ends[(distances(np.array(centres, dtype=complex), ends) < reach).any(axis=0)]
+        radii = np.array([radius + r - ARC_RADII[0] for r in ARC_RADII])
+        ways = np.exp(1j * (_MIDDLES[:, None] + _SPREAD))  # middle x sample
+        arcs = np.array(centres)[:, None, None, None] + radii[:, None, None] * ways
+        names = np.array(centres)[:, None, None] + (radii[:, None] + LABEL_AT) * np.exp(1j * _MIDDLES)
+        cost = 10.0 * np.clip(CLEAR_ARC - least_distance(arcs, near), 0.0, None).sum(axis=-1)
+        cost += 2.0 * np.clip(CLEAR_LABEL - least_distance(names, near), 0.0, None)
+        cost += 0.35 * (radii - radius)[:, None] + 0.5 * np.arange(len(centres))[:, None, None]
+        cost += 0.05 * np.abs(np.angle(np.exp(1j * (_MIDDLES - math.radians(50)))))
+        c, r, m = np.unravel_index(int(np.argmin(np.round(cost, 6))), cost.shape)
+        found = centres[int(c)], float(radii[r]), float(_MIDDLES[m])
+        course = [complex(z) for z in arcs[c, r, m]]
+        self.segments += pairwise(course)
+        name = complex(names[c, r, m])
+        self.segments.append((name - 1.2, name + 1.2))
+        return found
+
+
+def least_distance(points: NDArray[Any], segments: Points) -> Floats:
+    """Least distance of each point to any segment; infinite where there is none."""
+    if not len(segments):
+        return np.full(points.shape, np.inf)
+    least: Floats = distances(points, segments).min(axis=-1)
+    return least
+
+
+def distances(points: NDArray[Any], segments: Points) -> Floats:
+    """Distance of each point to each of some segments of shape (n, 2): these in a last dimension."""
+    # copies lie side by side in memory, which halves the time
+    start, along = segments[:, 0], segments[:, 1] - segments[:, 0]
+    way_x, way_y = along.real.copy(), along.imag.copy()
+    x, y = points.real[..., None] - start.real.copy(), points.imag[..., None] - start.imag.copy()
+    share = np.clip((x * way_x + y * way_y) / np.maximum(way_x**2 + way_y**2, 1e-18), 0.0, 1.0)
+    x -= share * way_x
+    y -= share * way_y
+    far: Floats = np.sqrt(x * x + y * y)
+    return far
