@@ -21,9 +21,6 @@ PALE = 0.5  # how much of a scan is seen
 Segment: TypeAlias = tuple[complex, complex]
 """A straight line from one point to another."""
 
-Recolour: TypeAlias = Callable[[str], str]
-"""From a colour ``#rrggbb`` to another."""
-
 
 def page_direction(angle: float) -> complex:
     """Unit step on the page at an angle (rad) counter-clockwise from the x axis."""
@@ -50,9 +47,6 @@ class Stroke:
     def coloured(self, colour: str) -> Stroke:
         return Stroke(self.width, self.dash, colour)
 
-    def recoloured(self, change: Recolour) -> Stroke:
-        return Stroke(self.width, self.dash, change(self.colour))
-
 
 @dataclass(frozen=True)
 class Line:
@@ -73,9 +67,6 @@ class Line:
     def moved(self, by: complex) -> Line:
         return Line(self.start + by, self.end + by, self.stroke, self.covered)
 
-    def recoloured(self, change: Recolour) -> Line:
-        return Line(self.start, self.end, self.stroke.recoloured(change), self.covered)
-
 
 @dataclass(frozen=True)
 class Polyline:
@@ -86,9 +77,6 @@ class Polyline:
 
     def moved(self, by: complex) -> Polyline:
         return Polyline(tuple(z + by for z in self.points), self.stroke)
-
-    def recoloured(self, change: Recolour) -> Polyline:
-        return Polyline(self.points, self.stroke.recoloured(change))
 
 
 @dataclass(frozen=True)
@@ -102,9 +90,6 @@ class Polygon:
     def moved(self, by: complex) -> Polygon:
         return Polygon(tuple(z + by for z in self.points), self.fill, self.stroke)
 
-    def recoloured(self, change: Recolour) -> Polygon:
-        return Polygon(self.points, self.fill and change(self.fill), self.stroke and self.stroke.recoloured(change))
-
 
 @dataclass(frozen=True)
 class Circle:
@@ -117,10 +102,6 @@ class Circle:
 
     def moved(self, by: complex) -> Circle:
         return Circle(self.centre + by, self.radius, self.fill, self.stroke)
-
-    def recoloured(self, change: Recolour) -> Circle:
-        stroke = self.stroke and self.stroke.recoloured(change)
-        return Circle(self.centre, self.radius, self.fill and change(self.fill), stroke)
 
 
 @dataclass(frozen=True)
@@ -141,9 +122,6 @@ class Arc:
 
     def moved(self, by: complex) -> Arc:
         return Arc(self.centre + by, self.radius, self.start, self.end, self.stroke)
-
-    def recoloured(self, change: Recolour) -> Arc:
-        return Arc(self.centre, self.radius, self.start, self.end, self.stroke.recoloured(change))
 
 
 class Run(NamedTuple):  # a page has thousands
@@ -183,9 +161,6 @@ class Text:
     def moved(self, by: complex) -> Text:
         return Text(self.at + by, self.runs, self.anchor, self.colour, self.id, self.classes, self.step, self.since)
 
-    def recoloured(self, change: Recolour) -> Text:
-        return replace(self, colour=change(self.colour))
-
 
 @dataclass(frozen=True)
 class Scan:
@@ -205,9 +180,6 @@ class Scan:
 
     def moved(self, by: complex) -> Scan:
         return replace(self, corner=self.corner + by, panel=tuple(z + by for z in self.panel))
-
-    def recoloured(self, change: Recolour) -> Scan:
-        return self
 
 
 @dataclass(frozen=True)
@@ -243,9 +215,6 @@ class Group:
     def moved(self, by: complex) -> Group:
         """With the same children, of which each moves itself."""
         return self if self.motion is None else replace(self, motion=replace(self.motion, about=self.motion.about + by))
-
-    def recoloured(self, change: Recolour) -> Group:
-        return self
 
 
 Primitive: TypeAlias = Line | Polyline | Polygon | Circle | Arc | Text | Scan | Group

@@ -7,10 +7,11 @@ same in the mechanism and in every diagram, where a vector has that of the link 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 
 from graphkin.account.voice import link_of_vector
 from graphkin.construction.sheet import Sheet
-from graphkin.drawing.ink.primitives import Primitive, Stroke, Text, map_tree
+from graphkin.drawing.ink.primitives import Circle, Group, Polygon, Primitive, Scan, Stroke, Text, map_tree
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 
@@ -71,8 +72,14 @@ def pale(children: Iterable[Primitive], strength: float = 0.45, words: float = 1
     """The same things in colours thinned to a strength, texts to that of ``words``."""
 
     def thinned(thing: Primitive) -> Primitive:
-        share = words if isinstance(thing, Text) else strength
-        return thing if share == 1.0 else thing.recoloured(lambda colour: tint(colour, share))
+        if isinstance(thing, Group | Scan):
+            return thing
+        if isinstance(thing, Text):
+            return thing if words == 1.0 else replace(thing, colour=tint(thing.colour, words))
+        if isinstance(thing, Polygon | Circle):
+            stroke = thing.stroke and thing.stroke.coloured(tint(thing.stroke.colour, strength))
+            return replace(thing, fill=thing.fill and tint(thing.fill, strength), stroke=stroke)
+        return replace(thing, stroke=thing.stroke.coloured(tint(thing.stroke.colour, strength)))
 
     return map_tree(children, thinned)
 

@@ -153,20 +153,10 @@ class _Choice(NamedTuple):
         """Its lines, and the chords of its arcs."""
         return [*((line.start, line.end) for line in self.lines), *(c for arc in self.courses() for c in pairwise(arc))]
 
-    def with_extensions(self, lines: Sequence[Line]) -> Parts:
+    def with_extensions(self, lines: list[Line]) -> _Choice:
         """The dimension with other extension lines."""
-        return *lines, *(part for part in self.parts if not any(part is line for line in self.extensions))
-
-
-class _Fit(NamedTuple):
-    """A dimension clear of what is drawn: its parts, its lines, the boxes of its numbers and of its arrowheads, and
-    whether its extension lines run over other lines."""
-
-    parts: Parts
-    lines: list[Segment]
-    numbers: list[Box]
-    heads: list[Box]
-    over: bool
+        others = (part for part in self.parts if not any(part is line for line in self.extensions))
+        return self._replace(parts=(*lines, *others), extensions=lines)
 
 
 class DimensionClearance:
@@ -196,10 +186,10 @@ class DimensionClearance:
         end on lines, but none lies over a symbol of a point (``over_lines``).
         """
         fits = self._fits([_Choice.of(parts, extensions) for parts in choices], ends_on_line, crossing, over_lines)
-        first = next((fit for fit in fits if over or not fit.over), fits[0] if fits else None)
-        if first is None:
+        if not fits:
             return None
-        self.segments = np.concatenate((self.segments, _segments(first.lines)))
+        first = next((fit for fit, runs_over in fits if over or not runs_over), fits[0][0])
+        self.segments = np.concatenate((self.segments, _segments([*first.own(), *_ends(first.extensions)])))
         numbers = _arrays(first.numbers)
         self.areas, self.numbers = _joined(self.areas, numbers), _joined(self.numbers, numbers)
         self.heads = _joined(self.heads, _arrays(first.heads))
@@ -207,8 +197,9 @@ class DimensionClearance:
 
     def _fits(
         self, choices: list[_Choice], ends_on_line: bool, crossing: bool, over_lines: bool
-    ) -> list[_Fit]:
-        """Those of some dimensions that are clear of everything they may not run over, with extension lines trimmed.
+    ) -> list[tuple[_Choice, bool]]:
+        """Those of some dimensions that are clear of everything they may not run over, with extension lines trimmed,
+        and whether these run over other lines, or dashed ones over their numbers.
 
         Each question is asked of all that are left at once.
         """
@@ -237,17 +228,14 @@ class DimensionClearance:
         else:
             choices = _left(choices, np.array([None in lines for lines in trimmed], dtype=bool))
             shown = [[line for line in lines if line is not None] for lines in trimmed if None not in lines]
-        beyond = [[(line.start, line.end) for line in lines] for lines in shown]
+        beyond = [_ends(lines) for lines in shown]
         lines = [one.own() + further for one, further in zip(choices, beyond, strict=True)]
         numbers = [one.numbers for one in choices]
         bad = _over_own(lines, numbers)  # a number past the end of a short dimension stands on the next one
         bad |= _over(lines, self.numbers, 0.3) if crossing else _over(beyond, symbols, 0.4)
         over = self._crossed(beyond) | self._dashed_over(numbers)
-        return [
-            _Fit(one.with_extensions(own), ends, one.numbers, one.heads, runs_over)
-            for one, own, ends, no, runs_over in zip(choices, shown, lines, bad.tolist(), over.tolist(), strict=True)
-            if not no
-        ]
+        judged = zip(choices, shown, bad.tolist(), over.tolist(), strict=True)
+        return [(one.with_extensions(own), runs_over) for one, own, no, runs_over in judged if not no]
 
     def _covered(self, boxes: Sequence[Sequence[Box]]) -> Flags:
         """Which of some dimensions with these boxes stand on anything."""
@@ -332,6 +320,10 @@ def _over_own(lines: Sequence[Sequence[Segment]], boxes: Sequence[Sequence[Box]]
     own = _segments([line for each in lines for line in each])
     which, what = meets(own, *_arrays([box for each in boxes for box in each]))
     return _any(lines, which[_owners(lines)[which] == _owners(boxes)[what]])
+
+
+def _ends(lines: Sequence[Line]) -> list[Segment]:
+    return [(line.start, line.end) for line in lines]
 
 
 def _segments(ends: Sequence[Segment]) -> Points:
