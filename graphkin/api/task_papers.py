@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -35,7 +34,7 @@ from graphkin.papers.blocks import (
     said,
 )
 from graphkin.papers.lesson import plain_words
-from graphkin.papers.paper import A4, Paper
+from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
 from graphkin.papers.problem import labelled
@@ -47,100 +46,66 @@ __all__ = ["cam_papers", "design_papers", "write_design_papers"]
 
 MANY = 6  # steps that stand in two columns
 
-
-@dataclass(frozen=True)
-class TaskResult:
-    """A result of a construction: its name (markup), unit, as read off, the exact value, and what may be accepted of a
-    pencil drawing ("" where nothing is said)."""
-
-    name: str
-    unit: str
-    read: str
-    exact: str
-    within: str = ""
+Result = tuple[str, str, str, str, str]
+"""A result of a construction: its name (markup), unit, as read off, the exact value, and what may be accepted of a
+pencil drawing ("" where nothing is said)."""
 
 
-@dataclass(frozen=True)
-class DrawnTask:
-    """A task with its construction.
+def _papers(
+    title: Said, given: Sequence[Said], start: Sequence[Drawing], whole: Mapping[Said, Drawing], steps: Sequence[Said],
+    results: Sequence[Result], notes: Sequence[Said], language: str, paper: Paper, formats: Sequence[str],
+    prefix: str = "",
+) -> Mapping[str, bytes]:  # fmt: skip
+    """Problem sheet, worked solution and key of a task, as files.
 
+    Parameters
+    ----------
     given : sentences of what is given and asked
     start : figures that the problem begins with, to scale
-    whole, captions : figures of the finished construction, and what each shows
+    whole : figures of the finished construction, by what each shows
     steps : what is done, with its reason
     notes : what is found of the result
     language : "en", "zh" or "both"
     """
 
-    title: Said
-    given: tuple[Said, ...]
-    start: tuple[Drawing, ...]
-    whole: tuple[Drawing, ...]
-    captions: tuple[Said, ...]
-    steps: tuple[Said, ...]
-    results: tuple[TaskResult, ...]
-    notes: tuple[Said, ...]
-    language: str
-    paper: Paper = A4
+    def document(key: str, *blocks: Block) -> Document:
+        first = languages(language)[0]
+        name = plain_words(title[0][1]) + word("colon", first) + word(key, first)
+        return Document(name, languages(language), (Heading(title, 1), *blocks), paper)
 
-    def _document(self, key: str, blocks: Sequence[Block]) -> Document:
-        first = languages(self.language)[0]
-        title = plain_words(self.title[0][1]) + word("colon", first) + word(key, first)
-        return Document(title, languages(self.language), tuple(blocks), self.paper)
+    def heads(*keys: str) -> tuple[Said, ...]:
+        return tuple(said(key, language) for key in keys)
 
-    def _heads(self, *keys: str) -> tuple[Said, ...]:
-        return tuple(said(key, self.language) for key in keys)
-
-    @property
-    def problem(self) -> Document:
-        """What is given, drawn to scale, with room to solve it, and a table to fill in."""
-        lang = self.language
-        rows = tuple((r.name, "", "", r.unit) for r in self.results)
-        blank = TableBlock(self._heads("quantity", "on paper", "value", "unit"), rows, "lccl", roomy=True)
-        return self._document("problem sheet", [
-            Heading(self.title, 1),
-            Fields(self._heads("name of student", "class of student", "date")),
-            *(Paragraph(finished(one)) for one in self.given),
-            Paragraph(said("print true", lang), small=True),
-            *(Picture(one) for one in self.start),
-            Together((Heading(said("your results", lang), 2), blank)),
-        ])  # fmt: skip
-
-    @property
-    def solution(self) -> Document:
-        """Every step with its reason, the construction, and what was read off beside what is exact."""
-        lang = self.language
-        steps = tuple(StepItem(i, finished(words)) for i, words in enumerate(self.steps, 1))
-        rows = tuple((r.name, r.read, r.exact, r.unit) for r in self.results)
-        figures = [
-            Picture(bare_picture(one), numbered(i, told), floats=i < len(self.whole))
-            for i, (one, told) in enumerate(zip(self.whole, self.captions, strict=True), 1)
-        ]
-        return self._document("worked solution", [
-            Heading(self.title, 1),
-            *(Paragraph(finished(one)) for one in self.given),
-            Steps(steps, parted=len(steps) >= MANY),
-            *figures,
-            Together((Heading(said("results", lang), 2),
-                      TableBlock(self._heads("quantity", "measured", "exact", "unit"), rows, "lrrl"))),
-            *(Paragraph(finished(one)) for one in self.notes),
-        ])  # fmt: skip
-
-    @property
-    def key(self) -> Document:
-        """The results alone, with what to accept."""
-        rows = tuple((r.name, r.exact, r.within or "–", r.unit) for r in self.results)
-        return self._document("answer key", [
-            Heading(self.title, 1),
-            TableBlock(self._heads("quantity", "value", "accept", "unit"), rows, "lrrl"),
-            *(Paragraph(finished(one), small=True) for one in self.notes),
-        ])  # fmt: skip
-
-
-def _papers(task: DrawnTask, formats: Sequence[str], prefix: str = "") -> Mapping[str, bytes]:
-    """Problem, solution and key as files."""
-    return papers_as(formats, {f"{prefix}{key}": paper for key, paper in (
-        ("problem", task.problem), ("solution", task.solution), ("key", task.key))})  # fmt: skip
+    asked = [Paragraph(finished(one)) for one in given]
+    blank = tuple((name, "", "", unit) for name, unit, _, _, _ in results)
+    problem = document(
+        "problem sheet",
+        Fields(heads("name of student", "class of student", "date")),
+        *asked,
+        Paragraph(said("print true", language), small=True),
+        *map(Picture, start),
+        Together((Heading(said("your results", language), 2),
+                  TableBlock(heads("quantity", "on paper", "value", "unit"), blank, "lccl", roomy=True))),
+    )  # fmt: skip
+    items = tuple(StepItem(i, finished(words)) for i, words in enumerate(steps, 1))
+    found = tuple((name, read, exact, unit) for name, unit, read, exact, _ in results)
+    solution = document(
+        "worked solution",
+        *asked,
+        Steps(items, parted=len(items) >= MANY),
+        *(Picture(bare_picture(figure), numbered(i, told), floats=i < len(whole))
+          for i, (told, figure) in enumerate(whole.items(), 1)),
+        Together((Heading(said("results", language), 2),
+                  TableBlock(heads("quantity", "measured", "exact", "unit"), found, "lrrl"))),
+        *(Paragraph(finished(one)) for one in notes),
+    )  # fmt: skip
+    accepted = tuple((name, exact, within or "–", unit) for name, unit, _, exact, within in results)
+    key = document(
+        "answer key",
+        TableBlock(heads("quantity", "value", "accept", "unit"), accepted, "lrrl"),
+        *(Paragraph(finished(one), small=True) for one in notes),
+    )
+    return papers_as(formats, {f"{prefix}problem": problem, f"{prefix}solution": solution, f"{prefix}key": key})
 
 
 def _each(language: str, text: Callable[[str], str]) -> Said:
@@ -165,22 +130,21 @@ def design_papers(designed: Designed, formats: Sequence[str]) -> Mapping[str, by
     for row in designed.rows:
         within = _accepted(row.exact, spread.get(row.symbol, math.inf) * sheet.scale)
         name = row.symbol if row.symbol == "ram" else f"${row.symbol}$"
-        results.append(TaskResult(name, unit, number(row.measured), number(row.exact), within))
-    find = ", ".join(result.name for result in results)
-    task = DrawnTask(
+        results.append((name, unit, number(row.measured), number(row.exact), within))
+    find = ", ".join(name for name, *_ in results)
+    return _papers(
         title=_each(language, lambda each: in_markup(given.title_in(each) or given.name)),
         given=(_each(language, lambda each: asked_words(given, each)),
                _each(language, lambda each: labelled("find", find, each))),
         start=(construction_picture(given, sheet, language, 1),),
-        whole=(construction_picture(given, sheet, language),),
-        captions=(said("design figure", language),),
-        steps=tuple(_each(language, partial(step_words, step.phrase)) for step in sheet.steps),
-        results=tuple(results),
-        notes=tuple(_notes(designed, language)),
+        whole={said("design figure", language): construction_picture(given, sheet, language)},
+        steps=[_each(language, partial(step_words, step.phrase)) for step in sheet.steps],
+        results=results,
+        notes=_notes(designed, language),
         language=language,
         paper=Paper(*given.sheet.size),
+        formats=formats,
     )  # fmt: skip
-    return _papers(task, formats)
 
 
 def write_design_papers(
@@ -227,7 +191,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     for d, off in zip(sheet.divisions, spread, strict=True) if not cam.flat else ():
         angle = math.degrees(d.pressure)
         within = _accepted(angle, math.degrees(off.pressure))
-        results.append(TaskResult(f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
+        results.append((f"$α_{{{d.number}}}$", "°", f"{angle:.1f}", f"{angle:.3f}", within))
     metres = scene.units.metres
     for d, off in zip(sheet.divisions, spread, strict=True):
         value, deviation = (math.degrees(x) if swings else x / metres for x in (d.lift, off.lift))
@@ -235,20 +199,20 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         within = _accepted(value, deviation, -math.inf)
         per = 1.0 if swings else sheet.scale / metres
         read = number(round(value / per, 2) * per)  # to 0.01 mm, as lengths on paper are told
-        results.append(TaskResult(f"${letter}_{{{d.number}}}$", unit, read, number(value, 5), within))
+        results.append((f"${letter}_{{{d.number}}}$", unit, read, number(value, 5), within))
     spoken = {each: made.sentences(each) for each in languages(language)}
-    notes = tuple(_by_sentence(spoken))
-    task = DrawnTask(
+    captions = said("cam diagram", language), said("cam figure", language)
+    return _papers(
         title=_each(language, lambda each: in_markup(scene.title_in(each) or scene.name)),
         given=(_each(language, lambda each: cam_given(scene, cam, each)),
                _each(language, lambda each: labelled("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
-        whole=cam_pictures(scene, sheet, language),
-        captions=(said("cam diagram", language), said("cam figure", language)),
-        steps=tuple(_each(language, partial(say, phrase)) for phrase in sheet.steps),
-        results=tuple(results),
-        notes=notes,
+        whole=dict(zip(captions, cam_pictures(scene, sheet, language), strict=True)),
+        steps=[_each(language, partial(say, phrase)) for phrase in sheet.steps],
+        results=results,
+        notes=_by_sentence(spoken),
         language=language,
         paper=Paper(*scene.sheet.size),
+        formats=formats,
+        prefix=prefix,
     )  # fmt: skip
-    return _papers(task, formats, prefix)

@@ -199,7 +199,7 @@ def compare(
     force_scale : N for one mm of the force polygons
     """
     pairs = [(r, exact(r.symbol)) for r in readings]
-    of_forces = _Forces.of(sheet, pairs, predicted, rounding)
+    compared_force = _forces(sheet, pairs, predicted, rounding)
     most_of = _largest(sheet, pairs)
     grain = _grain(sheet)
 
@@ -212,7 +212,7 @@ def compare(
     rows = []
     for reading, value in pairs:
         if reading.symbol.scope == "force":
-            rows.append(of_forces.row(reading, value))
+            rows.append(compared_force(reading, value))
             continue
         if reading.symbol.scope != "motion":
             lost = rounding(reading.symbol) if rounding else Lost()
@@ -220,9 +220,7 @@ def compare(
             continue
         most, lost = most_of(reading), rounding(reading.symbol) if rounding else Lost()
         error = abs(reading.value - value)
-        turned = 0.0
-        if reading.symbol.is_vector and min(abs(reading.value), abs(value)) > 1e-7 * most:
-            turned = cmath.phase(complex(reading.value) / complex(value)) + 0.0  # no minus before nought
+        turned = _turned(reading, value, most)
         expected = (predicted or {}).get(reading.symbol)
         by = 1.0 if reading.symbol.is_vector else sheet.scene.size
         rounded = 0.0 if rounding is None else _of(lost, reading.diagram) / by
@@ -273,60 +271,52 @@ def _written(scene: Mechanism, symbol: Symbol, value: complex | float) -> str:
     return f"{size:.6g}{f' {unit}' if unit else ''}{way}"
 
 
-@dataclass(frozen=True)
-class _Forces:
-    """By what forces are judged: the largest of them (N), that times the size of the mechanism (N m), and how far
+def _turned(reading: Reading, exact: complex | float, whole: float) -> float:
+    """The angle from the exact direction of a vector to the drawn one (rad); 0 for what is too short beside ``whole``
+    to have one."""
+    if not reading.symbol.is_vector or min(abs(reading.value), abs(exact)) <= 1e-7 * whole:
+        return 0.0
+    return cmath.phase(complex(reading.value) / complex(exact)) + 0.0  # no minus before nought
+
+
+def _forces(
+    sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]],
+    predicted: Mapping[Symbol, Uncertainty] | None, rounding: Rounding | None,
+) -> Callable[[Reading, complex | float], Compared]:  # fmt: skip
+    """What compares forces: by the largest of them (N), that times the size of the mechanism (N m), and how far
     rounding may have moved a force (N)."""
+    forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
 
-    sheet: Sheet
-    largest: float
-    turning: float
-    fastest: float
-    lost: float
-    inertia: Mapping[str, float]
-    predicted: Mapping[Symbol, Uncertainty] | None
+    def most(measure: str) -> float:
+        sizes = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure == measure)
+        return max((size for size in sizes if math.isfinite(size)), default=0.0)
 
-    @classmethod
-    def of(
-        cls, sheet: Sheet, pairs: Sequence[tuple[Reading, complex | float]],
-        predicted: Mapping[Symbol, Uncertainty] | None, rounding: Rounding | None,
-    ) -> _Forces:  # fmt: skip
-        forces = [(r, v) for r, v in pairs if r.symbol.scope == "force"]
+    largest, size = most("force"), sheet.scene.size
+    turning = max(most("moment"), largest * size)
+    inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
+    lost = rounding(forces[0][0].symbol).force if rounding and forces else 0.0
+    relative = lost / largest if largest else 0.0
+    # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
+    speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
+    fastest = max(most("velocity"), max(speeds, default=0.0) * sheet.scales.velocity or size)
+    wholes = {"force": largest, "moment": turning, "velocity": fastest}
 
-        def most(measure: str) -> float:
-            found = (max(abs(r.value), abs(v)) for r, v in forces if r.symbol.measure == measure)
-            return max((size for size in found if math.isfinite(size)), default=0.0)
-
-        largest, size = most("force"), sheet.scene.size
-        turning = max(most("moment"), largest * size)
-        inertia = {r.symbol.link: abs(v) for r, v in forces if r.symbol.kind == "Fi"}
-        lost = rounding(forces[0][0].symbol).force if rounding and forces else 0.0
-        # arms of what stands still are rounding beside the speeds of the links; at rest the driver has a unit rate
-        speeds = (abs(v.span) for v in sheet.vectors("velocity").values())
-        fastest = max(speeds, default=0.0) * sheet.scales.velocity or size
-        return cls(sheet, largest, turning, max(most("velocity"), fastest), lost, inertia, predicted)
-
-    def row(self, reading: Reading, exact: complex | float) -> Compared:
-        symbol, sheet, size = reading.symbol, self.sheet, self.sheet.scene.size
-        relative = self.lost / self.largest if self.largest else 0.0
-        whole = {"force": self.largest, "moment": self.turning, "velocity": self.fastest}.get(symbol.measure, size)
-        if symbol.kind == "h" and self.inertia.get(symbol.link):
+    def compared(reading: Reading, exact: complex | float) -> Compared:
+        symbol = reading.symbol
+        whole = wholes.get(symbol.measure, size)
+        if symbol.kind == "h" and inertia.get(symbol.link):
             # a moment over a force: a small force has an uncertain line
-            whole = (self.turning + abs(exact) * self.largest) / self.inertia[symbol.link]
-        error = abs(reading.value - exact)
-        turned = 0.0
-        if symbol.is_vector and min(abs(reading.value), abs(exact)) > 1e-7 * whole:
-            turned = cmath.phase(complex(reading.value) / complex(exact)) + 0.0
-        expected = (self.predicted or {}).get(symbol)
-        tolerance = max(_allowed(sheet, self.predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
-        if not math.isfinite(abs(exact)):
-            error = math.inf
-        least = HAND * self.largest / 100.0 if sheet.instrument not in ON_PAPER else 0.0
-        fair = _fair(sheet, tolerance, whole, least if symbol.measure == "force" else 0.0)
-        floor = max(relative, 1e-12) * whole
-        if relative > SLIGHT and 0.0 < abs(exact) <= floor:
-            fair = False
+            whole = (turning + abs(exact) * largest) / inertia[symbol.link]
+        error = abs(reading.value - exact) if math.isfinite(abs(exact)) else math.inf
+        expected = (predicted or {}).get(symbol)
+        tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
+        hand = HAND * largest / 100.0 if sheet.instrument not in ON_PAPER and symbol.measure == "force" else 0.0
+        floor = max(relative, ROUNDED) * whole
+        fair = _fair(sheet, tolerance, whole, hand) and not (relative > SLIGHT and 0.0 < abs(exact) <= floor)
+        turned = _turned(reading, exact, whole)
         return Compared(reading, exact, error, tolerance, turned, expected, floor, fair)
+
+    return compared
 
 
 def _grain(sheet: Sheet) -> float:
