@@ -7,6 +7,7 @@ import re
 import pytest
 
 import graphkin
+from graphkin.account.headings import number
 from graphkin.api.task_papers import cam_papers, design_papers
 from graphkin.scene.designs import designs, is_design
 from tests.command import run
@@ -35,6 +36,17 @@ def test_the_problem_does_not_tell_the_answer():
     papers = design_papers(graphkin.design("slider-crank-stroke-50"), ["html"])
     told = {name: "58.37" in text_of(page) for name, page in papers.items()}
     assert {"problem.html": False, "solution.html": True, "key.html": True} == told
+
+
+def test_the_solution_shows_what_was_measured_beside_the_exact_length_and_the_key_the_exact_one():
+    designed = graphkin.design("slider-crank-stroke-50", instrument="pencil", seed=1)
+    papers = {name: re.sub(r"\s+", " ", text_of(page)) for name, page in design_papers(designed, ["html"]).items()}
+    for row in designed.rows:
+        measured, exact = number(row.measured), number(row.exact)
+        assert measured != exact
+        assert f" {measured} {exact} mm" in papers["solution.html"]
+        assert f" {exact} " in papers["key.html"]
+        assert f" {measured} " not in papers["key.html"]
 
 
 def test_the_papers_of_a_synthesis_are_typeset(tmp_path):

@@ -120,6 +120,13 @@ def test_what_follows_does_not_depend_on_what_somebody_else_took_before(name):
         assert alone == together.values(own, symbol)
 
 
+def test_a_normal_component_follows_the_square_of_a_wrong_velocity():
+    case = evidence_at(mechanism_of("fourbar-150-500-300-400"), [], None)
+    speed, normal = Symbol.parse("v_C"), Symbol.parse("an_C/D")
+    (followed,) = case.consequences.values({speed: 1.1 * abs(case.exact(speed))}, normal)
+    assert 1.21 == pytest.approx(abs(followed / case.exact(normal)))
+
+
 def test_a_wrong_angular_velocity_is_followed_to_a_point_far_from_it():
     entry = judged(SIXBAR, omega_3="-3.5", v_D_at_3="586.5")
     assert "right from your own omega_3" == entry["looks_like"]

@@ -67,3 +67,8 @@ def test_steps_in_two_columns_are_about_as_high_on_both_sides():
 def test_room_to_write_in_takes_what_the_page_has_left():
     first, _ = fill_pages([Piece(100.0), Piece(0.0, 3.0, fills=True), Piece(50.0, fresh=True)], HEIGHT).pages
     assert pytest.approx(157.0) == first[1].height
+
+
+def test_a_page_is_not_filled_beyond_its_height_by_a_millimetre():
+    pieces = [Piece(150.0), Piece(111.0), Piece(20.0)]
+    assert [[0], [1, 2]] == [numbers(pieces, page) for page in fill_pages(pieces, HEIGHT).pages]
