@@ -323,7 +323,7 @@ def _converted(table: AnyTable, change: Callable[[float, str], float]) -> AnyTab
         if isinstance(value, Mapping):
             return {name: changed(item, measure) for name, item in value.items()}
         if isinstance(value, list | tuple):
-            return [changed(item, measure) for item in value]
+            return type(value)(changed(item, measure) for item in value)
         number = isinstance(value, int | float) and not isinstance(value, bool)
         return change(value, measure) if measure and number else value
 

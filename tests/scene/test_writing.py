@@ -7,9 +7,13 @@ import tomllib
 import numpy as np
 import pytest
 
+import graphkin
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.files import toml_text
-from graphkin.scene.scene_tables import as_mapping
+from graphkin.scene.form import plain
+from graphkin.scene.laws import FollowerLaw, LiftPiece, MotionLaw
+from graphkin.scene.scene_tables import SCENE, as_mapping
+from graphkin.scene.tables import in_si, in_units
 from graphkin.solver import solve
 
 
@@ -31,3 +35,40 @@ def test_a_resolved_scene_written_out_moves_alike(name):
 @pytest.mark.parametrize("title", ['a "quote"', "back\\slash", "[links]", "李 \u202e x", "'''", "\x7f"])
 def test_no_text_breaks_out_of_its_string(title):
     assert {"title": title} == tomllib.loads(toml_text({"title": title}))
+
+
+def numbers(place: object, path: str = "") -> dict[str, object]:
+    """What stands in a mapping, by its key with dots."""
+    if isinstance(place, dict):
+        return {k: v for name, item in place.items() for k, v in numbers(item, f"{path}.{name}").items()}
+    if isinstance(place, list):
+        return {k: v for i, item in enumerate(place) for k, v in numbers(item, f"{path}.{i}").items()}
+    return {path: place}
+
+
+@pytest.mark.parametrize("name", library())
+def test_what_the_keys_say_of_units_leads_to_si_and_back(name: str) -> None:
+    scene = graphkin.read(name)
+    back = in_units(in_si(SCENE.checked(scene.to_dict())[0], scene.units), scene.units)
+    there, here = numbers(scene.to_dict()), numbers(plain(back))
+    assert {k: pytest.approx(v, rel=1e-12) if isinstance(v, float) else v for k, v in there.items()} == here
+
+
+def pieces(law: FollowerLaw | MotionLaw) -> list[object]:
+    """The pieces of a law, to be compared."""
+    return [(pytest.approx((p.start, p.end, p.low, p.high)), p.by) for p in law.pieces if isinstance(p, LiftPiece)]
+
+
+@pytest.mark.parametrize("name", ["cam-flat-face", "cam-offset-roller", "cam-swinging-roller"])
+def test_the_law_of_a_cam_is_written_out(name: str) -> None:
+    scene = mechanism_of(name)
+    again = mechanism_of_text(toml_text(as_mapping(scene)), name)
+    assert pieces(scene.cams[0].law) == [((p.start, p.end, p.low, p.high), p.by) for p in again.cams[0].law.pieces]
+
+
+def test_the_law_of_a_driver_is_written_out() -> None:
+    rise, fall = {"to": 1, "rise": 30, "by": "cycloidal"}, {"to": 3, "fall": 9, "by": "345"}
+    law = {"from": 60, "pieces": [rise, {"to": 2}, fall]}
+    made = graphkin.read("fourbar-150-500-300-400").to_dict() | {"driver": {"link": "1", "law": law, "time": 0.5}}
+    stated = as_mapping(graphkin.Scene.of(made).mechanism)["driver"][0]
+    assert {"link": "1", "law": law, "time": 0.5} == stated
