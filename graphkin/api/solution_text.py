@@ -16,7 +16,6 @@ from graphkin.study.quantities import (
     Quantity,
     link_quantities,
     place_quantity,
-    settled,
     slide_quantities,
     symbol_quantity,
 )
@@ -91,7 +90,7 @@ def _whole(solved: Solved, language: str) -> list[SolutionTable]:
         rates = (symbol_quantity(Symbol(kind, ref)) for kind in ("v", "a"))
         points.rows.append((f"{point}@{link}", columns(place_quantity(ref), *rates)))
     for pair in pairs:
-        term = push.of(settled(motion.slide(pair.key).coriolis, 2.0 * motion.floors["acceleration"]))
+        term = push.of(motion.settled(motion.slide(pair.key).coriolis, "acceleration", 2.0))
         slides.rows.append((pair.key, [*columns(*slide_quantities(pair.key)), _texts(term.real, term.imag)]))
     if solved.forces is None:
         return [links, points, slides]

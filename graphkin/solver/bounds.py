@@ -33,6 +33,10 @@ LOOKED_UP = 4 * GIVEN
 """Relative error of what the law of a cam gives."""
 SLACK = 1.001
 """For the rounding of the bounds themselves."""
+SAFE = 2.0
+"""The changes of the matrix are taken this much greater: an error is told to first order of them."""
+FLAT = 1e-6
+"""Changes of the matrix, relatively, that the slack takes."""
 BLOCK = 4096
 """Positions whose constraints are looked at together."""
 VAST = 1e100
@@ -62,37 +66,32 @@ def error_bounds(
     system, n = System.whole(structure, drive), len(drive)
     names, size = system.group.members, structure.scene.size
     with np.errstate(all="ignore"):
-        all_ = system.of({name: poses[name].spread(n) for name in names})
+        all_ = system.of(poses)
         cams = _Cams(system, all_)
         matrix = cams.onto(system.matrix(all_))
-        before = _before(structure)
-        hangs = np.array([[other in before[name] for other in system.layout.names] for name in names])
         inverse = solve_all(matrix, np.broadcast_to(np.eye(matrix.shape[1]), matrix.shape))
-        inverse = np.where(_reached(system.layout, matrix, hangs), inverse, 0.0)
+        inverse = np.where(_reached(structure, system.layout), inverse, 0.0)
         sizes = _sizes(system, cams, all_, matrix, inverse)
         residuals = np.abs(cams.without(system.constraints(all_)))
         residuals[:, refined] = 0.0
         given = _driver_errors(structure, drive, refined, value_error)
         rows = residuals + _row_errors(system, all_, refined, given) + cams.errors(slack)
         found: list[Array] = []
-        grown = np.ones((n, len(names)))
         for order in range(3):
             terms = [w * np.einsum("nij,nj->ni", sizes[k], rows[order - k]) for k, w in enumerate(_BINOMIAL[order])]
-            error = np.sum(terms, axis=0).reshape(n, -1, 3)
+            error = np.sum(terms, axis=0)
             if order == 0:
-                grown = 1 / np.maximum(1 - 3 * _change(system, all_, inverse, error, hangs), 0.0)
-            # each order has the inverse once more
-            most = np.where(hangs[:, : len(names)], error.max(axis=2)[:, None, :], 0.0).max(axis=2)
-            more = np.where(grown > 1, (grown ** (2 * order + 1) - 1) * most, 0.0)
-            error = error + more[:, :, None]
+                wild, grown = _growth(sizes[0], _changes(system, all_, error))
+            # each order has the inverse twice more
+            for _ in range(2 * order + 1 if wild.any() else 0):
+                error[wild] = np.einsum("nij,nj->ni", grown, error[wild])
+            error = error.reshape(n, -1, 3)
             found += [size * np.hypot(error[..., 0], error[..., 1]), error[..., 2]]
-        few = FEW_ROUNDINGS * UNIT * refined
+        few = FEW_ROUNDINGS * UNIT * refined[:, None]
         wide = _largest(all_, len(names), size)
-        bounds = {}
-        for k, name in enumerate(names):
-            own = ErrorBound(*(found[i][:, k] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
-            bounds[name] = ErrorBound(*map(_sure, _of_points(structure, name, poses, own)))
-        return bounds
+        own = ErrorBound(*(found[i] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
+        bounds = [_sure(bound).T for bound in _of_points(system, all_, own)]
+        return {name: ErrorBound(*rows) for name, *rows in zip(names, *bounds, strict=True)}
 
 
 @dataclass(frozen=True)
@@ -100,6 +99,7 @@ class Accuracy:
     """What was found at n positions, from which its errors are told when they are asked for.
 
     structure, poses, drive, slack, refined : as for ``error_bounds``
+    clear : positions at which it is known beforehand that all errors are slight, shape (n,)
     ok : positions that stand, shape (n,); bounds elsewhere are NaN
     """
 
@@ -108,14 +108,14 @@ class Accuracy:
     drive: Drive
     slack: Array
     refined: Array
+    clear: Array
     ok: Array
 
-    def rows(self, rows: slice) -> Accuracy:
+    def rows(self, rows: slice | Array) -> Accuracy:
         """Of some of the positions."""
-        poses = {name: pose.rows(rows) for name, pose in self.poses.items()}
-        return Accuracy(
-            self.structure, poses, self.drive[rows], self.slack[rows], self.refined[rows], self.ok[rows]
-        )
+        poses = {name: self.poses[name].rows(rows) for name in self.structure.links}
+        columns = (x[rows] for x in (self.slack, self.refined, self.clear, self.ok))
+        return Accuracy(self.structure, poses, self.drive[rows], *columns)
 
     @cached_property
     def links(self) -> Mapping[str, Errors]:
@@ -173,7 +173,8 @@ def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
     1, and its rates."""
     z, v, a, omega, alpha = (np.abs(x[:, :count]) for x in (all_.z, all_.v, all_.a, all_.omega, all_.alpha))
     points = z + size, v + size * omega, a + size * (alpha + omega**2)
-    return (*(x.max(axis=1) for x in points), 1.0, omega.max(axis=1), alpha.max(axis=1))
+    place, speed, push, spin, turning = (x.max(axis=1, keepdims=True) for x in (*points, omega, alpha))
+    return place, speed, push, 1.0, spin, turning
 
 
 class _Cams:
@@ -268,47 +269,69 @@ def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
     return before
 
 
-def _reached(layout: Layout, matrix: Array, hangs: Array) -> Array:
+def _reached(structure: Structure, layout: Layout) -> Array:
     """Which entries of the inverse are not zero by what hangs on what: a link is moved by the constraints between those
-    that it hangs on, shape (columns, rows)."""
-    taking = (matrix != 0).any(axis=0).reshape(len(matrix[0]), -1, 3).any(axis=2)
-    outside = ~hangs[:, : layout.members]
-    return np.repeat(~(outside.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
+    that it hangs on alone, shape (columns, rows)."""
+    if "reached" not in structure.kept:
+        before, names = _before(structure), layout.names[: layout.members]
+        taking = (layout.same != 0).reshape(layout.rows, -1, 3).any(axis=2)
+        for _, row, column, _ in (*layout.turn_entries, *layout.line_entries):
+            taking[row, column // 3] = True
+        for _, row, column, _ in layout.turn_entries:
+            taking[row + 1, column // 3] = True
+        away = np.array([[other not in before[name] for other in names] for name in names])
+        structure.kept["reached"] = np.repeat(~(away.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
+    reached: Array = structure.kept["reached"]
+    return reached
 
 
-def _change(system: System, all_: Pose, inverse: Array, error: Array, hangs: Array) -> Array:
-    """By how much of itself the matrix of what each link hangs on may change within the error of place, and then,
-    divided by one less this, its inverse, shape (n, links) (Golub and Van Loan, Matrix Computations, theorem 2.3.4)."""
+def _changes(system: System, all_: Pose, error: Array) -> Array:
+    """By how much each entry of the matrix may change within the error of place, shape (n, rows, columns)."""
     layout = system.layout
     spread = np.zeros((len(error), len(layout.names), 3))
-    spread[:, : layout.members] = error
+    spread[:, : layout.members] = error.reshape(len(error), -1, 3)
     turn, moved = spread[:, :, 2], np.hypot(spread[:, :, 0], spread[:, :, 1])
-    change = np.zeros((len(error), layout.members))
-    for (one, two), pairs in ((layout.turns, slice(None)), (layout.lines, slice(layout.slides))):
-        a, b = one.link[pairs], two.link[pairs]
-        arms = (np.abs(ends.place[pairs]) / layout.size for ends in (one, two))
-        changes = np.sum([(arm * turn[:, link]) ** 2 for arm, link in zip(arms, (a, b), strict=True)], axis=0)
-        if pairs.stop is not None:
-            joint = one.of(all_, 0).z[:, pairs]
-            arm, far = np.abs(one.place[pairs]) / layout.size, np.abs(joint - all_.z[:, b]) / layout.size
-            off = moved[:, a] + moved[:, b] + arm * turn[:, a]
-            # along the guide and across, as either may be a constraint
-            changes = changes + 2 * (2 * turn[:, b]) ** 2 + 2 * ((arm + far) * turn[:, b] + off) ** 2
-        change += np.where(hangs[:, a] & hangs[:, b], changes[:, None, :], 0.0).sum(axis=2)
-    sizes = (inverse**2).sum(axis=2).reshape(len(error), -1, 3).sum(axis=2)
-    most = np.where(hangs[:, : layout.members], sizes[:, None, :], 0.0).sum(axis=2)
-    return np.asarray(np.sqrt(most * change))
+    found = np.zeros((len(error), layout.rows, 3 * layout.members))
+    for ends, (joint, row, column, _) in zip(layout.turns, layout.turn_entries, strict=True):
+        swept = np.abs(ends.place[joint]) / layout.size * turn[:, ends.link[joint]]
+        found[:, row, column + 2] = found[:, row + 1, column + 2] = swept
+    if len(layout.line_rows):
+        (one, two), at = layout.lines, layout.lines[0].of(all_, 0).z
+        turned, arm = turn[:, two.link], np.abs(one.place) / layout.size
+        swept = arm * turn[:, one.link]
+        off = swept, swept + moved[:, one.link] + moved[:, two.link]
+        for ends, own, (joint, row, column, _) in zip(layout.lines, off, layout.line_entries, strict=True):
+            part, far = np.abs(layout.part[joint]), np.abs(at[:, joint] - all_.z[:, ends.link[joint]]) / layout.size
+            found[:, row, column] = found[:, row, column + 1] = part * turned[:, joint]
+            found[:, row, column + 2] += part * (far * turned[:, joint] + own[:, joint])
+    return found
 
 
-def _of_points(structure: Structure, name: str, poses: Mapping[str, Pose], error: Errors) -> Errors:
-    """The most of any point of a link, and of its turning."""
-    pose = poses[name]
-    r = np.full(len(error.angle), max(map(abs, structure.links[name].points.values()), default=0.0))
+def _growth(inverse: Array, changes: Array) -> tuple[Array, Array]:
+    """Positions at which changes of the matrix may matter, shape (n,), and for these by how much they make each error
+    greater: with C the product of both sizes it is (1 - C)^-1, and nothing is known where that is not positive (Varga,
+    Matrix Iterative Analysis, theorem 3.8)."""
+    product = SAFE * (inverse @ changes)
+    wild = ~(product.sum(axis=2).max(axis=1) < FLAT)
+    unit = np.eye(product.shape[1])
+    grown = solve_all(unit - product[wild], np.broadcast_to(unit, product[wild].shape))
+    unknown = ~(grown.min(axis=2) > -FLAT)
+    grown[unknown] = VAST
+    return wild, grown
+
+
+def _of_points(system: System, all_: Pose, error: Errors) -> Errors:
+    """The most of any point of each link, and of its turning, fields of shape (n, links)."""
+    structure, layout = system.structure, system.layout
+    names, count = layout.names[: layout.members], layout.members
+    reach = [max(map(abs, structure.links[name].points.values()), default=0.0) for name in names]
+    r = np.broadcast_to(np.array(reach), (len(error.angle), count)).copy()
     for slide in structure.slides:
-        if slide.b == name and slide.a in poses:
-            r = np.maximum(r, np.abs(poses[slide.a].z - pose.z))
-    spin, bend = np.abs(pose.omega), np.abs(pose.alpha) + pose.omega**2
-    return error.within(r, (np.abs(pose.z), np.abs(pose.v), np.abs(pose.a)), spin, bend, FEW * UNIT)
+        a, b = (layout.link[name] for name in slide.links)
+        if b < count:
+            r[:, b] = np.maximum(r[:, b], np.abs(all_.z[:, a] - all_.z[:, b]))
+    z, v, a_, omega, alpha = (np.abs(x[:, :count]) for x in (all_.z, all_.v, all_.a, all_.omega, all_.alpha))
+    return error.within(r, (z, v, a_), omega, alpha + omega**2, FEW * UNIT)
 
 
 # what the constraints may be off by themselves

@@ -459,7 +459,7 @@ def motion_of(
     ok = status == "ok"
     poses = {name: pose.spread(n).where(ok) for name, pose in state.poses.items()}
     poses[structure.scene.frame.name] = rest().still(n)
-    accuracy = Accuracy(structure, poses, state.drive, state.slack, state.refined, ok)
+    accuracy = Accuracy(structure, poses, state.drive, state.slack, state.refined, state.clear, ok)
     if any(link.redundant for link in structure.scene.links):
         poses = {**poses, **redundant_poses(structure, poses, ok, accuracy.of(()))}
     slides = all_slides(structure)
@@ -483,7 +483,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
         parts |= {("", "status"): some.status, ("", "values"): some.values, ("", "refined"): known.refined}
         drive = known.drive
         parts |= {("", "value"): drive.value, ("", "rate"): drive.rate, ("", "second"): drive.second}
-        parts |= {("", "slack"): known.slack, ("", "ok"): known.ok}
+        parts |= {("", "slack"): known.slack, ("", "clear"): known.clear, ("", "ok"): known.ok}
         if not columns:
             columns = {key: _Column(n) for key in parts}
         for key, values in parts.items():
@@ -500,7 +500,7 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
         status=kept["", "status"],
         reasons=tuple(reasons),
         poses=poses,
-        accuracy=Accuracy(known.structure, poses, drive, kept["", "slack"], kept["", "refined"], kept["", "ok"]),
+        accuracy=Accuracy(known.structure, poses, drive, *(kept["", x] for x in ("slack", "refined", "clear", "ok"))),
     )
 
 

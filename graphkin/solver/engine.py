@@ -119,6 +119,7 @@ class State:
     drive : of the drivers and what follows them, shape (n, drivers)
     groups : what each group gave, by its place among the elements
     refined : positions that were computed in 50 digits, shape (n,)
+    clear : positions far from every dead point of a dyad, without larger groups, shape (n,)
     slack : how far lifts and what rolls may be off, as for ``error_bounds``
     singular : the sine below which a group is at a dead point, smaller where the driver is given from a dead point
     lifted : what the formulas take of followers of cams and of what rolls, by name, shape (n,)
@@ -128,6 +129,7 @@ class State:
     drive: Drive
     groups: Mapping[int, DyadSolution | ClusterSolved]
     refined: Array
+    clear: Array
     slack: Array
     singular: Array
     lifted: Mapping[Name, Array] = field(default_factory=dict)
@@ -270,7 +272,10 @@ class _Run:
         rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
         kinds = ("lift", "rolled")
         lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] in kinds}
-        state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), slack,
+        sines = [np.abs(groups[i].sine) for i in dyads]  # type: ignore[union-attr]
+        clear = np.broadcast_to(np.prod(np.broadcast_arrays(1.0, *sines), axis=0) > CLEAR, (self.n,))
+        clear = clear if not self.clusters else np.zeros_like(clear)
+        state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), clear, slack,
                       np.where(exact, TINY, SINGULAR), lifted)  # fmt: skip
         again = exact
         if names and self.fine and self.rates and upto == len(self.structure.elements) and not in_stages(elements):
@@ -283,8 +288,7 @@ class _Run:
 
     def _rough(self, state: State) -> Array:
         """Positions whose rates sixteen digits leave rough."""
-        sines = [np.broadcast_to(g.sine, (self.n,)) for g in state.groups.values() if isinstance(g, DyadSolution)]
-        rough = ~(np.abs(np.prod(sines, axis=0)) > CLEAR) & bool(sines)
+        rough = ~state.clear
         if rough.any():
             bound = most_of(state.bounds(self.structure, rough).values())
             poses = {name: pose.spread(self.n).rows(rough) for name, pose in state.poses.items()}

@@ -211,15 +211,17 @@ class System:
     @classmethod
     def whole(cls, structure: Structure, drive: Drive) -> System:
         """The constraints of all links together; of a follower of a cam its own part alone."""
+        frame = structure.scene.frame.name
+        if "whole" in structure.kept:
+            return cls(structure, structure.kept["whole"], {frame: rest()}, drive)
         pairs: list[Pair] = []
         rolling: list[RollingRelation] = []
         for e in structure.elements:
             pairs += [*e.pairs, *(weld.pair for weld in e.welds)] if isinstance(e, Dyad) else e.pairs
             rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
-        frame = structure.scene.frame.name
         members = tuple(name for name in structure.links if name != frame)
-        every = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
-        return cls(structure, every, {frame: rest()}, drive)
+        structure.kept["whole"] = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
+        return cls(structure, structure.kept["whole"], {frame: rest()}, drive)
 
     def part(self, which: Array) -> System:
         """The constraints at some of the positions."""

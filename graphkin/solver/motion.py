@@ -21,8 +21,8 @@ from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
-from graphkin.solver.bounds import Accuracy
-from graphkin.solver.pose import Array, ErrorBound, Pose
+from graphkin.solver.bounds import FEW, Accuracy
+from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, pole, value_of_symbol
 from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
@@ -33,6 +33,10 @@ __all__ = [
     "listed_points", "own_slides", "pitch_point",
 ]  # fmt: skip
 
+_FIELDS: tuple[Measure, ...] = (
+    "length", "velocity", "acceleration", "angle", "angular velocity", "angular acceleration",
+)  # fmt: skip
+"""What the bounds of an ``ErrorBound`` are of, in their order."""
 SLIGHT = 1e-9  # of what the drivers alone make: a bound above it does not tell rounding from a small value
 
 
@@ -232,17 +236,39 @@ class Motion:
         return rate, second + rate**2
 
     @cached_property
-    def floors(self) -> Mapping[Measure, Array]:
-        """What is not above it is nothing but rounding, by measure, shape (n,) (SI): the bound of the error, as far as
-        that is slight beside the motion of the drivers.  Where it is more, beside a dead point, nothing is called 0."""
-        size = self.scene.size
-        rate, second = self.driven
-        pairs: dict[Measure, tuple[Array, Array | float]] = {
-            "length": (self.bound.position, size), "velocity": (self.bound.velocity, rate * size),
-            "acceleration": (self.bound.acceleration, second * size), "angle": (self.bound.angle, 1.0),
-            "angular velocity": (self.bound.omega, rate), "angular acceleration": (self.bound.alpha, second),
+    def _scales(self) -> Mapping[Measure, tuple[Array | float, Array | float]]:
+        """By measure what the drivers alone make, and what adding a point to its link may round away at the least."""
+        size, (rate, second) = self.scene.size, self.driven
+        poses = self.accuracy.poses.values()
+        place, fast, pushed = (FEW * UNIT * np.max([np.abs(getattr(p, f)) for p in poses], axis=0) for f in "zva")
+        return {
+            "length": (size, place), "velocity": (rate * size, fast), "acceleration": (second * size, pushed),
+            "angle": (1.0, 0.0), "angular velocity": (rate, 0.0), "angular acceleration": (second, 0.0),
         }  # fmt: skip
-        return {measure: np.where(bound <= SLIGHT * whole, bound, 0.0) for measure, (bound, whole) in pairs.items()}
+
+    def settled(self, value: Array, measure: Measure, ends: float = 1.0) -> Array:
+        """Values of a measure (SI), shape (n,), 0 where they are nothing but rounding; complex ones by their parts.
+
+        That is not above the bound of the error, where the bound is slight beside the motion of the drivers.  Where it
+        is more, beside a dead point, nothing is called 0.
+
+        Parameters
+        ----------
+        ends : how many places err in it
+        """
+        if np.iscomplexobj(value):
+            return self.settled(value.real, measure, ends) + 1j * self.settled(value.imag, measure, ends)
+        if measure not in self._scales:
+            return value
+        whole, least = self._scales[measure]
+        small = self.ok & (value != 0.0) & (np.abs(value) <= ends * SLIGHT * whole)
+        nothing = small & self.accuracy.clear & (np.abs(value) <= least)
+        open_ = np.flatnonzero(small & ~nothing)
+        if len(open_):
+            bound = dict(zip(_FIELDS, self.accuracy.rows(open_).of(()), strict=True))[measure]
+            slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[open_]
+            nothing[open_] = slight & (np.abs(value[open_]) <= ends * bound)
+        return np.where(nothing, 0.0, value)
 
     @cached_property
     def bound(self) -> ErrorBound[Array]:

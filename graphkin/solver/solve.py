@@ -134,7 +134,7 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     unknown = tuple(Phrase("assembled nowhere") for _ in structure.groups)
     slides, said = all_slides(structure), (why,) * n
     nothing = np.zeros(n, dtype=bool)
-    accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing)
+    accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing, nothing)
     return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, accuracy,
                   partial(range_of, structure))  # fmt: skip
 

@@ -127,7 +127,11 @@ class Quantity:
         """Its values in a motion (alone, or of a range) in the table's units, 0 where they are nothing but rounding:
         one array, or a vector's components."""
         found = self.values(reach, motion) if self.kind == "theta" else self.whole(motion)
-        value = self.unit(motion.scene).of(settled(found, self._floor(motion)))
+        if self.is_load:
+            found = settled(found, forces_of(motion).floors[self.kind == "moment"])
+        else:
+            found = motion.settled(found, self.measure, self._ends)
+        value = self.unit(motion.scene).of(found)
         return (value.real, value.imag) if self.is_vector else (value,)
 
     def columns(self, scene: Mechanism, parts: Sequence[Array], sizes: bool = True) -> list[Column]:
@@ -192,12 +196,6 @@ class Quantity:
             "acceleration": of.acceleration,
         }[self.measure]
         return np.asarray(np.where(np.isfinite(bound), self._ends * bound, 0.0))
-
-    def _floor(self, motion: Motion) -> Array:
-        """What rounding leaves of nothing in it (SI)."""
-        if self.is_load:
-            return forces_of(motion).floors[self.kind == "moment"]
-        return self._ends * motion.floors.get(self.measure, np.zeros(1))
 
     def _links(self, motion: Motion) -> Iterable[str]:
         """The links whose errors it has; none where it takes more than them, as a transmission angle does."""

@@ -234,8 +234,9 @@ def test_what_is_not_determined_is_no_0():
     beside = graphkin.solve(four_bar(40, 110, 80, 120), at=60).motion
     off = replace(beside.bound, alpha=np.full(1, 1e6))
     with patch.object(Accuracy, "of", lambda *given, **more: off):
-        assert [0.0] == replace(beside).floors["angular acceleration"].tolist()
-    assert 0.0 < beside.floors["angular acceleration"][0] < 1e-9
+        assert [1e-14] == beside.settled(np.full(1, 1e-14), "angular acceleration").tolist()
+    assert [0.0] == beside.settled(np.full(1, 1e-14), "angular acceleration").tolist()
+    assert [1e-9] == beside.settled(np.full(1, 1e-9), "angular acceleration").tolist()
 
 
 def minus_before_nought(data: object) -> list[str]:
