@@ -11,6 +11,7 @@ import pytest
 
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
+from graphkin.construction.strokes import Aid
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]
@@ -29,6 +30,16 @@ def test_what_is_nothing_but_rounding_is_zero_on_both_sides(name, at):
         if max(abs(row.measured), abs(row.true)) < 1e-12 * largest[row.reading.diagram, row.symbol.is_vector]
     ]
     assert [] == [str(row.symbol) for row in tiny if row.measured != 0.0 or row.true != 0.0]
+
+
+@pytest.mark.parametrize(("name", "at"), [("slider-crank-s50-e16-K1.2", 90), ("scissor-lift", None)])
+def test_a_step_tells_no_rate_that_is_nothing_but_rounding(name, at):
+    sheet = check(name, at=at).sheet
+    zero = {s.symbol for d in ("velocity", "acceleration") for s in sheet.vectors(d).values() if s.span == 0.0}
+    zero |= {s.symbol for step in sheet.steps for s in step.strokes if isinstance(s, Aid) and s.span == 0.0}
+    rates = [step for step in sheet.steps if step.reason == "rate" and step.symbol in zero]
+    assert rates
+    assert {0.0} == {step.value for step in rates}
 
 
 @pytest.mark.parametrize(("name", "at"), DEAD)
