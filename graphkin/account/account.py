@@ -16,8 +16,7 @@ from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.sizes import Term
-from graphkin.construction.steps import Reason, Step
-from graphkin.construction.strokes import Aid, Vector
+from graphkin.construction.steps import Aid, Reason, Step, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, word

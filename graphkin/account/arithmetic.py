@@ -17,8 +17,7 @@ from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet, either_way
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
-from graphkin.construction.steps import DiagramName, RateTrial, Step, Superposed
-from graphkin.construction.strokes import Aid, Vector
+from graphkin.construction.steps import Aid, DiagramName, RateTrial, Step, Superposed, Vector
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units

@@ -12,8 +12,19 @@ from functools import reduce
 from graphkin.account.headings import number
 from graphkin.account.voice import Voice
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import FINDS_A_POINT, Missed, Moved, Reason, Step, TrialPositions, TrialRow, TrialTable
-from graphkin.construction.strokes import Bar, CompassArc, Mark
+from graphkin.construction.steps import (
+    FINDS_A_POINT,
+    Bar,
+    CompassArc,
+    Mark,
+    Missed,
+    Moved,
+    Reason,
+    Step,
+    TrialPositions,
+    TrialRow,
+    TrialTable,
+)
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair

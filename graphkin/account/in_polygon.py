@@ -26,8 +26,7 @@ from graphkin.account.in_mechanism import numeral
 from graphkin.account.voice import SAME, Voice
 from graphkin.construction.sheet import Rate, Sheet
 from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size, Term
-from graphkin.construction.steps import RateTrial, Reason, Step, Superposed, end_of
-from graphkin.construction.strokes import Aid, Bar, Ray, Vector
+from graphkin.construction.steps import Aid, Bar, RateTrial, Ray, Reason, Step, Superposed, Vector, end_of
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, languages, listed

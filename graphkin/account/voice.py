@@ -16,8 +16,7 @@ from functools import cached_property
 from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
-from graphkin.construction.steps import DiagramName, Step
-from graphkin.construction.strokes import Aid, Bar, Mark, Vector
+from graphkin.construction.steps import Aid, Bar, DiagramName, Mark, Step, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, word
 from graphkin.words.rich_text import Markup, as_markup, rich_text

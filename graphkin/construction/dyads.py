@@ -21,8 +21,7 @@ from graphkin.construction.links_on_paper import (
     inner_hinge,
     rail,
 )
-from graphkin.construction.steps import Step
-from graphkin.construction.strokes import Bar, CompassArc
+from graphkin.construction.steps import Bar, CompassArc, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver

@@ -35,8 +35,7 @@ from graphkin.construction.sizes import (
     SquareOverRadius,
     Term,
 )
-from graphkin.construction.steps import Step
-from graphkin.construction.strokes import Aid, Bar, Mark, Ray, Vector
+from graphkin.construction.steps import Aid, Bar, Mark, Ray, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol

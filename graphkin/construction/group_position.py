@@ -26,8 +26,18 @@ from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
-from graphkin.construction.steps import Missed, Moved, Step, TrialPositions, TrialRow, TrialTable
-from graphkin.construction.strokes import Bar, CompassArc, Stroke, TrialCurve
+from graphkin.construction.steps import (
+    Bar,
+    CompassArc,
+    Missed,
+    Moved,
+    Step,
+    Stroke,
+    TrialCurve,
+    TrialPositions,
+    TrialRow,
+    TrialTable,
+)
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.model import Driver
 from graphkin.structure import Driven

@@ -20,8 +20,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
 from graphkin.construction.sheet import Board, Rate, Scales
 from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
-from graphkin.construction.steps import Step
-from graphkin.construction.strokes import Aid, Bar, Image, Mark, Vector
+from graphkin.construction.steps import Aid, Bar, Image, Mark, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.trains import Wheels
 from graphkin.errors import CallError, Problem, Unsolvable

@@ -10,8 +10,7 @@ from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
 from graphkin.construction.sheet import Board, Remark
-from graphkin.construction.steps import FINDS_A_POINT, Cause, Step
-from graphkin.construction.strokes import Mark
+from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Step
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
     Cluster,

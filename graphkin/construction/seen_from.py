@@ -17,8 +17,7 @@ import numpy as np
 from graphkin.construction.polygons import Polygons, letter
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius, Term
-from graphkin.construction.steps import DiagramName, Step
-from graphkin.construction.strokes import Aid, Bar, Ray, Stroke, Vector
+from graphkin.construction.steps import Aid, Bar, DiagramName, Ray, Step, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Cluster
 

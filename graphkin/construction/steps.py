@@ -1,4 +1,4 @@
-"""A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on the paper.
+"""A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on paper, in mm.
 
 Ten verbs draw mechanisms, polygons and groups alike; the ``reason`` says which of the things is done that the verb
 stands for, and with it how the step is told (`SENTENCES`) and which arguments it has.
@@ -9,18 +9,17 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
+from typing import Any, Literal, Self, TypeAlias
 
 from graphkin.construction.sizes import Direction, Role, Size
-from graphkin.construction.strokes import Stroke
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Phrase, listed
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "SENTENCES", "Cause", "DiagramName", "FarPoint", "Missed", "Moved", "PlanTrial",
-    "RateTrial", "Reason", "Step", "Superposed", "TakenOff", "TrialPositions", "TrialRow", "TrialTable", "Verb",
-    "end_of", "phrase_of",
+    "DIAGRAMS", "FINDS_A_POINT", "LENGTHS", "SENTENCES", "Aid", "Bar", "Cause", "CompassArc", "DiagramName", "FarPoint",
+    "Image", "Mark", "Missed", "Moved", "PlanTrial", "RateTrial", "Ray", "Reason", "Step", "Stroke", "Superposed",
+    "TakenOff", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
 ]  # fmt: skip
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
@@ -174,6 +173,113 @@ Cause: TypeAlias = Step | Phrase
 def phrase_of(cause: Cause) -> Phrase:
     """A step, or another cause of uncertainty, as a sentence to be."""
     return cause if isinstance(cause, Phrase) else cause.phrase
+
+
+# -- strokes -----------------------------------------------------------------------------------------------------------
+
+
+LENGTHS = {"tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners"}
+"""Places and lengths of strokes (mm), which a scale changes; a direction stays."""
+
+
+class OnPaper:
+    """A stroke by its places (mm)."""
+
+    def scaled(self, times: float) -> Self:
+        """The same so many times as large."""
+        places = {name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS}
+        return replace(self, **places)  # type: ignore[type-var]
+
+
+def _times(value: Any, times: float) -> Any:
+    if isinstance(value, tuple):
+        return tuple(place * times for place in value)
+    return value if value is None else value * times
+
+
+@dataclass(frozen=True)
+class Vector(OnPaper):
+    """A vector drawn: ``symbol`` from ``tail`` to ``tip``."""
+
+    symbol: Symbol
+    tail: complex
+    tip: complex
+    role: Role
+
+    @property
+    def span(self) -> complex:
+        return self.tip - self.tail
+
+
+@dataclass(frozen=True)
+class Aid(OnPaper):
+    """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
+
+    symbol: Symbol
+    tail: complex
+    tip: complex
+    trial: int
+
+    @property
+    def span(self) -> complex:
+        return self.tip - self.tail
+
+
+@dataclass(frozen=True)
+class Ray(OnPaper):
+    """A direction known only as a line, through a point, drawn as far as the crossing ``to`` (None: it has none)."""
+
+    through: complex
+    along: complex
+    to: complex | None
+    direction: Direction
+    symbol: Symbol
+
+
+@dataclass(frozen=True)
+class CompassArc(OnPaper):
+    """A compass arc about ``centre`` through the point ``at`` that it finds."""
+
+    centre: complex
+    radius: float
+    at: complex
+
+
+@dataclass(frozen=True)
+class Bar(OnPaper):
+    """A line of the mechanism or of a construction from a to b."""
+
+    a: complex
+    b: complex
+    link: str
+
+
+@dataclass(frozen=True)
+class TrialCurve(OnPaper):
+    """Where the free ``point`` of a group comes to lie in trial positions, ``at``, and the curve through them."""
+
+    curve: tuple[complex, ...]
+    at: tuple[complex, ...]
+    point: str
+
+
+@dataclass(frozen=True)
+class Mark(OnPaper):
+    """A named point of a figure.  ``ref`` without a point name is the pole."""
+
+    ref: PointRef
+    at: complex
+
+
+@dataclass(frozen=True)
+class Image(OnPaper):
+    """The image of a link: the end points of its points, in order."""
+
+    link: str
+    corners: tuple[complex, ...]
+
+
+Stroke = Vector | Aid | TrialCurve | Ray | CompassArc | Bar | Mark | Image
 
 
 # -- trials ------------------------------------------------------------------------------------------------------------

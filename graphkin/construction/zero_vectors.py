@@ -11,8 +11,7 @@ from dataclasses import replace
 
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Rate, Remark, Sheet
-from graphkin.construction.steps import DiagramName, Step
-from graphkin.construction.strokes import Aid, Stroke, Vector
+from graphkin.construction.steps import Aid, DiagramName, Step, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import greatest_before
 from graphkin.words import Phrase

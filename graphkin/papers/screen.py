@@ -22,8 +22,7 @@ from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import Plan, execute
 from graphkin.construction.scales import next_of_series
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.steps import DiagramName, Step
-from graphkin.construction.strokes import Vector
+from graphkin.construction.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
 from graphkin.drawing.figures.centres import background

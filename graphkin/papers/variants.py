@@ -21,7 +21,7 @@ from pathlib import Path
 from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
-from graphkin.construction.strokes import Ray
+from graphkin.construction.steps import Ray
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of

@@ -33,8 +33,7 @@ from graphkin.construction import draft, pencil
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.sheet import Board
 from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
-from graphkin.construction.steps import RateTrial, Step, Superposed
-from graphkin.construction.strokes import Aid
+from graphkin.construction.steps import Aid, RateTrial, Step, Superposed
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of

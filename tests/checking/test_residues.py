@@ -11,7 +11,7 @@ import pytest
 
 from graphkin import audit, check, draw, read, solve
 from graphkin.api.report_text import reading_words, report_text
-from graphkin.construction.strokes import Aid
+from graphkin.construction.steps import Aid
 from graphkin.words.written import amount
 
 DEAD = [("shaper-scheme-2", 90), ("swinging-block", 180), ("whitworth", 270), ("slider-crank-offset", 0)]

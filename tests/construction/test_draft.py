@@ -9,7 +9,7 @@ import pytest
 
 from graphkin.construction import Cad, Scales, draft, pencil
 from graphkin.construction.seen_from import vectors_seen
-from graphkin.construction.strokes import CompassArc, Ray
+from graphkin.construction.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of

@@ -14,8 +14,7 @@ from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Room, Slip, draft, execute, plan
 from graphkin.construction.instruments import pencil
-from graphkin.construction.steps import RateTrial, Superposed, TrialPositions
-from graphkin.construction.strokes import Aid, TrialCurve
+from graphkin.construction.steps import Aid, RateTrial, Superposed, TrialCurve, TrialPositions
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of

@@ -9,8 +9,7 @@ import pytest
 
 from graphkin.construction import draft
 from graphkin.construction.sizes import Direction
-from graphkin.construction.steps import SENTENCES, Reason, Step
-from graphkin.construction.strokes import LENGTHS, CompassArc, Ray, Stroke, TrialCurve
+from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Ray, Reason, Step, Stroke, TrialCurve
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 

@@ -16,8 +16,7 @@ from graphkin.construction import Plan, Slip, draft, execute, plan, reduced_mech
 from graphkin.construction.links_on_paper import Poses
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.reduced_mechanism import RemovedConstraint
-from graphkin.construction.steps import TrialPositions
-from graphkin.construction.strokes import Ray
+from graphkin.construction.steps import Ray, TrialPositions
 from graphkin.errors import SceneError
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of

@@ -19,7 +19,7 @@ import pytest
 import graphkin
 from graphkin.api.problem_sets import problem_set
 from graphkin.construction import draft
-from graphkin.construction.strokes import Ray
+from graphkin.construction.steps import Ray
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.papers import variants as room
 from graphkin.papers.data_rows import columns_of, replaced, value_of

@@ -24,7 +24,7 @@ from graphkin.account.notation import Letters, as_vector, force_letters
 from graphkin.checking.report import Report
 from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceVector
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.strokes import Vector
+from graphkin.construction.steps import Vector
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows

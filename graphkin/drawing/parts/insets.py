@@ -22,8 +22,7 @@ from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.sheet import Scales, Sheet
 from graphkin.construction.sizes import RateTimes, Size
-from graphkin.construction.steps import DiagramName
-from graphkin.construction.strokes import Vector
+from graphkin.construction.steps import DiagramName, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import (

@@ -14,7 +14,7 @@ from functools import cached_property
 
 from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.strokes import Mark
+from graphkin.construction.steps import Mark
 from graphkin.construction.touching import outlines_on_paper, station
 from graphkin.drawing.ink import symbols
 from graphkin.drawing.ink.primitives import Segment

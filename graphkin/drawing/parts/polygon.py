@@ -23,8 +23,7 @@ from graphkin.account.voice import SAME, Foot, Place, PolygonPoints
 from graphkin.construction.scales import SERIES
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName, Step
-from graphkin.construction.strokes import Aid, Bar, Image, Mark, Ray, Vector
+from graphkin.construction.steps import Aid, Bar, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
