@@ -15,7 +15,7 @@ from graphkin.words import Phrase, Wording, say, word
 
 __all__ = [
     "CallError", "Disagreement", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list",
-    "as_text", "did_you_mean", "printable",
+    "as_text", "did_you_mean", "printable", "unfit",
 ]  # fmt: skip
 
 PAGE = 4000
@@ -153,6 +153,15 @@ def printable(text: str) -> str:
     return _CONTROL.sub(lambda found: found[0].encode("unicode_escape", "surrogatepass").decode(), text)
 
 
+def unfit(where: Wording, value: object, wanted: Wording) -> CallError:
+    """The error of a value that is not what is wanted.
+
+    >>> print(unfit("seed", [1], "give a whole number"))
+    seed: found [1]; give a whole number
+    """
+    return CallError(Problem(where, Phrase("found value", value=f"{value!r:.60}"), wanted))
+
+
 def as_text(where: str, value: object) -> str:
     """What a caller gives as a name: a text, or what stands for one.  Raises CallError for numbers, lists and nothing.
 
@@ -160,7 +169,7 @@ def as_text(where: str, value: object) -> str:
     '2'
     """
     if not isinstance(value, str) and not type(value).__module__.startswith("graphkin."):  # a symbol
-        raise CallError(Problem(where, Phrase("found value", value=f'{value!r:.60}'), Phrase("give a name as a text")))
+        raise unfit(where, value, Phrase("give a name as a text"))
     return str(value)
 
 
@@ -173,7 +182,7 @@ def as_list(where: str, value: object, wanted: Wording) -> list[Any]:
     try:
         return [value] if isinstance(value, str) else list(value)  # type: ignore[call-overload]
     except TypeError:
-        raise CallError(Problem(where, Phrase("found value", value=f'{value!r:.60}'), wanted)) from None
+        raise unfit(where, value, wanted) from None
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> Phrase:

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError, Problem, unfit
 from graphkin.words import Phrase
 
 __all__ = ["Json", "OwnTables", "Tables", "folder_alone", "json_text", "opened", "path_of", "whole_file"]
@@ -49,9 +49,7 @@ def path_of(place: str | os.PathLike[str]) -> Path:
         os.fsencode(place)  # half a pair of UTF-16 is in no name
         path = os.fspath(place)
     if not isinstance(path, str) or "\0" in path:
-        raise CallError(
-            Problem("path", Phrase("found value", value=f"{place!r:.60}"), Phrase("give the name of a file or folder"))
-        )
+        raise unfit("path", place, Phrase("give the name of a file or folder"))
     return Path(path)
 
 

@@ -15,7 +15,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
-from graphkin.errors import CallError, Problem, as_list, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
@@ -121,9 +121,7 @@ MOST_SEED = 10**18
 def require_callable(where: str, function: object) -> None:
     """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
     if function is not None and not callable(function):
-        raise CallError(
-            Problem(where, Phrase("found value", value=f"{function!r:.60}"), Phrase("give a function or leave it out"))
-        )
+        raise unfit(where, function, Phrase("give a function or leave it out"))
 
 
 def as_scene(scene: SceneLike) -> Mechanism:

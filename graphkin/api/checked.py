@@ -24,7 +24,7 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import Compared, Report, compare, rounding_of
 from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
+from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -336,13 +336,7 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     """The instrument of a name.  Raises CallError for another name."""
     if not isinstance(name, str):
-        raise CallError(
-            Problem(
-                "instrument",
-                Phrase("found value", value=f"{name!r:.60}"),
-                Phrase("known here", names=", ".join(INSTRUMENTS)),
-            )
-        )
+        raise unfit("instrument", name, Phrase("known here", names=", ".join(INSTRUMENTS)))
     if name == "exact":
         return EXACT
     if name == "cad":

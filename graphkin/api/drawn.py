@@ -30,7 +30,7 @@ from graphkin.construction.limits import Turned, TurnOfCrank
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import Shown
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list
+from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -231,7 +231,7 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
         return tuple(name for name, figure in figure_kinds().items() if figure.by_itself(scene))
     wanted = Phrase("give a list velocity")
     if isinstance(names, str):
-        raise CallError(Problem("figures", Phrase("found value", value=f'{names!r:.60}'), wanted))
+        raise unfit("figures", names, wanted)
     names = as_list("figures", names, wanted)
     if wrong := unknown_words("figure", names, figure_kinds()):
         raise CallError(*wrong)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
-from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean
+from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import written
 from graphkin.scene.symbol import Symbol
@@ -143,13 +143,7 @@ class Prepared(Tabled, OfScene):
         try:
             own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
         except (TypeError, ValueError):
-            raise CallError(
-                Problem(
-                    "values",
-                    Phrase("found value", value=f"{values!r:.60}"),
-                    Phrase("give numbers one for each position"),
-                )
-            ) from None
+            raise unfit("values", values, Phrase("give numbers one for each position")) from None
         wrong = own[~(np.abs(own) <= MOST_VALUE)]
         if len(wrong):
             raise CallError(
@@ -183,13 +177,7 @@ class Prepared(Tabled, OfScene):
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n
         if not isinstance(out, np.ndarray):
-            raise CallError(
-                Problem(
-                    "out",
-                    Phrase("found value", value=f"{out!r:.60}"),
-                    Phrase("give an array of floats of the shape", shape=shape),
-                )
-            )
+            raise unfit("out", out, Phrase("give an array of floats of the shape", shape=shape))
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
             wanted = Phrase("give an array of floats of the shape in", shape=shape)
             raise CallError(Problem("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted))

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 from pydantic import AfterValidator
 from pydantic import Field as Rule
 
-from graphkin.errors import CallError, Problem, SceneError, did_you_mean
+from graphkin.errors import Problem, SceneError, did_you_mean, unfit
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.plane import degrees, direction
 from graphkin.scene import files
@@ -245,7 +245,7 @@ def design_of(source: DesignLike) -> Design:
     else:
         if not isinstance(source, Mapping):
             wanted = Phrase("give a file the name of a design")
-            raise CallError(Problem("design", Phrase("found value", value=f'{source!r:.60}'), wanted))
+            raise unfit("design", source, wanted)
         raw, name = plain(source), "design"
     return _read(raw, safe_name(name))
 

@@ -22,7 +22,7 @@ from numbers import Real
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.errors import CallError, Problem, SceneError, as_text
+from graphkin.errors import CallError, Problem, SceneError, as_text, unfit
 from graphkin.files import OwnTables, Tables, opened, path_of
 from graphkin.scene import mechanism_of
 from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
@@ -87,13 +87,7 @@ def designs_of(
     CallError : naming every value, key and row that is wrong
     """
     if given is not None and not isinstance(given, Mapping):
-        raise CallError(
-            Problem(
-                "designs",
-                Phrase("found value", value=f"{given!r:.60}"),
-                Phrase("give values by keys links.1.length 40 50"),
-            )
-        )
+        raise unfit("designs", given, Phrase("give values by keys links.1.length 40 50"))
     problems: list[Problem] = []
     grid: dict[str, tuple[Value, ...]] = {}
     for key, values in ((as_text("designs", key), values) for key, values in (given or {}).items()):
