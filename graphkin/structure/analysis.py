@@ -23,11 +23,8 @@ __all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]
 def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
     scene = system.scene
     found = len(scene.drivers)
-    count = (
-        f"F = 3*{mobility.links} - 2*{mobility.lower} - {mobility.higher} = {mobility.value}"
-        if mobility.higher
-        else f"F = 3*{mobility.links} - 2*{mobility.lower} = {mobility.value}"
-    )
+    higher = f" - {mobility.higher}" if mobility.higher else ""
+    count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
     wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
     if found > mobility.value > 0:
         names = ", ".join(d.key for d in scene.drivers)
@@ -296,17 +293,13 @@ def mobility_of(scene: Mechanism) -> Mobility:
     return Constraints(scene).mobility()
 
 
-def _loose_ends(system: Constraints) -> tuple[Problem, ...]:
+def _loose_ends(system: Constraints) -> Iterator[Problem]:
     """Why a mechanism has more freedom than was meant, by name: points that nothing joins, links that hang on one pin;
     nothing where all hang together.
 
     The commonest cause is a slip of the hand, a name written in two ways; the next a roller, whose own turning moves
     nothing else.
     """
-    return tuple(_found(system))
-
-
-def _found(system: Constraints) -> Iterator[Problem]:
     scene = system.scene
     moving = [link for name, link in system.links.items() if name in scene.by_name and name != scene.frame.name]
     unused = [p for p in scene.frame.points if p not in system.hinges]
