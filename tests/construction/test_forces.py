@@ -316,3 +316,32 @@ def test_planted_errors_are_found_in_the_drawn_system_of_a_larger_group_too(monk
     monkeypatch.setattr(acting, "_inertia", right)
     monkeypatch.setattr(groups, "cross", lambda a, b: -cross(a, b))  # every arm on the wrong side
     assert "M_2" in wrong(scene)
+
+
+CHAIN = {  # links 2, 3 and 4 are one body of a dyad, joined by two drivers one after the other
+    "frame": {"name": "1", "points": {"A": [0, 0], "D": [300, 0]}},
+    "links": {
+        "2": {"points": ["A", "B"], "length": 100},
+        "3": {"points": ["B", "C"], "length": 120},
+        "4": {"points": ["C", "E"], "length": 90},
+        "5": {"points": ["E", "D"], "length": 200},
+    },
+    "driver": [
+        {"link": "3", "relative_to": "2", "angle": -30, "omega": 2},
+        {"link": "4", "relative_to": "3", "angle": -40, "omega": 3},
+    ],
+    "masses": {"3": {"at": "C", "mass": 2, "inertia": 0.01}, "4": {"at": "E", "mass": 3, "inertia": 0.02}},
+    "find": ["M_3", "M_4", "F_1/2", "F_2/3", "F_3/4", "F_4/5"],
+}
+
+
+def test_a_driver_s_moment_loads_the_next_link_of_a_chain_with_the_opposite_sense(monkeypatch):
+    assert set() == wrong(CHAIN)
+    right = groups._at_weld
+
+    def flipped(*given):
+        forces, moment = right(*given)
+        return forces, replace(moment, moment=-moment.moment)
+
+    monkeypatch.setattr(groups, "_at_weld", flipped)
+    assert "M_3" in wrong(CHAIN)
