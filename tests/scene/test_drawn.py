@@ -8,7 +8,7 @@ import math
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import mechanism_of_text
+from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import Driver, Mechanism
 
 from .scenes import changed
@@ -260,3 +260,21 @@ def test_what_the_drawn_points_do_not_give_is_missed(case: str) -> None:
 
 def test_a_wrong_place_in_drawn_is_one_problem() -> None:
     assert [s.split(":")[0] for s in messages(FOUR_BAR, ("B = [30, 40]", "B = [30, inf]"))] == ["drawn.B.2"]
+
+
+def test_a_driver_angle_that_the_drawn_points_do_not_make_is_told_with_both() -> None:
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [400, 0]}},
+        "links": {
+            "1": {"points": ["A", "B"]},
+            "2": {"points": ["B", "C"], "length": 500},
+            "3": {"points": ["D", "C"], "length": 300},
+        },
+        "driver": {"link": "1", "angle": 50, "omega": 1},
+        "drawn": {"B": [0, 150]},
+    }
+    with pytest.raises(SceneError, match="link 1: found 50 deg, but the given places make it 90"):
+        mechanism_of(scene)
+    assert math.radians(90) == pytest.approx(
+        mechanism_of(scene | {"driver": {"link": "1", "omega": 1}}).drivers[0].value
+    )
