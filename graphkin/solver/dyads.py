@@ -15,20 +15,16 @@ The functions compute with formulas (``graphkin.solver.expressions``) as well as
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Generic, NamedTuple, Protocol, TypeAlias
+from typing import Generic, NamedTuple, TypeAlias
 
 from graphkin.plane import Values, cross, dot
-from graphkin.scene.cams import LawCam
-from graphkin.scene.model import Driver
 from graphkin.solver.expressions import Real, Vec, fmax, fmin, root, two_sum
 from graphkin.solver.pose import Number, Pose, R, V
-from graphkin.structure import Body, Driven, Dyad, DyadKind, Pair, Rolled, Structure
+from graphkin.structure import DyadKind
 
-__all__ = [
-    "DyadSolution", "Frames", "Joints", "PoseFormula", "body_shape", "driven", "dyad_joints", "members", "solve_dyad",
-]  # fmt: skip
+__all__ = ["DyadSolution", "Joints", "PoseFormula", "solve_dyad"]
 
 
 @dataclass(frozen=True)
@@ -275,109 +271,3 @@ _SOLVERS: dict[DyadKind, Callable[[Joints[Values, Values], Values], DyadSolution
 
 PoseFormula: TypeAlias = "Pose[Vec, Real]"
 """A pose given by formulas."""
-
-
-class Frames(Protocol):
-    """Where frames of axes come from: those of joints on their links, and what the drivers give."""
-
-    structure: Structure
-
-    def rest(self, pair: Pair, link: str) -> PoseFormula:
-        """The joint's frame in the axes of one of its links."""
-
-    def turn(self, driver: Driver) -> PoseFormula:
-        """The rotation that an angle driver gives."""
-
-    def travel(self, driver: Driver) -> tuple[Real, Real, Real]:
-        """Value, rate and second rate of a slide driver."""
-
-    def lift(self, cam: LawCam) -> tuple[Real | Vec, Real, Real]:
-        """Where a follower stands, its travel or the direction of its own axis, and its first and second derivative by
-        the angle of the cam."""
-
-
-    def rolled(self, rolled: Rolled) -> tuple[Real | Vec, Real, Real]:
-        """Where what rolls stands, its travel or the direction of its own axis, with its rates."""
-
-
-def driven(frames: Frames, element: Driven, poses: Mapping[str, PoseFormula]) -> PoseFormula:
-    """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
-    pair, link = element.pair, element.link
-    base = pair.b if pair.a == link else pair.a
-    mine, theirs = frames.rest(pair, link), frames.rest(pair, base)
-    at = poses[base].fixed(theirs.z, theirs.u)
-    if isinstance(element.driver, LawCam):
-        stands, slope, bend = frames.lift(element.driver)
-        cam = poses[element.driver.link]
-        rate, second = slope * cam.omega, bend * (cam.omega * cam.omega) + slope * cam.alpha
-        if isinstance(stands, Vec):
-            return at.pinned(mine, stands, rate, second)
-        return at.along(stands, rate, second).of(mine.inverse())
-    if isinstance(element.driver, Rolled):
-        stands, rate, second = frames.rolled(element.driver)
-        if isinstance(stands, Vec):
-            return at.pinned(mine, stands, rate, second)
-        sense = 1.0 if pair.a == link else -1.0
-        return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
-    if element.driver.turns:
-        given = frames.turn(element.driver)
-        forward = element.driver.link == link
-        from_ = poses[element.driver.relative_to if forward else element.driver.link]
-        seen = from_.of(given if forward else given.inverse())
-        return at.pinned(mine, seen.u, seen.omega, seen.alpha)
-    travel, rate, second = frames.travel(element.driver)
-    if pair.a == link:
-        return at.along(travel, rate, second).of(mine.inverse())
-    return at.along(-travel, -rate, -second).of(mine.inverse())
-
-
-def body_shape(frames: Frames, body: Body, rest: PoseFormula) -> dict[str, PoseFormula]:
-    """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
-    shape = {body.links[0]: rest}
-    for weld in body.welds:
-        joint = shape[weld.a].of(frames.rest(weld.pair, weld.a))
-        if weld.driver.turns:
-            given = frames.turn(weld.driver)
-            joint = joint.of(given if weld.sign > 0 else given.inverse())
-        else:
-            travel, rate, second = frames.travel(weld.driver)
-            if weld.b != weld.pair.a:
-                travel, rate, second = -travel, -rate, -second
-            joint = joint.along(travel, rate, second)
-        shape[weld.b] = joint.of(frames.rest(weld.pair, weld.b).inverse())
-    return shape
-
-
-def dyad_joints(
-    frames: Frames, dyad: Dyad, shapes: tuple[dict[str, PoseFormula], dict[str, PoseFormula]],
-    poses: Mapping[str, PoseFormula], size: Real,
-) -> Joints[Vec, Real]:  # fmt: skip
-    """The six joint frames of a dyad."""
-
-    def inside(pair: Pair, shape: Mapping[str, PoseFormula]) -> tuple[PoseFormula, str]:
-        link = pair.a if pair.a in shape else pair.b
-        at = frames.rest(pair, link)
-        return shape[link].fixed(at.z, at.u), link
-
-    def known(pair: Pair, link: str) -> PoseFormula:
-        base = pair.b if link == pair.a else pair.a
-        at = frames.rest(pair, base)
-        return poses[base].fixed(at.z, at.u)
-
-    outer1, link1 = inside(dyad.outer_first, shapes[0])
-    outer2, link2 = inside(dyad.outer_second, shapes[1])
-    return Joints(
-        known(dyad.outer_first, link1),
-        outer1,
-        inside(dyad.inner, shapes[0])[0],
-        known(dyad.outer_second, link2),
-        outer2,
-        inside(dyad.inner, shapes[1])[0],
-        1.0 if link2 == dyad.outer_second.a else -1.0,
-        size,
-    )
-
-
-def members(shape: Mapping[str, PoseFormula], base: PoseFormula) -> dict[str, PoseFormula]:
-    """The links of a body in the world, from the base's pose."""
-    return {link: base.of(pose) for link, pose in shape.items()}

@@ -108,9 +108,6 @@ FEW = 4
 """As many positions are computed one by one in plain floats."""
 
 
-_ZERO = np.zeros(1)
-
-
 @dataclass(frozen=True)
 class State:
     """The mechanism at n positions.

@@ -234,10 +234,6 @@ class ErrorBound(Generic[R]):
         """Of the angle and its first and second rate."""
         return self.angle, self.omega, self.alpha
 
-    def turning_as(self, angle: R, omega: R, alpha: R) -> ErrorBound[R]:
-        """The same origin, with another direction."""
-        return replace(self, angle=angle, omega=omega, alpha=alpha)
-
     def within(self, r: R, origin: tuple[R, R, R], spin: R, bend: R, rounding: R | float) -> ErrorBound[R]:
         """The most of any point within a radius of the origin.
 

@@ -14,22 +14,13 @@ from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import DIGITS, meant, meant_direction
-from graphkin.solver.dyads import (
-    DyadSolution,
-    Joints,
-    PoseFormula,
-    body_shape,
-    driven,
-    dyad_joints,
-    members,
-    solve_dyad,
-)
+from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.pose import GIVEN, Pose
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Rolled, Structure
+from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
 
-__all__ = ["DimensionedProgram", "Program", "program_of"]
+__all__ = ["DimensionedProgram", "Program", "body_shape", "driven", "dyad_joints", "members", "program_of"]
 
 SPECIAL = (0.0, 1.0, -1.0)
 """Numbers with which formulas are shorter."""
@@ -299,3 +290,86 @@ def program_of(
             _PROGRAMS.pop(next(iter(_PROGRAMS)), None)
     dimensioned = structure.kept[key] = DimensionedProgram(program, structure)
     return dimensioned
+
+
+def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) -> PoseFormula:
+    """The pose of a link that a driver or a cam moves from known links: crank, driven slider, follower."""
+    pair, link = element.pair, element.link
+    base = pair.b if pair.a == link else pair.a
+    mine, theirs = program.rest(pair, link), program.rest(pair, base)
+    at = poses[base].fixed(theirs.z, theirs.u)
+    if isinstance(element.driver, LawCam):
+        stands, slope, bend = program.lift(element.driver)
+        cam = poses[element.driver.link]
+        rate, second = slope * cam.omega, bend * (cam.omega * cam.omega) + slope * cam.alpha
+        if isinstance(stands, Vec):
+            return at.pinned(mine, stands, rate, second)
+        return at.along(stands, rate, second).of(mine.inverse())
+    if isinstance(element.driver, Rolled):
+        stands, rate, second = program.rolled(element.driver)
+        if isinstance(stands, Vec):
+            return at.pinned(mine, stands, rate, second)
+        sense = 1.0 if pair.a == link else -1.0
+        return at.along(stands * sense, rate * sense, second * sense).of(mine.inverse())
+    if element.driver.turns:
+        given = program.turn(element.driver)
+        forward = element.driver.link == link
+        from_ = poses[element.driver.relative_to if forward else element.driver.link]
+        seen = from_.of(given if forward else given.inverse())
+        return at.pinned(mine, seen.u, seen.omega, seen.alpha)
+    travel, rate, second = program.travel(element.driver)
+    if pair.a == link:
+        return at.along(travel, rate, second).of(mine.inverse())
+    return at.along(-travel, -rate, -second).of(mine.inverse())
+
+
+def body_shape(program: Program, body: Body, rest: PoseFormula) -> dict[str, PoseFormula]:
+    """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
+    shape = {body.links[0]: rest}
+    for weld in body.welds:
+        joint = shape[weld.a].of(program.rest(weld.pair, weld.a))
+        if weld.driver.turns:
+            given = program.turn(weld.driver)
+            joint = joint.of(given if weld.sign > 0 else given.inverse())
+        else:
+            travel, rate, second = program.travel(weld.driver)
+            if weld.b != weld.pair.a:
+                travel, rate, second = -travel, -rate, -second
+            joint = joint.along(travel, rate, second)
+        shape[weld.b] = joint.of(program.rest(weld.pair, weld.b).inverse())
+    return shape
+
+
+def dyad_joints(
+    program: Program, dyad: Dyad, shapes: tuple[dict[str, PoseFormula], dict[str, PoseFormula]],
+    poses: Mapping[str, PoseFormula], size: Real,
+) -> Joints[Vec, Real]:  # fmt: skip
+    """The six joint frames of a dyad."""
+
+    def inside(pair: Pair, shape: Mapping[str, PoseFormula]) -> tuple[PoseFormula, str]:
+        link = pair.a if pair.a in shape else pair.b
+        at = program.rest(pair, link)
+        return shape[link].fixed(at.z, at.u), link
+
+    def known(pair: Pair, link: str) -> PoseFormula:
+        base = pair.b if link == pair.a else pair.a
+        at = program.rest(pair, base)
+        return poses[base].fixed(at.z, at.u)
+
+    outer1, link1 = inside(dyad.outer_first, shapes[0])
+    outer2, link2 = inside(dyad.outer_second, shapes[1])
+    return Joints(
+        known(dyad.outer_first, link1),
+        outer1,
+        inside(dyad.inner, shapes[0])[0],
+        known(dyad.outer_second, link2),
+        outer2,
+        inside(dyad.inner, shapes[1])[0],
+        1.0 if link2 == dyad.outer_second.a else -1.0,
+        size,
+    )
+
+
+def members(shape: Mapping[str, PoseFormula], base: PoseFormula) -> dict[str, PoseFormula]:
+    """The links of a body in the world, from the base's pose."""
+    return {link: base.of(pose) for link, pose in shape.items()}
