@@ -15,8 +15,6 @@ from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.dimensions import Dimension, dimensions, with_dimensions
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, bounds, solve
-from graphkin.solver.pose import Array, Drive
-from graphkin.structure import Structure
 from tests import EVERYTHING, rolling_linkages, scenes
 from tests.bench.accuracy import measure
 from tests.bench.larger import measure_larger
@@ -72,24 +70,22 @@ def mechanism(name: str) -> Mechanism:
     return mechanism_of_text(source, name) if isinstance(source, str) and "\n" in source else mechanism_of(source)
 
 
-def told(motion: Motion, number: complex | None, value: float, rates: tuple[float, float]) -> dict[str, Any]:
-    """The bounds of each link if nothing but one number is off: one of the file, or the driver's value or its rates."""
-
-    def errors(structure: Structure, drive: Drive, refined: Array, value_error: Array | None) -> list[Array]:
-        first = np.zeros(drive.value.shape)
-        first[:, 0] = 1.0
-        # what follows by rolling goes with the first driver
-        ratios = np.array([[1.0], *([d.ratios[0]] for d in structure.followers)])[: drive.value.shape[1], 0]
-        return [off * np.abs(first if not structure.followers else ratios[None]) for off in (value, *rates)]
+def told(motion: Motion, number: complex | None, value: float = 0.0, given: float = 0.0) -> dict[str, Any]:
+    """The bounds of each link if nothing but one number is off: one of the file, or the driver's value by so much, or
+    its rates by so much of themselves."""
+    known = motion.accuracy
+    structure = replace(known.structure)  # nothing is kept of what was written
+    errors = np.zeros(known.drive.value.shape)
+    errors[:, : len(structure.scene.drivers)] = np.eye(len(structure.scene.drivers))[0] * value
+    for k, follower in enumerate(structure.followers, start=len(structure.scene.drivers)):
+        errors[:, k] = abs(follower.ratios[0]) * value
 
     def converted(z: complex, direction: bool) -> tuple[float, float]:
         off = STEP if z == number else 0.0
         return off, off
 
-    known = motion.accuracy
-    with patch.object(bounds, "_driver_errors", errors), patch.object(bounds, "conversion_error", converted):
-        structure = replace(known.structure)  # nothing is kept of what was written
-        return bounds.error_bounds(structure, known.poses, known.drive, 0 * known.slack, known.refined)
+    with patch.object(bounds, "GIVEN", given), patch.object(bounds, "conversion_error", converted):
+        return bounds.error_bounds(structure, known.poses, known.drive, 0 * known.slack, known.refined, errors)
 
 
 def missed(one: Motion, two: Motion, name: str) -> list[float]:
@@ -109,15 +105,13 @@ def changes(name: str) -> Iterator[tuple[Dimension, Motion, dict[str, Any]]]:
     for dimension, z in dimensions(scene).items():
         kind = dimension[0]
         if kind == "value" and dimension[1] == 0:
-            yield dimension, solve(scene, at={driver.key: driver.value + STEP}), told(own, None, STEP, (0.0, 0.0))
-        elif kind in ("rate", "second") and dimension[1] == 0:
-            moved = with_dimensions(scene, {dimension: z + STEP})
-            off = (STEP, 0.0) if kind == "rate" else (0.0, STEP)
-            yield dimension, solve(moved), told(own, None, 0.0, off)
+            yield dimension, solve(scene, at={driver.key: driver.value + STEP}), told(own, None, value=STEP)
+        elif kind in ("rate", "second") and dimension[1] == 0 and z:
+            yield dimension, solve(with_dimensions(scene, {dimension: z + STEP})), told(own, None, given=STEP / abs(z))
         elif kind in ("point", "through", "direction", "turn") and name not in FIXED:
             turned = kind in ("direction", "turn")
             new = z * np.exp(1j * STEP) if turned else z + STEP * (0.6 + 0.8j)
-            yield dimension, solve(with_dimensions(scene, {dimension: complex(new)})), told(own, z, 0.0, (0.0, 0.0))
+            yield dimension, solve(with_dimensions(scene, {dimension: complex(new)})), told(own, z)
 
 
 @pytest.mark.parametrize("name", SCENES)
