@@ -571,11 +571,12 @@ def check_distances(position: DrawnPosition) -> None:
     if not bars:
         return
     short, body = min(bars, key=lambda bar: bar[0])
-    places = [(length, f"links.{b.name}.length") for length, b in bars]
+    places = []
     for b in position.bodies.values():
         points = f"{b.where}.at" if b.where != "frame" else "frame.points"
         places += [(abs(z), f"{points}.{p}") for p, z in b.local.items() if p not in b.own]
         places += [(abs(g.through), f"{b.where}.guides.{n}") for n, g in b.guides.items() if n]
+    places += [(length, f"links.{b.name}.length") for length, b in bars]
     far, where = max(places, key=lambda place: place[0])
     if far > FARTHEST * short:
         metres = position.metres

@@ -39,6 +39,8 @@ FLAT = 1e-6
 """Changes of the matrix, relatively, that the slack takes."""
 BLOCK = 4096
 """Positions whose constraints are looked at together."""
+LEAST = 1e-30
+"""Stands for an error of place (of the size, rad) that is none."""
 VAST = 1e100
 """Stands for an entry of an inverse that is not known."""
 _BINOMIAL = ((1,), (1, 1), (1, 2, 1))
@@ -81,7 +83,8 @@ def error_bounds(
             terms = [w * np.einsum("nij,nj->ni", sizes[k], rows[order - k]) for k, w in enumerate(_BINOMIAL[order])]
             error = np.sum(terms, axis=0)
             if order == 0:
-                wild, grown = _growth(sizes[0], _changes(system, all_, error))
+                wild, grown = _growth(sizes[0], _changes(system, all_, error), error)
+                grown *= _hanging(structure, names)
             # each order has the inverse twice more
             for _ in range(2 * order + 1 if wild.any() else 0):
                 error[wild] = np.einsum("nij,nj->ni", grown, error[wild])
@@ -285,6 +288,13 @@ def _reached(structure: Structure, layout: Layout) -> Array:
     return reached
 
 
+def _hanging(structure: Structure, names: Sequence[str]) -> Array:
+    """Which coordinates of links may pass on an error to which, 1 or 0, shape (columns, columns)."""
+    before = _before(structure)
+    links = np.array([[float(other in before[name]) for other in names] for name in names])
+    return np.repeat(np.repeat(links, 3, axis=0), 3, axis=1)
+
+
 def _changes(system: System, all_: Pose, error: Array) -> Array:
     """By how much each entry of the matrix may change within the error of place, shape (n, rows, columns)."""
     layout = system.layout
@@ -307,15 +317,22 @@ def _changes(system: System, all_: Pose, error: Array) -> Array:
     return found
 
 
-def _growth(inverse: Array, changes: Array) -> tuple[Array, Array]:
+def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]:
     """Positions at which changes of the matrix may matter, shape (n,), and for these by how much they make each error
     greater: with C the product of both sizes it is (1 - C)^-1, and nothing is known where that is not positive (Varga,
-    Matrix Iterative Analysis, theorem 3.8)."""
+    Matrix Iterative Analysis, theorem 3.8).
+
+    It is solved in parts of the errors of place: along a chain they grow by many powers of ten, and rounding in the
+    large ones would reach the small.
+    """
     product = SAFE * (inverse @ changes)
     wild = ~(product.sum(axis=2).max(axis=1) < FLAT)
-    unit = np.eye(product.shape[1])
-    grown = solve_all(unit - product[wild], np.broadcast_to(unit, product[wild].shape))
+    scale = np.maximum(error[wild], LEAST)
+    ratio = scale[:, :, None] / scale[:, None, :]
+    parts, unit = product[wild] / ratio, np.eye(product.shape[1])
+    grown = solve_all(unit - parts, np.broadcast_to(unit, parts.shape))
     unknown = ~(grown.min(axis=2) > -FLAT)
+    grown = np.maximum(grown, unit + parts) * ratio  # the first terms of its series, should rounding leave less
     grown[unknown] = VAST
     return wild, grown
 

@@ -186,7 +186,7 @@ def singular(structure: Structure, state: State, n: int) -> Iterator[tuple[int, 
         lost = np.any([~(sine >= WEAK) for sine in sines], axis=0)
         if lost.any():
             bound = most_of(state.bounds(structure, lost).values())
-            lost[lost] = ~np.isfinite(sum(bound))
+            lost[lost] = ~np.logical_and.reduce([np.isfinite(part) for part in bound])
         for k, i in enumerate(dyads):
             yield i, lost & (weakest == k) & ~(sines[k] >= WEAK)
     for i, solved in state.groups.items():

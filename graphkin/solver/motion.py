@@ -268,7 +268,7 @@ class Motion:
             bound = dict(zip(_FIELDS, self.accuracy.rows(open_).of(()), strict=True))[measure]
             slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[open_]
             nothing[open_] = slight & (np.abs(value[open_]) <= ends * bound)
-        return np.where(nothing, 0.0, value)
+        return np.where(nothing, 0.0, value) + 0.0  # never -0
 
     @cached_property
     def bound(self) -> ErrorBound[Array]:
