@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, Self, TypeAlias
+from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.construction.sizes import Direction, Role, Size
 from graphkin.scene.symbol import PointRef, Symbol
@@ -39,6 +39,7 @@ Reason = Role | Literal[
 ]  # fmt: skip
 FINDS_A_POINT: Collection[Reason] = ("arcs", "arc on path", "paths")
 """Reasons of steps by which a point of the mechanism is found, before it is marked on its link."""
+Value = TypeVar("Value")
 NO_SYMBOL, NO_POINT, NO_DIRECTION = Symbol(""), PointRef(""), Direction("found", ())
 
 
@@ -148,10 +149,9 @@ class Step:
         """The same step with all its lengths on paper so many times as large."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
         data = self.data.scaled(times) if isinstance(self.data, TrialPositions | Superposed) else self.data
-        told = replace(self, strokes=strokes, data=data)
-        if self.per_mm:
-            return told
-        return replace(told, mm=self.mm * times, radii=tuple(radius * times for radius in self.radii))
+        growth = 1.0 if self.per_mm else times
+        radii = tuple(radius * growth for radius in self.radii)
+        return _changed(self, strokes=strokes, data=data, mm=self.mm * growth, radii=radii)
 
     @property
     def links_drawn(self) -> tuple[str, ...]:
@@ -188,7 +188,15 @@ class OnPaper:
     def scaled(self, times: float) -> Self:
         """The same so many times as large."""
         places = {name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS}
-        return replace(self, **places)  # type: ignore[type-var]
+        return _changed(self, **places)
+
+
+def _changed(value: Value, **fields: object) -> Value:
+    """As ``replace``, of values that do nothing when they are made: a sheet is scaled for each figure, and taking the
+    fields as they are is ten times faster than asking for each of them."""
+    copy = object.__new__(type(value))
+    vars(copy).update(vars(value), **fields)
+    return copy
 
 
 def _times(value: Any, times: float) -> Any:
