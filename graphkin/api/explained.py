@@ -18,7 +18,7 @@ from graphkin.errors import GraphkinError, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
-from graphkin.structure import Cluster, Structure, mobility_of
+from graphkin.structure import LargerGroup, Structure, mobility_of
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, class_of, word
 
@@ -275,7 +275,7 @@ def _groups(structure: Structure) -> Iterator[Sentence]:
     for group in structure.groups:
         links = ", ".join(group.links)
         larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
-        kind = larger if isinstance(group, Cluster) else group.kind
+        kind = larger if isinstance(group, LargerGroup) else group.kind
         yield "explained groups", Phrase("explained group", (links, kind, class_of(group.order)))
         taken = assembly.get(links)
         if taken is not None:

@@ -26,7 +26,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, pick
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Rolled, Structure, pick
 from graphkin.words import Phrase
 
 __all__ = ["Known", "all_fits", "as_sketched", "assembly_at", "fits_between", "nearest_assembly", "own_position"]
@@ -46,7 +46,7 @@ Axes = dict[str, complex]
 
 def assembly_at(
     structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
-) -> tuple[dict[int, int], dict[Cluster, GroupTrial], dict[str, float]]:
+) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial], dict[str, float]]:
     """In which assembly the groups of some elements stand at driver values (rad, m).
 
     Parameters
@@ -87,7 +87,7 @@ def assembly_at(
 
 def nearest_assembly(
     choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
-) -> tuple[dict[int, int], dict[Cluster, GroupTrial]]:
+) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial]]:
     """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
     placed, so that links lie where they are known to lie (``poses``).
 
@@ -96,11 +96,11 @@ def nearest_assembly(
     starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
     """
     branches: dict[int, int] = {}
-    trials: dict[Cluster, GroupTrial] = {}
+    trials: dict[LargerGroup, GroupTrial] = {}
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
             branches[i] = meet(paper, element).nearest(poses) or 0
-        elif isinstance(element, Cluster):
+        elif isinstance(element, LargerGroup):
             if starting is not None and element.rolling:
                 reduced = standing(starting, element, paper, poses)
             else:
@@ -124,42 +124,42 @@ def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[
     paper = start_board(structure, 1.0 / structure.scene.size, values)
     wanted = {n for element in elements for n in element.members}
 
-    def choose(_: int, element: Dyad | Cluster) -> Poses:
+    def choose(_: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, Dyad):
             return meant(structure, paper, element)
-        return _cluster_by_sketch(choices, paper, element)
+        return _group_by_sketch(choices, paper, element)
 
     here = [element for element in structure.elements if wanted.intersection(element.members)]
     assembled(paper, here, choose, lambda driver: driver.start)
     return paper
 
 
-def _cluster_by_sketch(choices: Choices, paper: PlacedLinks, cluster: Cluster) -> Poses:
+def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
     """The assembly of a larger group that is meant: one that is sketched, improved until everything fits; where the
     sketch does not tell it, of all that fit the one nearest to what is sketched."""
     structure = choices.structure
     sketched = [
-        fit for rough in as_sketched(structure, cluster, paper)
-        if (fit := next(filter(None, (fitted(reduced, paper, rough) for reduced in choices.of[cluster])), None))
+        fit for rough in as_sketched(structure, group, paper)
+        if (fit := next(filter(None, (fitted(reduced, paper, rough) for reduced in choices.of[group])), None))
     ]  # fmt: skip
     found: list[dict[str, Pose]] = []
     _add_new(found, (fit for fit in sketched if _is_told(structure, paper, fit)))
     if not found:
         # by several trial drivers: what one passes over at its dead point another sees
         by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
-        for reduced in choices.of[cluster]:
+        for reduced in choices.of[group]:
             by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
         for reduced in list(by_driver.values())[:TRIALS]:
             _add_new(found, all_fits(reduced, paper))
         _add_new(found, sketched)
     if not found:
-        names = ", ".join(cluster.links)
+        names = ", ".join(group.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
         )
-    found = _without_twins(structure, paper, cluster, found)
+    found = _without_twins(structure, paper, group, found)
     candidates = [paper.fresh(poses) for poses in found]
-    return found[pick(structure.scene, cluster.links, candidates, None).index]
+    return found[pick(structure.scene, group.links, candidates, None).index]
 
 
 def _add_new(found: list[dict[str, Pose]], fits: Iterable[dict[str, Pose]]) -> None:
@@ -177,11 +177,11 @@ def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
 
 
 def _without_twins(
-    structure: Structure, paper: PlacedLinks, cluster: Cluster, found: Sequence[dict[str, Pose]]
+    structure: Structure, paper: PlacedLinks, group: LargerGroup, found: Sequence[dict[str, Pose]]
 ) -> list[dict[str, Pose]]:
     """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
     one where what slides lies on the positive side."""
-    slides = [p for p in cluster.pairs if not p.turns and p.a in cluster.members and p.b in cluster.members]
+    slides = [p for p in group.pairs if not p.turns and p.a in group.members and p.b in group.members]
 
     def positive(poses: Poses) -> float:
         ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - paper.mm * s.guide.through for s in slides)
@@ -301,7 +301,7 @@ def _drawn(
     """A trial drawing of the group; None where two loci do not meet."""
     paper, wanted = reduced.opened(known, values), iter(branches)
 
-    def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
+    def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
         assert isinstance(dyad, Dyad)
         meeting, branch = meet(paper, dyad), next(wanted)
         return meeting.poses[branch] if branch < len(meeting.poses) else None
@@ -372,27 +372,27 @@ def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: floa
 # -- where links lie roughly, by the sketch ----------------------------------------------------------------------------
 
 
-def as_sketched(structure: Structure, cluster: Cluster, known: PlacedLinks) -> list[dict[str, Pose]]:
+def as_sketched(structure: Structure, group: LargerGroup, known: PlacedLinks) -> list[dict[str, Pose]]:
     """All links known and those of a group roughly where they are sketched, in each position that the sketch can mean;
     none where it does not tell of all of them."""
     scene = structure.scene
     places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
     places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
-    sketch = _Sketch(structure, cluster, known, places)
+    sketch = _Sketch(structure, group, known, places)
     return list(islice(sketch.positions(dict(known.poses), {n: pose.axis for n, pose in known.poses.items()}), MOST))
 
 
 class _Sketch:
     def __init__(
-        self, structure: Structure, cluster: Cluster, known: PlacedLinks, places: Mapping[str, complex]
+        self, structure: Structure, group: LargerGroup, known: PlacedLinks, places: Mapping[str, complex]
     ) -> None:
-        self.members, self.places = cluster.members, places
-        self.slides = [p for p in cluster.pairs if not p.turns]
+        self.members, self.places = group.members, places
+        self.slides = [p for p in group.pairs if not p.turns]
         self.points = {n: {p: z * known.mm for p, z in link.points.items()} for n, link in structure.links.items()}
         self.mm = known.mm
         # links whose directions tell each other's: the second's is the first's times this
         self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
-        self.joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in cluster.drivers if d.turns]
+        self.joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in group.drivers if d.turns]
 
     def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:
         """Every position from the links and directions known already."""

@@ -26,11 +26,11 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver
 from graphkin.structure import (
-    Cluster,
     Driven,
     Dyad,
     DyadKind,
     Element,
+    LargerGroup,
     Rolled,
     Structure,
     named_with_contact,
@@ -296,7 +296,7 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     return meeting.poses[pick(structure.scene, dyad.links, candidates, 0).index]
 
 
-Choose = Callable[[int, Dyad | Cluster], Poses | None]
+Choose = Callable[[int, Dyad | LargerGroup], Poses | None]
 """Where the links of a group lie, by its place among the elements; None where they cannot be placed."""
 
 

@@ -54,7 +54,7 @@ from graphkin.plane import added_up, dot, unit
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Rolled, Weld, driver_pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -170,7 +170,7 @@ def _equation_of(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
 # -- larger groups -----------------------------------------------------------------------------------------------------
 
 
-def _draw_group(plot: Polygons, order: Order, group: Cluster) -> None:
+def _draw_group(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw what a larger group adds to a polygon."""
     known_turns(plot, order, group)
     _rolling_points(plot, group)
@@ -181,7 +181,7 @@ def _draw_group(plot: Polygons, order: Order, group: Cluster) -> None:
         _draw_first(plot, order, group)
 
 
-def drawn_group(plot: Polygons, group: Cluster, kept: Sequence[str]) -> DrawnGroup:
+def drawn_group(plot: Polygons, group: LargerGroup, kept: Sequence[str]) -> DrawnGroup:
     """How a group was drawn, said."""
     plan = plot.plans[group]
     points = tuple((m.letter, m.link) for m in plan.moves if isinstance(m, Special))
@@ -189,7 +189,7 @@ def drawn_group(plot: Polygons, group: Cluster, kept: Sequence[str]) -> DrawnGro
     return DrawnGroup(group, plan.way, tuple(kept), tuple(unknown.name for unknown in plan.tried), closing, points)
 
 
-def _draw_first(plot: Polygons, order: Order, group: Cluster) -> None:
+def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Find how a group is drawn, and draw it so."""
     plain = _plans(plot, group)
     first = next(plain, None)
@@ -205,7 +205,7 @@ def _draw_first(plot: Polygons, order: Order, group: Cluster) -> None:
         _take(plot, order, group, (replace(p, far=p.far or far) for p in chain((first,), plain)))
 
 
-def _take(plot: Polygons, order: Order, group: Cluster, plans: Iterable[GroupPlan]) -> None:
+def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[GroupPlan]) -> None:
     """Draw a group by the first plan without trials, else by that whose trials find the rates best; all have as
     many."""
     best: tuple[float, GroupPlan] | None = None
@@ -228,7 +228,7 @@ def _take(plot: Polygons, order: Order, group: Cluster, plans: Iterable[GroupPla
     _draw_by(plot, order, group, best[1])
 
 
-def _draw_by(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> None:
+def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> None:
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, one, two in plan.parallel:
@@ -246,7 +246,7 @@ def _draw_by(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> N
 # -- moves -------------------------------------------------------------------------------------------------------------
 
 
-def _draw_move(plot: Polygons, order: Order, group: Cluster, step: Move) -> None:
+def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: Move) -> None:
     """Draw a move of a plan."""
     for edge in (e for path in step.sides for e in path if e.held):
         # the point of the contour that the equation needs
@@ -262,7 +262,7 @@ def _draw_move(plot: Polygons, order: Order, group: Cluster, step: Move) -> None
     _complete(plot, order, group)
 
 
-def _complete(plot: Polygons, order: Order, group: Cluster) -> None:
+def _complete(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """All points of links that turn at known rates and of which one point is known, by images."""
     ends = plot.ends[order]
     left = [n for n in group.members if n in plot.rates[order]]
@@ -286,7 +286,7 @@ def _left_over(plot: Polygons, order: Order, net: Net) -> list[Edge]:
     return found
 
 
-def _special_point(plot: Polygons, order: Order, group: Cluster, move: Special) -> None:
+def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Special) -> None:
     """The end point of a special point by both legs; of one relative to another moving link how it moves relative to
     that: nothing in velocity where nothing drives a leg, but in acceleration."""
     link, name = move.link, move.letter
@@ -310,7 +310,7 @@ def _special_point(plot: Polygons, order: Order, group: Cluster, move: Special) 
 
 
 def _to_special(
-    plot: Polygons, group: Cluster, leg: Path, joint: PointRef, ref: PointRef, link: str, turns: bool = False
+    plot: Polygons, group: LargerGroup, leg: Path, joint: PointRef, ref: PointRef, link: str, turns: bool = False
 ) -> tuple[Edge, ...]:
     """From the joint of a leg to the special point; nothing where it is the joint itself."""
     if abs(plot.places[joint.point] - plot.places[ref.point]) <= plot.tiny:
@@ -333,7 +333,7 @@ def _mark_special(plot: Polygons, move: Special) -> None:
         points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.paper.mm}
         plot.links[move.link] = replace(plot.links[move.link], points=points)
     joints = tuple(leg[-1].end.point for leg in move.legs)
-    driven = any(not e.unknown and (e.slide or e.weld) for leg in move.legs for e in leg)
+    driven = any(not e.unknown and (e.slide or e.joint) for leg in move.legs for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
     step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
     plot.board.do(replace(step, base=move.base, kind="driven" if driven else ""))
@@ -352,32 +352,32 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
     return [name for name in LETTERS if name not in taken]
 
 
-def _plans(plot: Polygons, group: Cluster, wide: bool = False) -> Iterator[GroupPlan]:
+def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
     """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Joined`."""
     net = _net_of(plot, group, wide)
     return plan_group(net, same_turn(plot, group), partial(_direction, plot), _free_letters(plot))
 
 
-def _net_of(plot: Polygons, group: Dyad | Cluster, wide: bool = False) -> Net:
+def _net_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> Net:
     """The points of a group and their relative motions; ``wide`` as in `Joined`."""
     if isinstance(group, Dyad):
-        welds = [w for body in group.bodies for w in body.welds]
-        pairs = (*group.pairs, *(w.pair for w in welds))
-        joined = Joined(group.members, pairs, welds)
+        joints = [w for body in group.bodies for w in body.joints]
+        pairs = (*group.pairs, *(w.pair for w in joints))
+        joined = Joined(group.members, pairs, joints)
     else:
         held = [(d, driver_pair(d, plot.links, plot.structure.slides)) for d in group.drivers if d.turns]
-        welds = [Weld(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None]
+        joints = [DrivenJoint(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None]
         driven = frozenset(d.key for d in group.drivers if not d.turns)
         rolling = _rolling_points(plot, group)
         seen = [(held, n) for held, rest in plot.contours.get(group, ()) for n in rest.links]
         pairs = group.pairs
-        joined = Joined(group.members, pairs, welds, driven, near=True, rolling=rolling, contours=seen, wide=wide)
+        joined = Joined(group.members, pairs, joints, driven, near=True, rolling=rolling, contours=seen, wide=wide)
     names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
     joined = at_contacts(plot, group, joined)
     return Net(plot.links, plot.ground, joined, plot.places, names, same_turn(plot, group), plot.tiny)
 
 
-def _rolling_points(plot: Polygons, group: Cluster) -> list[RollingPoint]:
+def _rolling_points(plot: Polygons, group: LargerGroup) -> list[RollingPoint]:
     """The points where links of a group roll on each other: contacts by their name, those of wheels by a free
     letter, marked on the mechanism."""
     scene = plot.structure.scene
@@ -410,15 +410,15 @@ def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> com
         return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
     if edge.contact:
         return -1j * plot.contact(edge.contact)[2]
-    if edge.weld is not None and edge.weld.pair.turns:  # both ends lie at one place, off the hinge
-        return 1j * unit(places[edge.end.point] - places[edge.weld.pair.point])
+    if edge.joint is not None and edge.joint.pair.turns:  # both ends lie at one place, off the hinge
+        return 1j * unit(places[edge.end.point] - places[edge.joint.pair.point])
     return 1j * unit(places[edge.end.point] - places[edge.start.point])
 
 
 # -- contours of known shape -------------------------------------------------------------------------------------------
 
 
-def _with_fewer_trials(plot: Polygons, group: Cluster, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
+def _with_fewer_trials(plot: Polygons, group: LargerGroup, trials: int) -> tuple[list[GroupPlan], FarPoint | None]:
     """The plans of a group with fewer trials than so many, special points carried over to all links that turn with
     theirs, its contours drawn first where that spares more; none where neither does, and then the special point
     met with that is no use.  The links held still are chosen so that what is seen from them is laid off as it was
@@ -443,7 +443,7 @@ def _with_fewer_trials(plot: Polygons, group: Cluster, trials: int) -> tuple[lis
     return (best[1] if best is not None else []), far
 
 
-def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
+def _contours_of(plot: Polygons, group: LargerGroup) -> list[tuple[str, ...]]:
     if group.rolling or (plot.at_contacts and contacts_of(plot.structure, group)):
         return []
     inside = set(group.members)
@@ -465,7 +465,7 @@ def _contours_of(plot: Polygons, group: Cluster) -> list[tuple[str, ...]]:
     return contours(group.members, joints, turning)
 
 
-def _rests_on(plot: Polygons, group: Cluster, contour: Sequence[str]) -> list[tuple[str, Cluster]]:
+def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> list[tuple[str, LargerGroup]]:
     """The links of a contour that can be held still so that the rest is drawn on it without trials; those first on
     which the most hangs besides."""
     outer = [n for p in group.pairs for n in (p.a, p.b) if not {p.a, p.b} <= set(contour)]
@@ -480,7 +480,7 @@ def _rests_on(plot: Polygons, group: Cluster, contour: Sequence[str]) -> list[tu
     return found
 
 
-def _turn_driven(plot: Polygons, order: Order, rest: Cluster) -> None:
+def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
     """Lay off points of links that turn at known rates about hinges of the held link."""
     for pair in (p for p in rest.pairs if p.turns and plot.ground in (p.a, p.b)):
         name, pivot = pair.b if pair.a == plot.ground else pair.a, PointRef(pair.point)
@@ -492,7 +492,7 @@ def _turn_driven(plot: Polygons, order: Order, rest: Cluster) -> None:
                 draw_equation(plot, order, rest, ClosingVector((Edge(pivot, end, (pivot, end), way, link=name),)))
 
 
-def _draw_contours(plot: Polygons, order: Order, group: Cluster) -> None:
+def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw the contours of a group, each as it moves seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
         if held not in plot.seen:
@@ -524,13 +524,13 @@ def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> Non
             plot.board.do(step)
 
 
-def _on(group: Cluster, held: str, contour: Sequence[str]) -> Cluster:
+def _on(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
     """The links of a contour besides the held one, as a group of their own."""
     rest = tuple(n for n in contour if n != held)
     within = set(contour)
     drivers = tuple(d for d in group.drivers if within.issuperset(d.links))
     pairs = tuple(p for p in group.pairs if within.issuperset(p.links))
-    return Cluster(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
+    return LargerGroup(rest, pairs, drivers, tuple(n for n in rest if n in group.links), group.order)
 
 
 def _against(plan: GroupPlan) -> bool:
@@ -541,7 +541,7 @@ def _against(plan: GroupPlan) -> bool:
 # -- trial polygons ----------------------------------------------------------------------------------------------------
 
 
-def _assume(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan, rates: Sequence[float]) -> None:
+def _assume(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan, rates: Sequence[float]) -> None:
     """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
     for unknown, value in zip(plan.tried, rates, strict=True):
         if isinstance(unknown, Turning):
@@ -552,7 +552,7 @@ def _assume(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan, rates
 
 
 def _trial_polygon(
-    plot: Polygons, order: Order, group: Cluster, plan: GroupPlan, number: int, rates: Sequence[float]
+    plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan, number: int, rates: Sequence[float]
 ) -> Polygons:
     trial = plot.fork(number)
     _assume(trial, order, group, plan, rates)
@@ -614,7 +614,7 @@ def _taken_off(plot: Polygons, order: Order, edge: Edge, across: bool) -> Iterat
             yield TakenOff(p.symbol, p.size, dot(p.span, way))
 
 
-def _judged(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> tuple[float, GroupPlan]:
+def _judged(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> tuple[float, GroupPlan]:
     """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
     the ends by which the true rates are known."""
     try:
@@ -644,7 +644,7 @@ def _judged(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> tu
     return quality, replace(plan, open_ends=tuple(keys[i] for i in chosen))
 
 
-def _with_assumptions(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> GroupPlan:
+def _with_assumptions(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> GroupPlan:
     """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
     side of it, all on the one side in the first trial, each in its turn on the other in those that follow; the
     nearer to the true ones, the further a trial polygon would reach beyond the true one."""
@@ -677,7 +677,7 @@ def _gaps(plot: Polygons, order: Order, plan: GroupPlan, trial: Polygons) -> lis
     return [_gap(trial, order, *one) or 0.0 for one in plan.open_ends]
 
 
-def _true_rates(plot: Polygons, order: Order, group: Cluster, plan: GroupPlan) -> list[float]:
+def _true_rates(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> list[float]:
     """The true rates by proportional division of what trial polygons leave open."""
     rates = plan.assumed[order]
     apart: list[list[float]] = []

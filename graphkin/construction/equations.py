@@ -39,7 +39,7 @@ from graphkin.construction.steps import Aid, Bar, Mark, Ray, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Weld
+from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
 
 __all__ = [
     "at_contacts", "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
@@ -62,10 +62,10 @@ def links_alike(links: Iterable[str], pairs: Iterable[tuple[str, str, float]]) -
     return alike
 
 
-def same_turn(plot: Polygons, group: Dyad | Cluster) -> dict[str, str]:
+def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
     """For each link of a group one link with the same rotation but for given ones: a known one if there is any, none of
     the blocks of contacts that are drawn themselves."""
-    if plot.part_of is not None and isinstance(group, Cluster):
+    if plot.part_of is not None and isinstance(group, LargerGroup):
         # links of the group that are not of the contour turn as unknown as its own
         alike = links_alike(group.members, turned(plot, None, group))
         inside = set(group.members)
@@ -77,30 +77,30 @@ def same_turn(plot: Polygons, group: Dyad | Cluster) -> dict[str, str]:
     return {n: next((m for m in sorted(alike[n]) if m not in names), own[n]) for n in names}
 
 
-def turned(plot: Polygons, order: Order | None, group: Dyad | Cluster) -> list[tuple[str, str, float]]:
+def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> list[tuple[str, str, float]]:
     """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a); without an order only
     which."""
     whole = group if plot.part_of is None else plot.part_of
     pairs = _turned_alike(whole, order or "velocity", plot.given if order else {})
-    for held, rest in plot.contours.get(group, ()) if isinstance(group, Cluster) else ():
+    for held, rest in plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ():
         seen = plot.seen[held].rates[order] if order and held in plot.seen else {}
         pairs += [(held, n, seen[n].value if n in seen else 0.0) for n in rest.members if not order or n in seen]
     return pairs
 
 
 def _turned_alike(
-    group: Dyad | Cluster, order: Order, rates: Mapping[str, tuple[float, float]]
+    group: Dyad | LargerGroup, order: Order, rates: Mapping[str, tuple[float, float]]
 ) -> list[tuple[str, str, float]]:
     """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
-    welds = () if isinstance(group, Cluster) else tuple(w for body in group.bodies for w in body.welds)
-    drivers = group.drivers if isinstance(group, Cluster) else tuple(w.driver for w in welds)
+    joints = () if isinstance(group, LargerGroup) else tuple(w for body in group.bodies for w in body.joints)
+    drivers = group.drivers if isinstance(group, LargerGroup) else tuple(w.driver for w in joints)
     which = 0 if order == "velocity" else 1
-    slides = [(p.a, p.b, 0.0) for p in (*group.pairs, *(w.pair for w in welds)) if not p.turns]
+    slides = [(p.a, p.b, 0.0) for p in (*group.pairs, *(w.pair for w in joints)) if not p.turns]
     given = [(d.relative_to, d.link, rates[d.key][which] if rates else 0.0) for d in drivers if d.turns]
     return [*slides, *given]
 
 
-def known_turns(plot: Polygons, order: Order, group: Dyad | Cluster) -> None:
+def known_turns(plot: Polygons, order: Order, group: Dyad | LargerGroup) -> None:
     """Links that share their rotation with one already known."""
     for name, other in same_turn(plot, group).items():
         if other in plot.rates[order] and name not in plot.rates[order]:
@@ -112,7 +112,7 @@ def share_rate(plot: Polygons, order: Order, known: str, name: str, add: float =
     plot.rates[order][name] = Rate(name, rate.value + add, rate.vector, rate.mm, rate.arm_mm, rate.same_as or known)
 
 
-def spread(plot: Polygons, order: Order, start: str, group: Dyad | Cluster) -> None:
+def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) -> None:
     """From one known rotation to those of all links that slide on each other or are held by drivers."""
     pairs = turned(plot, order, group)
     queue = [start]
@@ -123,7 +123,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | Cluster) -> N
                 if known == at and new not in plot.rates[order]:
                     share_rate(plot, order, at, new, more)
                     told = _told_apart(plot, order, a, b) if a in plot.seen else add != 0.0
-                    if isinstance(group, Cluster) and at != plot.ground and told:
+                    if isinstance(group, LargerGroup) and at != plot.ground and told:
                         value = plot.rates[order][at].value
                         plot.board.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
                                            value=value, other=add))  # fmt: skip
@@ -151,7 +151,7 @@ def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
     return list(dict.fromkeys(first))
 
 
-def at_contacts(plot: Polygons, group: Dyad | Cluster, joined: Joined) -> Joined:
+def at_contacts(plot: Polygons, group: Dyad | LargerGroup, joined: Joined) -> Joined:
     """What joins a group, with its sliding contacts themselves where these are drawn."""
     contacts = contacts_of(plot.structure, group) if plot.at_contacts else ()
     return joined_at_contacts(joined, contacts) if contacts else joined
@@ -200,7 +200,7 @@ def draw_equation(
     An equation that says no more of a vector than that it is itself is not written.
     """
     if isinstance(equation, ParallelLegs):
-        assert isinstance(element, Cluster)
+        assert isinstance(element, LargerGroup)
         _draw_parallel_legs(plot, order, element, equation)
         return
     end = equation.end
@@ -294,7 +294,7 @@ def _lines_meet(
 
 
 def draw_relative(
-    plot: Polygons, order: Order, group: Cluster, symbol: Symbol, paths: Sequence[Sequence[Edge]]
+    plot: Polygons, order: Order, group: LargerGroup, symbol: Symbol, paths: Sequence[Sequence[Edge]]
 ) -> complex:
     """The vector of one moving point relative to another, drawn from the pole by two ways that have no known start."""
     sides = [_side_of(plot, order, path) for path in paths]
@@ -311,7 +311,7 @@ def draw_relative(
     return meeting
 
 
-def _draw_parallel_legs(plot: Polygons, order: Order, group: Cluster, legs: ParallelLegs) -> None:
+def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: ParallelLegs) -> None:
     """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the joints,
     from the other's along the direction that both leave free."""
     side = _side_of(plot, order, legs.path)
@@ -398,8 +398,8 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
 
 def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     """The terms of the motion of an edge's end relative to its start."""
-    if edge.weld is not None:
-        return _weld_parts(plot, order, edge, edge.weld)
+    if edge.joint is not None:
+        return _driven_joint_parts(plot, order, edge, edge.joint)
     if edge.contact:
         return _contact_parts(plot, order, edge)
     if edge.rolling:
@@ -471,17 +471,17 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     return [normal, _term(plot, edge, "at", square, mm, edge.direction, rule)]
 
 
-def _weld_parts(plot: Polygons, order: Order, edge: Edge, weld: Weld) -> list[Component]:
+def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJoint) -> list[Component]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
-    hinge, per = weld.pair.point, plot.scales.of(order)
+    hinge, per = joint.pair.point, plot.scales.of(order)
     arm = plot.places[edge.end.point] - plot.places[hinge]
-    way = 1 if (weld.driver.link == weld.b) == edge.forward else -1  # whether the driver turns the end from the start
-    omega, alpha = (way * rate for rate in plot.given[weld.driver.key])
-    name, both = (hinge, edge.end.point), (weld.b, weld.a)
+    way = 1 if (joint.driver.link == joint.b) == edge.forward else -1  # whether the driver turns the end from the start
+    omega, alpha = (way * rate for rate in plot.given[joint.driver.key])
+    name, both = (hinge, edge.end.point), (joint.b, joint.a)
     length, square = plot.length(arm, name), 1j * unit(arm)
     if order == "velocity":
         return [_term(plot, edge, "v", square, omega * length / per, edge.direction, RateTimes("omega", both, name))]
-    base = weld.a if edge.forward else weld.b
+    base = joint.a if edge.forward else joint.b
     turn, inward = plot.rates["velocity"][base].value, -unit(arm)
     squared = RateTimes("omega", both, name, square=True)
     return [

@@ -17,7 +17,7 @@ from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedCon
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Driver
-from graphkin.structure import Cluster, Driven, Dyad, Element, Rolled, Structure, started
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Rolled, Structure, started
 from graphkin.structure.assembly import out_of_reach, ways
 
 __all__ = [
@@ -43,9 +43,9 @@ class Choices:
     def __init__(self, structure: Structure, elements: Sequence[Element]) -> None:
         self.structure, self.elements = structure, elements
         wanted = [c for c in structure.larger_groups if c in elements]
-        self.of: Mapping[Cluster, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
-        self.last: dict[Cluster, ReducedMechanism] = {}
-        self._further: dict[Cluster, list[ReducedMechanism]] = {}
+        self.of: Mapping[LargerGroup, list[ReducedMechanism]] = {c: reduced_mechanisms(structure, c) for c in wanted}
+        self.last: dict[LargerGroup, ReducedMechanism] = {}
+        self._further: dict[LargerGroup, list[ReducedMechanism]] = {}
 
     @cached_property
     def at_start(self) -> Choices:
@@ -57,15 +57,15 @@ class Choices:
         wanted = {n for element in self.elements for n in element.members}
         return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
 
-    def further(self, cluster: Cluster) -> list[ReducedMechanism]:
+    def further(self, group: LargerGroup) -> list[ReducedMechanism]:
         """Those with more constraints removed than it takes, for where the others are at dead points."""
-        if cluster not in self._further:
+        if group not in self._further:
             try:
-                fewest = len(self.of[cluster][0].removed)
-                self._further[cluster] = reduced_mechanisms(self.structure, cluster, fewest)
+                fewest = len(self.of[group][0].removed)
+                self._further[group] = reduced_mechanisms(self.structure, group, fewest)
             except Unsolvable:
-                self._further[cluster] = []
-        return self._further[cluster]
+                self._further[group] = []
+        return self._further[group]
 
 
 def moved_to(
@@ -176,7 +176,7 @@ def found_near(
     paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, values, {ground: Pose(0j, 1 + 0j)})
     from_there = guess if start is None else start
 
-    def choose(_: int, element: Dyad | Cluster) -> Poses | None:
+    def choose(_: int, element: Dyad | LargerGroup) -> Poses | None:
         if isinstance(element, Dyad):
             return _nearest(paper, element, guess)
         trial = _best(choices, element, paper, guess)
@@ -219,7 +219,7 @@ def _tried(
     one = drawn_near(reduced, known, guess, at)
     if one is None:
         return None
-    group = {n: pose for n, pose in one.poses.items() if n in reduced.cluster.members}
+    group = {n: pose for n, pose in one.poses.items() if n in reduced.group.members}
     gap = np.array(reduced.gaps(one))
     quality, slopes, each = 1.0, [], []
     size = known.mm * reduced.structure.scene.size
@@ -278,31 +278,31 @@ def drawn_near(
     """A trial drawing of a group, each dyad in the assembly nearest to a guess."""
     paper = reduced.opened(known, [float(v) for v in values])
 
-    def choose(_: int, dyad: Dyad | Cluster) -> Poses | None:
+    def choose(_: int, dyad: Dyad | LargerGroup) -> Poses | None:
         assert isinstance(dyad, Dyad)
         return _nearest(paper, dyad, guess)
 
     return paper if assembled(paper, reduced.elements, choose) else None
 
 
-def best_reduced(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+def best_reduced(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
     """The reduced mechanism that finds the group well; None where all are at dead points."""
-    return None if _best(choices, cluster, known, guess) is None else choices.last[cluster]
+    return None if _best(choices, group, known, guess) is None else choices.last[group]
 
 
-def _best(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> _Tried | None:
+def _best(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> _Tried | None:
     """The trial drawing by it, which is the last of the choices then."""
-    last = choices.last.get(cluster)
+    last = choices.last.get(group)
     best = _tried(last.rolled_from(guess, known.mm), known, guess) if last is not None else None
     if best is not None and best.quality > GOOD / 2:
         return best
-    best = _best_of(choices.of[cluster], known, guess)
+    best = _best_of(choices.of[group], known, guess)
     if best is None or best.quality < POOR:
-        further = _best_of(choices.further(cluster), known, guess)
+        further = _best_of(choices.further(group), known, guess)
         if further is not None and (best is None or further.quality > best.quality):
             best = further
     if best is not None:
-        choices.last[cluster] = best.reduced
+        choices.last[group] = best.reduced
     return best
 
 
@@ -317,11 +317,13 @@ def _best_of(candidates: Sequence[ReducedMechanism], known: PlacedLinks, guess: 
     return best
 
 
-def best_first(structure: Structure, cluster: Cluster, known: PlacedLinks, guess: Poses) -> Iterator[ReducedMechanism]:
+def best_first(
+    structure: Structure, group: LargerGroup, known: PlacedLinks, guess: Poses
+) -> Iterator[ReducedMechanism]:
     """The reduced mechanisms that can be drawn, those first that find the group best; those with the fewest constraints
     removed before the others."""
-    choices = Choices(structure, [cluster])
-    for some in (choices.of[cluster], choices.further(cluster)):
+    choices = Choices(structure, [group])
+    for some in (choices.of[group], choices.further(group)):
         tried = (_tried(reduced.rolled_from(guess, known.mm), known, guess) for reduced in some)
         for one in sorted(filter(None, tried), key=lambda one: -one.quality):
             yield one.reduced
@@ -332,7 +334,7 @@ def _with_links(candidates: Sequence[ReducedMechanism], names: set[str]) -> list
     return [reduced for reduced in candidates if not names.intersection(r.left_out for r in reduced.removed)]
 
 
-def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
+def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
     """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
     that drivers hold there: without its rolling.  None where all are at dead points."""
     removed: list[RemovedConstraint] = []
@@ -340,9 +342,9 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
     drawn: list[Driven | Dyad] = []
     held: dict[str, tuple[str, float]] = {}
     before = replace(known, poses=dict(known.poses))
-    mine = [e for e in choices.structure.elements if set(e.members) <= set(cluster.members)]
+    mine = [e for e in choices.structure.elements if set(e.members) <= set(group.members)]
     for k, element in enumerate(mine):
-        if isinstance(element, Cluster):
+        if isinstance(element, LargerGroup):
             # what later ones hang on is not left out
             wanted = {name for later in mine[k + 1 :] for name in later.outside}
             few_or_more = (choices.of[element], choices.further(element))
@@ -357,4 +359,4 @@ def standing(choices: Choices, cluster: Cluster, known: PlacedLinks, guess: Pose
         else:
             drawn.append(element)
         before.poses.update({name: guess[name] for name in element.members})
-    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), cluster, tuple(drawn), held=held)
+    return ReducedMechanism(choices.structure, tuple(removed), tuple(trial), group, tuple(drawn), held=held)

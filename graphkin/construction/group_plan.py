@@ -24,7 +24,7 @@ from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Pa
 from graphkin.construction.steps import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster
+from graphkin.structure import LargerGroup
 
 __all__ = ["GroupPlan", "Move", "Special", "plan_group"]
 
@@ -71,7 +71,7 @@ class GroupPlan:
     open_ends: tuple[tuple[Edge, bool], ...] = ()
     assumed: Mapping[str, tuple[tuple[float, ...], ...]] = field(default_factory=dict)
     far: FarPoint | None = None
-    contours: tuple[tuple[str, Cluster], ...] = ()
+    contours: tuple[tuple[str, LargerGroup], ...] = ()
 
     @property
     def way(self) -> Literal["special points", "superposition"]:

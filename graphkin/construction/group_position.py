@@ -101,11 +101,11 @@ class GroupTrial:
     def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
         """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
         reduced = self.reduced
-        poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.cluster.members}}
+        poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
         values = np.array(reduced.values(poses, paper.mm))
         story: list[Step] = []
         if self.given:
-            story += [_started(paper, driver) for driver in reduced.cluster.starts]
+            story += [_started(paper, driver) for driver in reduced.group.starts]
         if reduced.trial:
             driven = tuple(d.key for d in reduced.trial)
             strokes: tuple[Stroke, ...] = ()
@@ -118,7 +118,7 @@ class GroupTrial:
                 table = table_of_several(so_far, reduced, poses, values)
             rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
             left_out = tuple(name for name in reduced.left_out if name not in rolling)
-            links, instead = reduced.cluster.links, tuple(reduced.driven_instead())
+            links, instead = reduced.group.links, tuple(reduced.driven_instead())
             told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
             story.append(Step("trial", "positions", strokes=strokes, data=told))
         board = reduced.opened(so_far, [float(v) for v in values])
@@ -148,7 +148,7 @@ def _to_hand(paper: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism
     guess = trial.on(paper)
     known = replace(paper, instrument=EXACT, poses={name: guess.get(name, paper.poses[name]) for name in paper.poses})
     known.pricked = {}
-    yield from best_first(trial.reduced.structure, trial.reduced.cluster, known, guess)
+    yield from best_first(trial.reduced.structure, trial.reduced.group, known, guess)
 
 
 def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:
@@ -168,7 +168,7 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
             if k == parts:
                 return fit
             poses.update(fit)
-    names = ", ".join(reduced.cluster.links)
+    names = ", ".join(reduced.group.links)
     raise Unsolvable(
         "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
     )
@@ -189,7 +189,7 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
         values = values - np.linalg.solve(slopes, at)
     last = drawn_near(reduced, paper, poses, values)
     if last is None:
-        names = ", ".join(reduced.cluster.links)
+        names = ", ".join(reduced.group.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("the last trial drawing does not close"))
         )
@@ -204,7 +204,7 @@ def _by_hand(
     """What a trial drawing leaves open as hands find and read it, and how that changes with the trial values."""
     drawn = drawn_near(reduced, paper, poses, values)
     if drawn is None:
-        names = ", ".join(reduced.cluster.links)
+        names = ", ".join(reduced.group.links)
         raise Unsolvable(
             "not assembled", Problem(Phrase("links", links=names), Phrase("a trial drawing does not close"))
         )
@@ -260,7 +260,7 @@ def _curve(
     removed = reduced.removed[0]
     if not removed.ends or not tried:
         return "", ()
-    if removed.slide is None and removed.ends[0][1] not in reduced.cluster.members:
+    if removed.slide is None and removed.ends[0][1] not in reduced.group.members:
         removed = replace(removed, ends=removed.ends[::-1])  # the free end is the one that moves
     places = tuple(_seen(drawn, removed, poses) for _, drawn in tried)
     curve = TrialCurve(places, places[::BETWEEN], removed.ends[0][0])

@@ -131,16 +131,16 @@ class RigidBody:
         self.paper = paper
         self.body = body
         self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
-        for weld in body.welds:
-            value = paper.values[weld.driver.key]
-            base = self.rel[weld.a]
-            if weld.pair.turns:
-                turned = (weld.driver.link == weld.b) if weld.driver.turns else True
+        for joint in body.joints:
+            value = paper.values[joint.driver.key]
+            base = self.rel[joint.a]
+            if joint.pair.turns:
+                turned = (joint.driver.link == joint.b) if joint.driver.turns else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
-                hinge = base.place(self._local(weld.a, weld.pair.point))
-                self.rel[weld.b] = Pose(hinge - axis * self._local(weld.b, weld.pair.point), axis)
+                hinge = base.place(self._local(joint.a, joint.pair.point))
+                self.rel[joint.b] = Pose(hinge - axis * self._local(joint.b, joint.pair.point), axis)
             else:
-                self.rel[weld.b] = across(weld.pair, weld.b, base, value * paper.mm, paper.mm)
+                self.rel[joint.b] = across(joint.pair, joint.b, base, value * paper.mm, paper.mm)
 
     def _local(self, link: str, point: str) -> complex:
         return self.paper.links[link].points[point] * self.paper.mm
@@ -151,7 +151,7 @@ class RigidBody:
 
     def placed(self, base: Pose) -> dict[str, Pose]:
         """Its links, its base link lying so."""
-        if not self.body.welds:
+        if not self.body.joints:
             return {self.body.links[0]: Pose(base.origin, unit(base.axis))}
         return {
             name: Pose(base.place(rel.origin), unit(base.axis * rel.axis))

@@ -24,7 +24,7 @@ from graphkin.construction.sizes import Direction
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Dyad, Pair, Structure, Weld
+from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
 __all__ = [
     "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
@@ -60,7 +60,7 @@ Unknown = Turning | Sliding | Slipping
 class Edge:
     """The motion of ``end`` relative to ``start``.
 
-    ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``weld`` the driven
+    ``link`` is the rigid link between them, or ``slide`` the sliding pair they belong to, or ``joint`` the driven
     turning pair, or ``contact`` the sliding contact, or ``rolling`` what rolls without slip; or they lie at the special
     point of two links (``tied``), which legs join; or on two links of one contour, of which one is ``held`` still.
     ``unknown`` is what is not known of it, if anything.  ``labels`` are the nodes as
@@ -73,7 +73,7 @@ class Edge:
     direction: Direction
     link: str = ""
     slide: Pair | None = None
-    weld: Weld | None = None
+    joint: DrivenJoint | None = None
     contact: str = ""
     rolling: str = ""
     tied: bool = False
@@ -164,7 +164,7 @@ class Joined:
 
     inside: Sequence[str]
     pairs: Sequence[Pair]
-    welds: Sequence[Weld]
+    joints: Sequence[DrivenJoint]
     driven: frozenset[str] = frozenset()  # sliding pairs of which a driver gives the motion
     near: bool = False
     contacts: tuple[PlacedContact, ...] = ()
@@ -187,17 +187,17 @@ class Net:
         tiny: float,
     ) -> None:
         self.links, self.frame, self.places, self.tiny = links, frame, places, tiny
-        self.inside, pairs, welds = joined.inside, joined.pairs, joined.welds
+        self.inside, pairs, joints = joined.inside, joined.pairs, joined.joints
         self.shares = same_turn
         slides = [p for p in pairs if not p.turns]
         turns = [p for p in pairs if p.turns]
-        driven = {w.pair.key for w in welds if not w.pair.turns} | joined.driven
+        driven = {w.pair.key for w in joints if not w.pair.turns} | joined.driven
         touching = [c.name for c in joined.contacts]
         letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns] + touching))
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
         self.natural |= {PointRef(c.name, side) for c in joined.contacts for side in c.links}
-        between = [*((p.a, p.b) for p in pairs), *((w.a, w.b) for w in welds), *(c.links for c in joined.contacts)]
+        between = [*((p.a, p.b) for p in pairs), *((w.a, w.b) for w in joints), *(c.links for c in joined.contacts)]
         around = list(dict.fromkeys([*self.inside, *(n for both in between for n in both)]))
         on = _near(links, joined, around, letters) if joined.near else {}
         self.owners: dict[PointRef, list[str]] = {}
@@ -218,9 +218,9 @@ class Net:
             self._rigid(name, same_turn.get(name, name))
         for s in slides:
             self._sliding(s, letters, guide_names[s.key], None if s.key in driven else Sliding(s.key))
-        for w in welds:
+        for w in joints:
             if w.pair.turns:
-                self._welded(w, letters)
+                self._driven(w, letters)
         for c in joined.contacts:
             self._touching(c)
         for one in joined.rolling:
@@ -230,8 +230,8 @@ class Net:
             self._seen(held, other, letters)
         self.under: list[Edge] = []  # for links that turn alike one edge between coincident points of theirs
         if joined.wide:
-            found = {(e.slide or e.weld or e.held, *self._sides(e)): e for n in self.nodes for e in self.edges[n]
-                     if e.forward and (e.slide or e.weld or e.held) and "/" not in "".join(self._sides(e))}
+            found = {(e.slide or e.joint or e.held, *self._sides(e)): e for n in self.nodes for e in self.edges[n]
+                     if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(self._sides(e))}
             self.under = list(found.values())
 
     def copy(self) -> Net:
@@ -267,13 +267,13 @@ class Net:
                 labels = (PointRef(letter, s.b), PointRef(letter, s.a))
                 self._add(Edge(b, a, labels, Direction("along", written), slide=s, unknown=unknown))
 
-    def _welded(self, w: Weld, letters: Sequence[str]) -> None:
+    def _driven(self, w: DrivenJoint, letters: Sequence[str]) -> None:
         for letter in letters:
             a, b = node(self.links, letter, w.a), node(self.links, letter, w.b)
             if a in self.owners and b in self.owners and a != b:
                 labels = (PointRef(letter, w.a), PointRef(letter, w.b))
                 hinge = w.pair.point
-                self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), weld=w))
+                self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), joint=w))
 
     def _seen(self, held: str, other: str, letters: Sequence[str]) -> None:
         for letter in letters:
@@ -320,8 +320,8 @@ class Net:
                         refs[name] = self._added(PointRef(letter, name), name, at)
                 labels = PointRef(letter, sides[0]), PointRef(letter, sides[1])
                 way = edge.direction
-                if edge.weld is not None:
-                    way = Direction("square", (edge.weld.pair.point, letter))
+                if edge.joint is not None:
+                    way = Direction("square", (edge.joint.pair.point, letter))
                 self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=way))
                 left.remove(edge)
                 grown = True
@@ -368,7 +368,7 @@ def _near(
     for c in joined.contacts:
         for side in c.links:
             on[side].add(c.name)
-    touching = [(p.a, p.b) for p in joined.pairs if not p.turns] + [(w.a, w.b) for w in joined.welds]
+    touching = [(p.a, p.b) for p in joined.pairs if not p.turns] + [(w.a, w.b) for w in joined.joints]
     touching += joined.contours
     for _ in range(2):
         shared = [(a, b, on[a] | on[b]) for a, b in touching]
@@ -410,7 +410,7 @@ def split(path: Path, at: int) -> TwoUnknowns:
     return TwoUnknowns(path[at].start, tuple(e.reversed() for e in reversed(path[at:])), path[:at])
 
 
-def contacts_of(structure: Structure, group: Dyad | Cluster) -> tuple[PlacedContact, ...]:
+def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[PlacedContact, ...]:
     """The sliding contacts that a bar or a block of a group stands for."""
     members = group.members
     return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)

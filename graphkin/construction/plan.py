@@ -39,10 +39,10 @@ from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
-    Cluster,
     Driven,
     Dyad,
     Element,
+    LargerGroup,
     Structure,
     analyse,
     needed,
@@ -80,10 +80,10 @@ class Task:
     elements: tuple[Element, ...]
     values: Mapping[str, float]
     branches: Mapping[int, int]
-    trials: Mapping[Cluster, GroupTrial]
+    trials: Mapping[LargerGroup, GroupTrial]
     triangles: tuple[tuple[Inversion, int], ...]
     chains: Mapping[Dyad, TwoUnknowns] = field(default_factory=dict)
-    plans: Mapping[Cluster, GroupPlan] = field(default_factory=dict)
+    plans: Mapping[LargerGroup, GroupPlan] = field(default_factory=dict)
     limits: Mapping[str, Limits] = field(default_factory=dict)
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
@@ -227,9 +227,9 @@ def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits
 
 def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
     for group in needed(task.structure, task.asked):
-        if group in task.trials and isinstance(group, Cluster):
+        if group in task.trials and isinstance(group, LargerGroup):
             yield drawn_group(polygons, group, task.trials[group].reduced.left_out)
-        elif isinstance(group, Cluster):
+        elif isinstance(group, LargerGroup):
             # with one link held still its motion relative to that link is found, and laid over that link's motion
             yield DrawnGroup(group, "superposition", (), (), (), ())
 
@@ -415,7 +415,7 @@ def plan(
         structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}), bars)
         scene = structure.scene
     opened = opened_at_triangles(structure)
-    if any(isinstance(e, Cluster) for e in needed(opened, asked)):
+    if any(isinstance(e, LargerGroup) for e in needed(opened, asked)):
         opened = structure  # groups that remain are found by trial, driven triangles with them
     elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}

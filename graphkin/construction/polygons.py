@@ -27,7 +27,7 @@ from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Dyad, Pair, Structure
+from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
@@ -56,15 +56,15 @@ class Polygons:
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
         # how each group is drawn: found once, for all drawings of a task
         self.chains: dict[Dyad, TwoUnknowns] = {}
-        self.plans: dict[Cluster, GroupPlan] = {}
-        self.contours: dict[Cluster, tuple[tuple[str, Cluster], ...]] = {}  # the link held still, the rest on it
+        self.plans: dict[LargerGroup, GroupPlan] = {}
+        self.contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = {}  # link held still, the rest on it
         self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
         size = max((abs(z - w) for z in self.places.values() for w in self.places.values()), default=1.0)
         self.tiny = 1e-11 * size
         self.touching = {c.name for c in structure.scene.contacts}
         self.block_of = {p.key: p.of for p in structure.scene.pins}
         self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
-        self.part_of: Cluster | None = None  # the group to which all belongs that is drawn with a link of it held still
+        self.part_of: LargerGroup | None = None  # the group of what is drawn with a link of it held still
         self.begin(structure.scene.frame.name)
 
     def begin(self, ground: str) -> None:

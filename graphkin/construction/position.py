@@ -13,10 +13,10 @@ from graphkin.construction.sheet import Board, Remark
 from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Step
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
-    Cluster,
     Driven,
     Dyad,
     Element,
+    LargerGroup,
     Structure,
 )
 from graphkin.words import Phrase
@@ -42,7 +42,7 @@ def place(
     values: Mapping[str, float],
     branches: Branches,
     instrument: Instrument = EXACT,
-    trials: Mapping[Cluster, GroupTrial] | None = None,
+    trials: Mapping[LargerGroup, GroupTrial] | None = None,
 ) -> Position:
     """Place the links of the elements at some driver values.
 
@@ -63,8 +63,8 @@ def place(
     meetings: dict[int, Meeting] = {}
     causes: list[tuple[int, Cause]] = [(instrument.acts, _placing(structure.scene.frame.name))]
 
-    def chosen(i: int, element: Dyad | Cluster) -> Poses:
-        if isinstance(element, Cluster):
+    def chosen(i: int, element: Dyad | LargerGroup) -> Poses:
+        if isinstance(element, LargerGroup):
             (trials or {})[element].place(paper)
             return {}
         meeting = meetings[i] = meet(paper, element)
@@ -88,7 +88,7 @@ def draw_position(
     elements: Sequence[Element],
     position: Position,
     branches: Mapping[int, int],
-    trials: Mapping[Cluster, GroupTrial] | None = None,
+    trials: Mapping[LargerGroup, GroupTrial] | None = None,
 ) -> dict[str, Phrase]:
     """Record how each link was placed; returns the words for each assembly, by the group's links."""
     paper = position.paper
@@ -101,7 +101,7 @@ def draw_position(
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
             _, story = drive(so_far, element)
-        elif isinstance(element, Cluster):
+        elif isinstance(element, LargerGroup):
             story = (trials or {})[element].steps(paper, so_far)
         else:
             meeting = position.meetings[i]
@@ -122,7 +122,7 @@ def draw_position(
             board.do(replace(step, base="") if step.base == ground.name else step)
             if step.reason in FINDS_A_POINT:
                 found.add(step.point)
-            if isinstance(element, Cluster):  # what the next lines start from
+            if isinstance(element, LargerGroup):  # what the next lines start from
                 laid = step.link if step.reason == "angle" else ""
                 for name in [n for n in left if n == laid or known(n) > 1]:
                     left.remove(name)

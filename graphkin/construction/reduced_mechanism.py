@@ -17,7 +17,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, acros
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure, regrouped, unrolled
+from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure, regrouped, unrolled
 from graphkin.words import Phrase
 
 __all__ = ["ReducedMechanism", "RemovedConstraint", "reduced_mechanisms"]
@@ -40,7 +40,7 @@ class ReducedMechanism:
     structure: Structure
     removed: tuple[RemovedConstraint, ...]
     trial: tuple[Driver, ...]
-    cluster: Cluster
+    group: LargerGroup
     elements: tuple[Driven | Dyad, ...]
     since: Mapping[str, float] = field(default_factory=dict)
     held: Mapping[str, tuple[str, float]] = field(default_factory=dict)
@@ -73,7 +73,7 @@ class ReducedMechanism:
 
     def put_back(self, paper: PlacedLinks) -> dict[str, Pose]:
         """The group's links where they lie, those left out among them."""
-        group = {name: pose for name, pose in paper.poses.items() if name in self.cluster.members}
+        group = {name: pose for name, pose in paper.poses.items() if name in self.group.members}
         for r in self.removed:
             back = r.placed(paper.links, paper.poses, paper.mm)
             if back is not None:
@@ -94,7 +94,7 @@ class ReducedMechanism:
         return [reading(self.structure, d, poses, mm) / d.span(size) for d in self.trial]
 
 
-def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 0) -> list[ReducedMechanism]:
+def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int = 0) -> list[ReducedMechanism]:
     """All ways to replace a larger group of a mechanism by dyads with the fewest constraints removed, or the fewest
     that are ``more_than`` so many.
 
@@ -102,26 +102,26 @@ def reduced_mechanisms(structure: Structure, cluster: Cluster, more_than: int = 
     ------
     Unsolvable : "not drawn": nothing can be left out so that only dyads remain
     """
-    before = structure.elements[: structure.elements.index(cluster)]
+    before = structure.elements[: structure.elements.index(group)]
     known = {structure.scene.frame.name, *(n for e in before for n in e.members)}
-    for count in range(max(more_than + 1, len(cluster.rolling)), len(cluster.rolling) + MOST_REMOVED + 1):
+    for count in range(max(more_than + 1, len(group.rolling)), len(group.rolling) + MOST_REMOVED + 1):
         found: list[ReducedMechanism] = []
-        for reduced in _reduced(structure, cluster, known, count):
+        for reduced in _reduced(structure, group, known, count):
             found.append(reduced)
             if count > 1 and len(found) == MOST_KEPT:
                 break
         if found:
             return found
-    names = ", ".join(cluster.links)
+    names = ", ".join(group.links)
     raise Unsolvable("not drawn", Problem(Phrase("links", links=names), Phrase("nothing can be left out so that only")))
 
 
-def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int) -> Iterator[ReducedMechanism]:
-    rolling = tuple(_rolling(structure, cluster))
+def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:
+    rolling = tuple(_rolling(structure, group))
     own = {d.key: d for d in structure.scene.drivers}
     driven = {n for d in structure.scene.drivers if d.turns for n in d.links}
     # what the driver moves is rather left in its place
-    removable = sorted(_removable(structure, cluster, driven), key=lambda r: r.left_out in driven)
+    removable = sorted(_removable(structure, group, driven), key=lambda r: r.left_out in driven)
     for others in combinations(removable, count - len(rolling)):
         removed = (*rolling, *others)
         gone = {r.left_out for r in removed if r.left_out}
@@ -134,52 +134,52 @@ def _reduced(structure: Structure, cluster: Cluster, known: set[str], count: int
             continue
         opened = _opened(structure.scene, removed, drivers)
         held = {new.key: (key, new.values[0] - own[key].values[0]) for key, new in drivers.items() if new != own[key]}
-        members = [m for m in cluster.members if m not in gone]
-        for trial in combinations(list(_trials(structure, cluster, gone, known)), count):
+        members = [m for m in group.members if m not in gone]
+        for trial in combinations(list(_trials(structure, group, gone, known)), count):
             elements = regrouped(replace(opened, drivers=(*opened.drivers, *trial)), known, members)
             if elements is None or held.keys() & {d.key for d in trial}:
                 continue
             drawn = tuple(e for e in elements if isinstance(e, Driven | Dyad))
             if len(drawn) == len(elements):
-                yield ReducedMechanism(structure, removed, trial, cluster, drawn, held=held)
+                yield ReducedMechanism(structure, removed, trial, group, drawn, held=held)
 
 
-def _rolling(structure: Structure, cluster: Cluster) -> Iterator[RemovedConstraint]:
-    for relation in cluster.rolling:
+def _rolling(structure: Structure, group: LargerGroup) -> Iterator[RemovedConstraint]:
+    for relation in group.rolling:
         slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
         yield RemovedConstraint("", slide=slides[0] if slides else None, rolling=relation)
 
 
-def _removable(structure: Structure, cluster: Cluster, driven: set[str]) -> Iterator[RemovedConstraint]:
+def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:
     scene = structure.scene
     touching = {n for c in scene.contacts for n in c.links}
     touching |= {n for c in scene.contacts if c.rolling for n in (c.block, c.carrier)}
     touching |= {n for g in scene.gears for n in (*g.wheels, g.carrier)}
     touching |= {n for pin in scene.pins for n in (pin.of, pin.on)}
-    for name in cluster.members:
+    for name in group.members:
         if name in touching:
             continue  # what stands for its contacts, and the block of its pin or slot, would hang on nothing
         hinges = [p for p, names in structure.hinges.items() if name in names]
         slides = [s for s in structure.slides if name in (s.a, s.b)]
         # what later groups hang on it hangs on it still when it is put back
-        hinges = [p for p in hinges if _within(structure, cluster, p, name)]
-        slides = [s for s in slides if s in cluster.pairs]
+        hinges = [p for p in hinges if _within(structure, group, p, name)]
+        slides = [s for s in slides if s in group.pairs]
         if (name in driven and not slides) or any(s.key == d.key for d in scene.drivers for s in slides):
             continue
-        ends = tuple((p, _within(structure, cluster, p, name)) for p in hinges)
+        ends = tuple((p, _within(structure, group, p, name)) for p in hinges)
         if len(hinges) == 2 and not slides:
             yield RemovedConstraint(name, ends)
         elif len(hinges) == 1 and len(slides) == 1:
             yield RemovedConstraint(name, ends, slides[0])
         elif not hinges and len(slides) == 2:
             yield RemovedConstraint(name, (), slides[0], slides[1])
-    for driver in cluster.drivers:
+    for driver in group.drivers:
         yield RemovedConstraint("", slide=None if driver.turns else structure.slide(driver.key), driver=driver)
 
 
-def _within(structure: Structure, cluster: Cluster, point: str, name: str) -> str:
+def _within(structure: Structure, group: LargerGroup, point: str, name: str) -> str:
     """The link to which a hinge joins a link of a group: one of the group, or one known before; "" if none."""
-    pairs = [p for p in cluster.pairs if p.turns and p.point == point]
+    pairs = [p for p in group.pairs if p.turns and p.point == point]
     others = [n for p in pairs for n in (p.a, p.b) if n != name]
     return next((n for n in structure.hinges[point] if n in others), "")
 
@@ -221,22 +221,22 @@ def _opened(
     )
 
 
-def _on_faces(structure: Structure, cluster: Cluster) -> Iterator[tuple[str, str]]:
+def _on_faces(structure: Structure, group: LargerGroup) -> Iterator[tuple[str, str]]:
     """The wheels of a group that roll on flat faces, with the blocks at their centres, which turn as the faces do."""
-    names = {relation.name for relation in cluster.rolling}
+    names = {relation.name for relation in group.rolling}
     for contact in structure.scene.contacts:
-        if contact.name in names and contact.flat and {contact.round[0].link, contact.block} <= set(cluster.members):
+        if contact.name in names and contact.flat and {contact.round[0].link, contact.block} <= set(group.members):
             yield contact.round[0].link, contact.block
 
 
-def _trials(structure: Structure, cluster: Cluster, gone: set[str], known: set[str]) -> Iterator[Driver]:
+def _trials(structure: Structure, group: LargerGroup, gone: set[str], known: set[str]) -> Iterator[Driver]:
     """Drivers that can take its place: at a pair of the group that is not driven and not left out; those at known links
     first, for their links are laid off."""
     driven = {d.key for d in structure.scene.drivers}
     blocks = {s.key for s in structure.slides if s.slot}
-    for wheel, block in _on_faces(structure, cluster):
+    for wheel, block in _on_faces(structure, group):
         yield Driver(wheel, block, 0.0, 0.0, 0.0)
-    pairs = [p for p in cluster.pairs if not gone & {p.a, p.b}]
+    pairs = [p for p in group.pairs if not gone & {p.a, p.b}]
     for pair in sorted(pairs, key=lambda p: not known & {p.a, p.b}):
         if pair.turns:
             if pair.a not in driven and not {pair.a, pair.b} & blocks:

@@ -19,7 +19,7 @@ from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius, Term
 from graphkin.construction.steps import Aid, Bar, DiagramName, Ray, Step, Stroke, Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster
+from graphkin.structure import LargerGroup
 
 __all__ = ["Joint", "contours", "copy_steps", "seen", "vectors_seen", "with_held"]
 
@@ -101,7 +101,7 @@ def _one_already(links: Sequence[str], held: Sequence[set[str]]) -> bool:
 # -- the polygons drawn so ---------------------------------------------------------------------------------------------
 
 
-def with_held(plot: Polygons, group: Cluster, held: str) -> Polygons:
+def with_held(plot: Polygons, group: LargerGroup, held: str) -> Polygons:
     """Empty polygons with a link of a group for the frame."""
     made = plot.fork(0)
     made.part_of, made.contours = group, {}
@@ -111,7 +111,7 @@ def with_held(plot: Polygons, group: Cluster, held: str) -> Polygons:
     return made
 
 
-def copy_steps(plot: Polygons, order: Order, group: Cluster, held: str, steps: int, equations: int) -> None:
+def copy_steps(plot: Polygons, order: Order, group: LargerGroup, held: str, steps: int, equations: int) -> None:
     """Put into the polygons of the mechanism what has been drawn with a link held still, after so many steps and
     equations."""
     apart = plot.seen[held]

@@ -22,7 +22,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure.model import Cluster, Element, Structure
+from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -187,7 +187,7 @@ class DrawnGroup:
     ``assumed`` what was assumed in trial polygons and ``closing`` what had to fit in them (links, or sliding pairs),
     ``points`` its special points with their links."""
 
-    group: Cluster
+    group: LargerGroup
     way: Literal["special points", "superposition"]
     kept: tuple[str, ...]
     assumed: tuple[str, ...]

@@ -25,7 +25,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Cluster, Driven, DrivenTriangle, Dyad, Element, Structure, analyse, pick
+from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick
 from graphkin.words import Phrase
 
 __all__ = ["Inversion", "TriangleDrawn", "drawn_apart", "inversions_of", "opened_at_triangles", "own_assembly"]
@@ -72,7 +72,7 @@ def opened_at_triangles(structure: Structure) -> Structure:
     elements: list[Element] = []
     instead: dict[Driver, Driver] = {}
     for e in structure.elements:
-        if isinstance(e, Cluster) and e.parts:
+        if isinstance(e, LargerGroup) and e.parts:
             elements += e.parts
             instead |= {t.driver: t.equivalent for t in e.triangles}
         else:

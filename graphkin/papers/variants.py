@@ -33,7 +33,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
-from graphkin.structure import Cluster, Dyad, Pair, analyse
+from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Phrase, Wording
 
 __all__ = [
@@ -129,7 +129,7 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
     found = set(scene.frame.points)
     for group in analyse(scene).elements:
         links = [scene.by_name[name] for name in group.members if name in scene.by_name]
-        if isinstance(group, Cluster):
+        if isinstance(group, LargerGroup):
             points = dict.fromkeys(p for link in links for p in link.points if p not in found)
             names = [f"{k}_{p}" for k in "va" for p in points]
             names += [f"{kind}_{link.name}" for kind in ("omega", "alpha") for link in links]
@@ -137,7 +137,7 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
         found |= {p for link in links for p in link.points}
 
 
-def _joints(group: Dyad | Cluster) -> tuple[Pair, ...]:
+def _joints(group: Dyad | LargerGroup) -> tuple[Pair, ...]:
     """The pairs of a group, those whose motion is best asked for first: its end, or what lies inside it."""
     if isinstance(group, Dyad):
         return group.outer_second, group.inner, group.outer_first

@@ -158,7 +158,7 @@ class _Model:
             ))  # fmt: skip
 
     def _dyad(self, dyad: Dyad) -> None:
-        if any(body.welds for body in dyad.bodies):
+        if any(body.joints for body in dyad.bodies):
             raise Skipped("one crank")
         if dyad.kind == "RRR":
             self._rrr(dyad)

@@ -19,9 +19,9 @@ from graphkin.solver.pose import Array, Drive, Pose
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import (
-    Cluster,
     Driven,
     Dyad,
+    LargerGroup,
     Structure,
     in_stages,
     named_with_contact,
@@ -33,7 +33,7 @@ from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
-    from graphkin.solver.larger_groups import ClusterSolved, System
+    from graphkin.solver.larger_groups import GroupSolved, System
 
 __all__ = ["choose_forms", "new_places", "reading"]
 
@@ -86,12 +86,12 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
             if structure.scene.drawn:  # one place alone, which must be the drawn one
                 state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i + 1, rates=False)
                 pick(structure.scene, (element.link,), [new_places(structure, i, (element.link,), state.poses)], 0)
-        elif isinstance(element, Cluster) and element.rolling:
+        elif isinstance(element, LargerGroup) and element.rolling:
             from graphkin.solver.larger_groups import form_of
 
             start = start or _started(structure)
             forms[i] = form_of(structure, element, start)
-        elif isinstance(element, Cluster):
+        elif isinstance(element, LargerGroup):
             state = positions(structure, drive, {k: f[None] for k, f in forms.items()}, i, rates=False)
             forms[i] = _choose_place(structure, i, element, drive, state.poses)
     return forms
@@ -99,13 +99,13 @@ def choose_forms(structure: Structure) -> dict[int, Array]:
 
 def _started(structure: Structure) -> Mapping[str, Pose]:
     """All links at the scene's own position, where drivers tell how what rolls and moves each other stands."""
-    from graphkin.solver.larger_groups import ClusterSolved
+    from graphkin.solver.larger_groups import GroupSolved
 
     there = started(structure)
     drive, forms = Drive.at(there, own_values(there.scene)[None]), choose_forms(there)
     state = positions(there, drive, {k: f[None] for k, f in forms.items()}, rates=False)
     for i, group in state.groups.items():
-        dead = group.condition[0] * SINGULAR > 1 if isinstance(group, ClusterSolved) else (
+        dead = group.condition[0] * SINGULAR > 1 if isinstance(group, GroupSolved) else (
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
         if dead:
             names = ", ".join(there.elements[i].members)
@@ -154,7 +154,7 @@ def _other_way(structure: Structure, i: int, drive: Drive, forms: Mapping[int, A
     """How an earlier dyad must lie for everything up to group ``i`` to be assembled; "" where none tells it alone."""
     for k in reversed(range(i)):
         dyad = structure.elements[k]
-        if isinstance(dyad, Cluster):
+        if isinstance(dyad, LargerGroup):
             return ""  # where a larger group lies would be another question
         if not isinstance(dyad, Dyad) or dyad.is_two_lines:
             continue
@@ -212,7 +212,7 @@ def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mappin
     return found
 
 
-def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
+def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
     """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
     from graphkin.solver.larger_groups import System
 
@@ -230,8 +230,8 @@ def _choose_place(structure: Structure, i: int, group: Cluster, drive: Drive, kn
     return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
 
 
-def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mapping[str, Pose]) -> Array:
-    from graphkin.solver.larger_groups import System, solve_cluster
+def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
+    from graphkin.solver.larger_groups import System, solve_group
 
     place = _starts(structure, group, known)
     many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
@@ -240,7 +240,7 @@ def _assemblies(structure: Structure, group: Cluster, drive: Drive, known: Mappi
     if not len(near):
         return np.zeros((0, len(group.members), 3))
     found = _apart(place, near[np.argsort(residual[near] >= FOUND, kind="stable")], structure.scene.size)
-    solved = solve_cluster(structure, group, known, many[found], place[found], rates=False)
+    solved = solve_group(structure, group, known, many[found], place[found], rates=False)
     return _distinct(structure, group, solved)
 
 
@@ -297,7 +297,7 @@ def _apart(place: Array, rows: Array, size: float) -> Array:
     return np.array(sorted(found))
 
 
-def _starts(structure: Structure, group: Cluster, known: Mapping[str, Pose]) -> Array:
+def _starts(structure: Structure, group: LargerGroup, known: Mapping[str, Pose]) -> Array:
     """Starting places: spread over the mechanism; links with drawn or sketched points also near these."""
     scene = structure.scene
     rng = np.random.default_rng(20240229)
@@ -329,7 +329,7 @@ def _starts(structure: Structure, group: Cluster, known: Mapping[str, Pose]) -> 
     return start
 
 
-def _distinct(structure: Structure, group: Cluster, solved: ClusterSolved) -> Array:
+def _distinct(structure: Structure, group: LargerGroup, solved: GroupSolved) -> Array:
     """The different assemblies; of those that differ only in the sense of a bar without length the one where what
     slides lies on the positive side."""
     from graphkin.solver.larger_groups import as_place

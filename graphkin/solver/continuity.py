@@ -14,10 +14,10 @@ import numpy as np
 
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import group_at, least_closes, positions
-from graphkin.solver.larger_groups import ClusterSolved
+from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import limit_why
-from graphkin.structure import Cluster, Driven, Dyad, Rolled, Structure, in_stages
+from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure, in_stages
 from graphkin.structure.assembly import ChangePoint, Passage, follow
 from graphkin.words import Phrase
 
@@ -33,7 +33,7 @@ BESIDE = 0.003
 TOWARD = 0.75  # part of what is left to a dead point that is taken in one step
 NARROW = 1e-6
 """A gap in the motion that is narrower than this (of the path) is a change point, as for groups of two links."""
-At = Callable[[float, Array], tuple[ClusterSolved, Array]]
+At = Callable[[float, Array], tuple[GroupSolved, Array]]
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class _Walk:
         return np.stack(columns, axis=1).reshape(len(t), -1, 3)
 
 
-def _walk_cluster(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
+def _walk_group(at: At, place: Array, size: float, end: float, most: float) -> _Walk:
     """_Walk with a tangent predictor; a step is taken only if Newton's method confirms what was predicted, or if the
     group hardly moves: then it may stop, dwell, turn back or start with a jolt, as the link that moves it does.
 
@@ -131,7 +131,7 @@ def _bend(slope: Array, new_slope: Array, weight: Array) -> float:
 
 
 def _passed(
-    at: At, t: float, place: Array, slope: Array, step: float, there: ClusterSolved, new_slope: Array, weight: Array
+    at: At, t: float, place: Array, slope: Array, step: float, there: GroupSolved, new_slope: Array, weight: Array
 ) -> tuple[float, list[tuple[float, Array]]] | None:
     """The change point inside a step, and places close to it on both sides; None if the step is not one smooth motion.
 
@@ -294,8 +294,8 @@ def follow_path(structure: Structure, forms: Mapping[int, Array], start: Array, 
             path = _follow_dyad(path, i, element, float(forms[i]), grid)
         elif isinstance(element, Driven) and element.rolled is not None:
             path = _follow_rolled(path, i, element.rolled, np.asarray(forms[i]), grid)
-        elif isinstance(element, Cluster):
-            path = _follow_cluster(path, i, np.asarray(forms[i]))
+        elif isinstance(element, LargerGroup):
+            path = _follow_group(path, i, np.asarray(forms[i]))
         if path.limit is not None:
             grid = np.append(grid[grid < path.limit], path.limit)
         grid = _refined(path, i, grid)
@@ -356,15 +356,15 @@ def _refined(path: Path, i: int, grid: Array) -> Array:
     return grid
 
 
-def _follow_cluster(path: Path, i: int, place: Array) -> Path:
-    def solved(t: float, start: Array) -> tuple[ClusterSolved, Array]:
+def _follow_group(path: Path, i: int, place: Array) -> Path:
+    def solved(t: float, start: Array) -> tuple[GroupSolved, Array]:
         t_ = _off_flips(path.flips, np.array([t]))
         found = group_at(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i)
         return found, found.system.slope({**found.system.known, **found.poses})
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)
-    walk = _walk_cluster(solved, place, path.structure.scene.size, path.reach, most)
+    walk = _walk_group(solved, place, path.structure.scene.size, path.reach, most)
     limit, by = (path.limit, path.by) if walk.end is None else (walk.end, i)
     flips = np.sort(np.append(path.flips, walk.flips))
     passed = (*path.passed, *((i, t) for t in walk.flips))

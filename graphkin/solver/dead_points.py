@@ -16,10 +16,10 @@ from graphkin.solver.bounds import most_of
 from graphkin.solver.decimals import meant_value, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton, positions, touch
-from graphkin.solver.larger_groups import ClusterSolved
+from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
-from graphkin.structure import Cluster, Dyad, Structure, in_stages
+from graphkin.structure import Dyad, LargerGroup, Structure, in_stages
 from graphkin.words import Phrase, Wording
 
 __all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "singular", "without_singular"]
@@ -274,15 +274,15 @@ def _apart(structure: Structure, i: int, values: Array, forms: Mapping[int, Arra
 
 def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, Array]) -> Phrase:
     """Why group ``i`` stands in a dead point: an infinite rate, or a velocity that is not unique."""
-    from graphkin.solver.larger_groups import ClusterSolved
+    from graphkin.solver.larger_groups import GroupSolved
 
     scene = structure.scene
     group = structure.elements[i]
-    assert isinstance(group, Dyad | Cluster)
+    assert isinstance(group, Dyad | LargerGroup)
     one = np.ones((1, len(scene.drivers)))
     solved = positions(structure, Drive(values[None], one, 0 * one), forms, i + 1, fine=False).groups[i]
     links = group_words(structure, group)
-    if isinstance(solved, ClusterSolved):
+    if isinstance(solved, GroupSolved):
         if not solved.residual[0] < OPEN:
             return Phrase("no position was found here", links=links)
         u, _, _ = np.linalg.svd(np.nan_to_num(solved.matrix[0]))
@@ -304,12 +304,12 @@ def _dead_why(structure: Structure, i: int, values: Array, forms: Mapping[int, A
         else:
             ending = dyad_words(group).dead
     end = Phrase("the velocity is not unique here the motion") if branch else Phrase("a rate is infinite here")
-    if not isinstance(solved, ClusterSolved):
+    if not isinstance(solved, GroupSolved):
         where = _where(structure, i, values, forms)
     return Phrase("stand at a dead point", links=links, ending=ending, end=end, place=where)
 
 
-def _fold_where(structure: Structure, solved: ClusterSolved, values: Array) -> Wording:
+def _fold_where(structure: Structure, solved: GroupSolved, values: Array) -> Wording:
     """Where the dead point of a larger group lies by the bend of its constraints, as they are beside it: along the
     motion that would be free there they open as sigma s + a s2, against the b t of the driver (Seydel, Practical
     Bifurcation and Stability Analysis, ch. 2).  Nothing of several drivers, and where rounding has moved it as far."""

@@ -22,10 +22,10 @@ from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import Name, Real, Rounding, Vec
-from graphkin.solver.larger_groups import ClusterSolved, solve_cluster
+from graphkin.solver.larger_groups import GroupSolved, solve_group
 from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
-from graphkin.structure import Cluster, Driven, Rolled, Structure, in_stages
+from graphkin.structure import Driven, LargerGroup, Rolled, Structure, in_stages
 
 __all__ = [
     "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "extended_precision_of", "group_at",
@@ -124,7 +124,7 @@ class State:
 
     poses: Mapping[str, Pose]
     drive: Drive
-    groups: Mapping[int, DyadSolution | ClusterSolved]
+    groups: Mapping[int, DyadSolution | GroupSolved]
     refined: Array
     clear: Array
     slack: Array
@@ -168,7 +168,7 @@ def positions(
         return run.state(len(structure.elements) if upto is None else upto)
 
 
-def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> ClusterSolved:
+def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> GroupSolved:
     """A larger group alone, by its place among the elements, with its rates; see ``positions``."""
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, forms, True)
@@ -212,7 +212,7 @@ class _Run:
         self.rates_of: dict[Name, float] = {}
         for k, rates_here in enumerate(zip(self.rate.tolist(), self.second.tolist(), strict=True)):
             self.rates_of["rate", k], self.rates_of["second", k] = rates_here
-        self.clusters: dict[int, ClusterSolved] = {}
+        self.clusters: dict[int, GroupSolved] = {}
         self.slack: list[Array] = []
         self.given = self._drivers()
 
@@ -233,7 +233,7 @@ class _Run:
     def follow(self, upto: int) -> None:
         """Solve what the formulas do not: larger groups, cams by their law, what rolls."""
         for i, element in enumerate(self.structure.elements[:upto]):
-            if isinstance(element, Cluster):
+            if isinstance(element, LargerGroup):
                 self._together(i, element)
             elif isinstance(element, Driven) and isinstance(element.driver, LawCam):
                 self._lift(i, element.driver)
@@ -254,7 +254,7 @@ class _Run:
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
-        groups: dict[int, DyadSolution | ClusterSolved] = dict(self.clusters)
+        groups: dict[int, DyadSolution | GroupSolved] = dict(self.clusters)
         for i in dyads:
             given = dict(zip(parts, values, strict=False))
             groups[i] = DyadSolution(
@@ -326,14 +326,14 @@ class _Run:
             self.given["rolled", rolled.key, part] = np.ascontiguousarray(column)
         self.slack.append(LOOKED_UP * wide[:, None])
 
-    def _together(self, i: int, group: Cluster) -> None:
+    def _together(self, i: int, group: LargerGroup) -> None:
         """Solve a larger group, and give its poses to the formulas of what follows."""
         program = self.dimensioned.program
         known = [n for n in self.structure.links if n in group.outside and n != self.structure.scene.frame.name]
         values = iter(self._values(("known", i), [getattr(program.poses[n], f) for n in known for f in FIELDS]))
         poses = {n: _pose(dict(zip(FIELDS, values, strict=False))) for n in known}
         poses[self.structure.scene.frame.name] = rest()
-        solved = solve_cluster(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
+        solved = solve_group(self.structure, group, poses, self.drive, np.asarray(self.forms[i]), self.rates)
         self.clusters[i] = solved
         self.slack.append(solved.rolling_residuals)
         for name in group.members:

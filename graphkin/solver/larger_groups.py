@@ -18,11 +18,19 @@ import numpy as np
 
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import FIELDS, UNIT, Array, Drive, Pose, rest, together, turned
-from graphkin.structure import Cluster, Driven, Dyad, Pair, RollingRelation, Structure
+from graphkin.structure import Driven, Dyad, LargerGroup, Pair, RollingRelation, Structure
 from graphkin.structure.model import Coordinate
 
 __all__ = [
-    "ClusterSolved", "Ends", "Layout", "System", "as_place", "form_of", "joint_place", "led_relation", "solve_cluster",
+    "Ends",
+    "GroupSolved",
+    "Layout",
+    "System",
+    "as_place",
+    "form_of",
+    "joint_place",
+    "led_relation",
+    "solve_group",
 ]  # fmt: skip
 
 
@@ -61,7 +69,7 @@ NOTHING = np.zeros(1)
 class Layout:
     """What stands where among the constraints of a group: the rows of its pairs, then of its drivers."""
 
-    def __init__(self, structure: Structure, group: Cluster) -> None:
+    def __init__(self, structure: Structure, group: LargerGroup) -> None:
         drivers = structure.drivers
         self.names = (*group.members, *dict.fromkeys(n for n in self._used(group) if n not in group.members))
         self.link = {name: k for k, name in enumerate(self.names)}
@@ -131,7 +139,7 @@ class Layout:
                     self.same[r, 3 * self.link[name] + 2] += sign
 
     @staticmethod
-    def _used(group: Cluster) -> Iterator[str]:
+    def _used(group: LargerGroup) -> Iterator[str]:
         for pair in group.pairs:
             yield from (pair.a, pair.b)
         for driver in group.drivers:
@@ -153,7 +161,7 @@ class Layout:
         return _Entries(own, rows[own], 3 * ends.link[own], np.full(len(own), sense))
 
 
-def layout_of(structure: Structure, group: Cluster) -> Layout:
+def layout_of(structure: Structure, group: LargerGroup) -> Layout:
     """The layout of a group, made once; it goes with its structure."""
     drivers = tuple(structure.drivers.index(driver) for driver in group.drivers)
     key = "layout", group.members, group.pairs, drivers, group.rolling
@@ -191,7 +199,7 @@ class System:
     """
 
     structure: Structure
-    group: Cluster
+    group: LargerGroup
     known: Mapping[str, Pose]
     drive: Drive
     near: Array | None = None
@@ -217,10 +225,11 @@ class System:
         pairs: list[Pair] = []
         rolling: list[RollingRelation] = []
         for e in structure.elements:
-            pairs += [*e.pairs, *(weld.pair for weld in e.welds)] if isinstance(e, Dyad) else e.pairs
+            pairs += [*e.pairs, *(joint.pair for joint in e.joints)] if isinstance(e, Dyad) else e.pairs
             rolling += [led_relation(e)] if isinstance(e, Driven) and not e.drivers else e.rolling
         members = tuple(name for name in structure.links if name != frame)
-        structure.kept["whole"] = Cluster(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
+        whole = LargerGroup(members, tuple(pairs), structure.drivers, members, 0, rolling=tuple(rolling))
+        structure.kept["whole"] = whole
         return cls(structure, structure.kept["whole"], {frame: rest()}, drive)
 
     def part(self, which: Array) -> System:
@@ -377,7 +386,7 @@ def _seen(one: Pose, two: Pose) -> Pose:
 
 
 @dataclass(frozen=True)
-class ClusterSolved:
+class GroupSolved:
     """What a larger group gives.
 
     poses : its links
@@ -437,14 +446,14 @@ class ClusterSolved:
             return certificate(self.system, self.poses, self.condition, self.residual)
 
 
-def solve_cluster(
+def solve_group(
     structure: Structure,
-    group: Cluster,
+    group: LargerGroup,
     known: Mapping[str, Pose],
     drive: Drive,
     start: Array,
     rates: bool = True,
-) -> ClusterSolved:
+) -> GroupSolved:
     """Solve a group by Newton's method from given places, shape (n, members, 3); where something rolls with more rows,
     see ``form_of``."""
     n = len(drive)
@@ -483,10 +492,10 @@ def solve_cluster(
     else:
         right_side = np.zeros((n, matrix.shape[1]))
     form = system.with_turns(place)
-    return ClusterSolved(system, system.poses(place, rate, second), form, residual, matrix, right_side)
+    return GroupSolved(system, system.poses(place, rate, second), form, residual, matrix, right_side)
 
 
-def form_of(structure: Structure, group: Cluster, poses: Mapping[str, Pose]) -> Array:
+def form_of(structure: Structure, group: LargerGroup, poses: Mapping[str, Pose]) -> Array:
     """From where Newton's method goes on from the scene's own position, shape (rows, 3): the places of the links; where
     something rolls also a row for each sum that it keeps, and one for each link outside the group that rolls with it,
     for the sake of its turns."""

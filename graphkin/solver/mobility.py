@@ -28,7 +28,7 @@ from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
-from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse, mobility_of, pick
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of, pick
 from graphkin.structure.assembly import TOUCH
 from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase, Wording, clauses, listed
@@ -161,7 +161,7 @@ def with_sensible_slots(structure: Structure) -> Structure:
 def _elements(structure: Structure) -> Iterator[tuple[int, Dyad]]:
     """The dyads before the first larger group, and before anything that rolls."""
     for i, element in enumerate(structure.elements):
-        if isinstance(element, Cluster) or (isinstance(element, Driven) and element.rolled):
+        if isinstance(element, LargerGroup) or (isinstance(element, Driven) and element.rolled):
             return
         if isinstance(element, Dyad):
             yield i, element

@@ -17,7 +17,7 @@ from graphkin.solver.decimals import DIGITS, meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.pose import GIVEN, Pose
-from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Rolled, Structure
+from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
 
 __all__ = ["DimensionedProgram", "Program", "body_shape", "driven", "dyad_joints", "members", "program_of"]
@@ -131,10 +131,10 @@ class Program:
 
     # elements
 
-    def _add(self, i: int, element: Driven | Dyad | Cluster) -> None:
+    def _add(self, i: int, element: Driven | Dyad | LargerGroup) -> None:
         if isinstance(element, Driven):
             self.poses[element.link] = driven(self, element, self.poses)
-        elif isinstance(element, Cluster):
+        elif isinstance(element, LargerGroup):
             for name in element.members:
                 self.poses[name] = self._placed(name)
         else:
@@ -193,14 +193,14 @@ def _form(structure: Structure, open_: Container[Name]) -> Hashable:
     return structure.scene.frame.name, drivers, special, tuple(_element_form(e) for e in structure.elements)
 
 
-def _element_form(element: Driven | Dyad | Cluster) -> Hashable:
+def _element_form(element: Driven | Dyad | LargerGroup) -> Hashable:
     if isinstance(element, Driven):
         follows = tuple(c for c, _ in element.rolled.factors) if element.rolled else ()
         return element.link, _pair_form(element.pair), type(element.driver).__name__, element.driver.key, follows
-    if isinstance(element, Cluster):
+    if isinstance(element, LargerGroup):
         return element.members
     bodies = [
-        (b.links, tuple((_pair_form(w.pair), w.driver.key, w.a, w.b, w.sign) for w in b.welds)) for b in element.bodies
+        (b.links, tuple((_pair_form(w.pair), w.driver.key, w.a, w.b, w.sign) for w in b.joints)) for b in element.bodies
     ]
     pairs = (element.inner, element.outer_first, element.outer_second)
     return element.kind, *bodies, *(_pair_form(p) for p in pairs)
@@ -326,17 +326,17 @@ def driven(program: Program, element: Driven, poses: Mapping[str, PoseFormula]) 
 def body_shape(program: Program, body: Body, rest: PoseFormula) -> dict[str, PoseFormula]:
     """Every link of a body in the axes of its base; ``rest`` are axes that do not move."""
     shape = {body.links[0]: rest}
-    for weld in body.welds:
-        joint = shape[weld.a].of(program.rest(weld.pair, weld.a))
-        if weld.driver.turns:
-            given = program.turn(weld.driver)
-            joint = joint.of(given if weld.sign > 0 else given.inverse())
+    for joint in body.joints:
+        placed = shape[joint.a].of(program.rest(joint.pair, joint.a))
+        if joint.driver.turns:
+            given = program.turn(joint.driver)
+            placed = placed.of(given if joint.sign > 0 else given.inverse())
         else:
-            travel, rate, second = program.travel(weld.driver)
-            if weld.b != weld.pair.a:
+            travel, rate, second = program.travel(joint.driver)
+            if joint.b != joint.pair.a:
                 travel, rate, second = -travel, -rate, -second
-            joint = joint.along(travel, rate, second)
-        shape[weld.b] = joint.of(program.rest(weld.pair, weld.b).inverse())
+            placed = placed.along(travel, rate, second)
+        shape[joint.b] = placed.of(program.rest(joint.pair, joint.b).inverse())
     return shape
 
 

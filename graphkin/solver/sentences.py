@@ -10,7 +10,7 @@ import numpy as np
 
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Dyad, Pair, Structure, named_with_contact
+from graphkin.structure import Dyad, LargerGroup, Pair, Structure, named_with_contact
 from graphkin.words import Phrase, Wording
 
 __all__ = ["assembly_words", "driver_text", "dyad_words", "group_words", "lies_at", "limit_why", "links_words"]
@@ -29,7 +29,7 @@ def limit_why(
     between : values between which the motion runs; None where more than one driver moves
     """
     scene, group = structure.scene, structure.elements[by]
-    assert isinstance(group, Dyad | Cluster)
+    assert isinstance(group, Dyad | LargerGroup)
     column = moved[0] if len(moved) else 0
     driver = scene.drivers[column]
     where = {"links": group_words(structure, group), "ending": _ending(group), "driver": driver.key,
@@ -40,7 +40,7 @@ def limit_why(
     return Phrase("end between which the motion reaches", **where, low=low, high=high)
 
 
-def group_words(structure: Structure, group: Dyad | Cluster) -> Phrase:
+def group_words(structure: Structure, group: Dyad | LargerGroup) -> Phrase:
     """The links of a group by name, of a dyad with the contact that it stands for."""
     return named_with_contact(structure, group) if isinstance(group, Dyad) else links_words(group.links)
 
@@ -50,7 +50,7 @@ def links_words(links: Sequence[str]) -> Phrase:
     return Phrase("links", links=", ".join(links))
 
 
-def _ending(group: Dyad | Cluster) -> Phrase:
+def _ending(group: Dyad | LargerGroup) -> Phrase:
     if isinstance(group, Dyad) and group.is_two_lines:
         return dyad_words(group).dead
     return Phrase("reach the end of their motion")
@@ -73,12 +73,12 @@ def assembly_words(structure: Structure, forms: Mapping[int, Array]) -> tuple[Ph
         if isinstance(element, Dyad):
             said = dyad_words(element)
             words.append(said.positive if float(forms[i]) > 0 else said.negative)
-        elif isinstance(element, Cluster):
-            words.append(_cluster_words(structure, element, np.asarray(forms[i])))
+        elif isinstance(element, LargerGroup):
+            words.append(_place_words(structure, element, np.asarray(forms[i])))
     return tuple(words)
 
 
-def _cluster_words(structure: Structure, group: Cluster, place: Array) -> Phrase:
+def _place_words(structure: Structure, group: LargerGroup, place: Array) -> Phrase:
     """Sides of the inner joints of a larger group, each seen from the next joint on its one link to that on the other,
     and where the first of them lies: two assemblies may have all sides in common."""
     row = (place if place.ndim == 2 else place[0])[: len(group.members)]

@@ -34,7 +34,7 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
 from graphkin.solver.pose import Array, Pose
 from graphkin.solver.redundant import all_slides
-from graphkin.structure import Cluster, Dyad
+from graphkin.structure import Dyad, LargerGroup
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
 
@@ -603,5 +603,5 @@ def _bounds(motion: Motion, k: int) -> dict[str, Json]:
     return found
 
 
-def _group(group: Dyad | Cluster, words: Phrase) -> dict[str, Json]:
+def _group(group: Dyad | LargerGroup, words: Phrase) -> dict[str, Json]:
     return {"class": group.order, "kind": group.kind, "links": list(group.links), "assembly": say(words)}

@@ -13,7 +13,7 @@ from itertools import islice, product
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure.groups import Constraints, Node, Unknown, components, element_of, match
-from graphkin.structure.model import Cluster, Driven, DrivenTriangle, Dyad, Element, Mobility, Pair, Structure
+from graphkin.structure.model import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Mobility, Pair, Structure
 from graphkin.structure.rolling import start_drivers, unrolled
 from graphkin.words import Phrase, Wording, about, clauses
 
@@ -156,7 +156,7 @@ def _in_order(
     return tuple(elements)
 
 
-def _triangles(structure: Structure, group: Cluster, taken: set[str]) -> tuple[DrivenTriangle, ...]:
+def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tuple[DrivenTriangle, ...]:
     """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
     found: list[DrivenTriangle] = []
     for driver in group.drivers:
@@ -168,7 +168,7 @@ def _triangles(structure: Structure, group: Cluster, taken: set[str]) -> tuple[D
     return tuple(found)
 
 
-def _closed_by(structure: Structure, group: Cluster, driver: Driver) -> Iterator[DrivenTriangle]:
+def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iterator[DrivenTriangle]:
     """The triangles that a driven slide closes with a pair of two links not yet known: of tippers, scissor lifts,
     excavators.
 
@@ -192,7 +192,7 @@ def _closed_by(structure: Structure, group: Cluster, driver: Driver) -> Iterator
             yield DrivenTriangle(held, (other, *driver.links), pair, driver, equivalent)
 
 
-def _hung_on(structure: Structure, group: Cluster, link: str, slide: str) -> list[tuple[str, ...]]:
+def _hung_on(structure: Structure, group: LargerGroup, link: str, slide: str) -> list[tuple[str, ...]]:
     """For each pair of a link besides a slide the members of the group on its other side, which at a hinge may be
     several."""
     points = {pair.point for pair in group.pairs if pair.point in structure.links[link].points}
@@ -217,7 +217,7 @@ def _in_parts(structure: Structure) -> Structure:
         return structure
     elements: list[Element] = []
     for e in structure.elements:
-        if e in found and isinstance(e, Cluster):
+        if e in found and isinstance(e, LargerGroup):
             inside = [part for part in opened.elements if set(part.members) & set(e.members)]
             parts = tuple(part for part in inside if isinstance(part, Driven | Dyad))
             if len(parts) == len(inside):

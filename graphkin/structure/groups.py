@@ -16,15 +16,15 @@ from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
 from graphkin.structure.model import (
     Body,
-    Cluster,
     Driven,
+    DrivenJoint,
     Dyad,
     DyadKind,
     Element,
+    LargerGroup,
     Mobility,
     Pair,
     RollingRelation,
-    Weld,
     driver_pair,
 )
 from graphkin.structure.replacement import replacing_link
@@ -245,12 +245,12 @@ def element_of(system: Constraints, members: list[str], known: set[str]) -> Elem
             if rolled is not None:
                 return Driven(members[0], pairs[0], rolled)
         order = 2 if _rolls_like_a_dyad(members, pairs, drivers, rolling) else _order(members, pairs)
-        return Cluster(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
+        return LargerGroup(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
     if len(members) == 1 and len(pairs) == 1 and len(drivers) == 1:
         return Driven(members[0], pairs[0], drivers[0])
     bodies, loose = _bodies(system, members, drivers)
     dyad = _dyad(system, bodies, pairs, real) if not loose else None
-    return dyad or Cluster(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))
+    return dyad or LargerGroup(tuple(members), tuple(pairs), tuple(drivers), real, _order(members, pairs))
 
 
 def _touches(system: Constraints, relation: RollingRelation, inside: set[str], known: set[str]) -> bool:
@@ -282,14 +282,14 @@ def _pairs(system: Constraints, members: list[str], known: set[str]) -> list[Pai
 
 def _bodies(system: Constraints, members: list[str], drivers: list[Driver]) -> tuple[list[Body], list[Driver]]:
     """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
-    welds: list[Weld] = []
+    joints: list[DrivenJoint] = []
     loose: list[Driver] = []
     for driver in drivers:
         pair = driver_pair(driver, system.links, system.slides)
         if pair is None or not {pair.a, pair.b} <= set(members):
             loose.append(driver)
         else:
-            welds.append(Weld(pair, driver, pair.b, pair.a))
+            joints.append(DrivenJoint(pair, driver, pair.b, pair.a))
     bodies: list[Body] = []
     left = list(members)
     while left:
@@ -297,13 +297,13 @@ def _bodies(system: Constraints, members: list[str], drivers: list[Driver]) -> t
         grown = True
         while grown:
             grown = False
-            for w in welds:
+            for w in joints:
                 if w in used or {w.a, w.b} <= set(names):
                     continue
                 if w.a in names:
                     used.append(w)
                 elif w.b in names:
-                    used.append(Weld(w.pair, w.driver, w.b, w.a, -1))
+                    used.append(DrivenJoint(w.pair, w.driver, w.b, w.a, -1))
                 else:
                     continue
                 names.append(used[-1].b)

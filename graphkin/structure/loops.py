@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from graphkin.errors import CallError, Problem
 from graphkin.plane import added_up, cross, dot
-from graphkin.structure.model import Cluster, Driven, Dyad, Element, Pair, Structure
+from graphkin.structure.model import Driven, Dyad, Element, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["Arrow", "ArrowValue", "Loop", "LoopBlock", "LoopValue", "Root", "Unknown", "loops_in_numbers", "loops_of"]
@@ -108,8 +108,8 @@ Edge = tuple[str, str, Pair]
 
 
 def _pairs(element: Element) -> tuple[Pair, ...]:
-    welds = element.welds if isinstance(element, Dyad) else ()
-    return *element.pairs, *(weld.pair for weld in welds)
+    joints = element.joints if isinstance(element, Dyad) else ()
+    return *element.pairs, *(joint.pair for joint in joints)
 
 
 def _found(structure: Structure) -> tuple[Loop, ...]:
@@ -139,7 +139,7 @@ Cycle = list[tuple[str, Pair, Pair]]
 """Links in turn, each with the pair by which the loop comes to it and that by which it leaves it."""
 
 
-def _cycles(structure: Structure, element: Dyad | Cluster, edges: list[Edge], known: list[Edge]) -> list[Cycle]:
+def _cycles(structure: Structure, element: Dyad | LargerGroup, edges: list[Edge], known: list[Edge]) -> list[Cycle]:
     """Independent cycles: a tree from the known links over the group; each pair that is left over closes one."""
     members = set(element.members)
     reached = {n for a, b, _ in edges for n in (a, b)} - members

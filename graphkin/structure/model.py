@@ -21,18 +21,18 @@ from graphkin.words import Phrase
 
 __all__ = [
     "Body",
-    "Cluster",
     "Driven",
+    "DrivenJoint",
     "DrivenTriangle",
     "Dyad",
     "DyadKind",
     "Element",
+    "LargerGroup",
     "Mobility",
     "Pair",
     "Rolled",
     "RollingRelation",
     "Structure",
-    "Weld",
     "by_drivers_alone",
     "driver_pair",
     "greatest_before",
@@ -88,7 +88,7 @@ class Pair:
 
 
 @dataclass(frozen=True)
-class Weld:
+class DrivenJoint:
     """Link ``b`` held to link ``a`` of the same body by a driver at their common pair.
 
     For an angle driver ``sign`` is +1 where the driver turns ``b`` from ``a``, -1 where it turns ``a`` from ``b``.
@@ -105,11 +105,11 @@ class Weld:
 class Body:
     """Links that move as one but for the given motion of the drivers between them; ``links[0]`` is the base.
 
-    ``welds`` are in an order in which each ``a`` is the base or a ``b`` of an earlier one.
+    ``joints`` are in an order in which each ``a`` is the base or a ``b`` of an earlier one.
     """
 
     links: tuple[str, ...]
-    welds: tuple[Weld, ...] = ()
+    joints: tuple[DrivenJoint, ...] = ()
 
 
 Coordinate = tuple[str, str]
@@ -208,7 +208,7 @@ class Dyad:
     ``links`` are the real links of the group in the order of the file.
 
     From these follow its ``bodies``, all ``members`` (blocks of pins included), ``pairs`` in the order of its kind,
-    the ``outer`` ones, the ``welds`` and ``drivers`` inside its bodies, the links ``outside`` on which it hangs,
+    the ``outer`` ones, the driven ``joints`` and ``drivers`` inside its bodies, the links ``outside`` it hangs on,
     whether it ``is_two_lines``: found by two straight lines that cross, and so in one way only, and whether it
     ``is_slider_on_bar``: one body slides on the other, and both turn about known points.
     """
@@ -228,7 +228,7 @@ class Dyad:
     members: tuple[str, ...] = field(init=False, repr=False, compare=False)
     pairs: tuple[Pair, Pair, Pair] = field(init=False, repr=False, compare=False)
     outer: tuple[Pair, Pair] = field(init=False, repr=False, compare=False)
-    welds: tuple[Weld, ...] = field(init=False, repr=False, compare=False)
+    joints: tuple[DrivenJoint, ...] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
     is_two_lines: bool = field(init=False, repr=False, compare=False)
@@ -236,11 +236,11 @@ class Dyad:
 
     def __post_init__(self) -> None:
         one, two, outer = self.first, self.second, (self.outer_first, self.outer_second)
-        members, drivers = one.links + two.links, tuple(weld.driver for weld in one.welds + two.welds)
+        members, drivers = one.links + two.links, tuple(joint.driver for joint in one.joints + two.joints)
         hung = {name for pair in outer for name in pair.links}.union(*(driver.through for driver in drivers))
         self.__dict__.update(
             bodies=(one, two), members=members, pairs=(outer[0], self.inner, outer[1]), outer=outer,
-            welds=one.welds + two.welds, drivers=drivers, outside=frozenset(hung.difference(members)),
+            joints=one.joints + two.joints, drivers=drivers, outside=frozenset(hung.difference(members)),
             is_two_lines=self.kind in ("PRP", "RPP"), is_slider_on_bar=self.kind == "RPR",
         )  # fmt: skip
 
@@ -261,7 +261,7 @@ class DrivenTriangle:
 
 
 @dataclass(frozen=True)
-class Cluster:
+class LargerGroup:
     """A larger group (class III and higher, with a driver that joins no common pair, or with links that roll and move
     each other): solved as a whole.
 
@@ -294,7 +294,7 @@ class Cluster:
         )
 
 
-Element = Driven | Dyad | Cluster
+Element = Driven | Dyad | LargerGroup
 
 
 @dataclass(frozen=True)
@@ -333,10 +333,10 @@ class Structure:
     followers: tuple[Driver, ...] = ()
 
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
-    groups: tuple[Dyad | Cluster, ...] = field(init=False, repr=False, compare=False)
+    groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
     driven: tuple[Driven, ...] = field(init=False, repr=False, compare=False)
     dyads: Mapping[int, Dyad] = field(init=False, repr=False, compare=False)
-    larger_groups: tuple[Cluster, ...] = field(init=False, repr=False, compare=False)
+    larger_groups: tuple[LargerGroup, ...] = field(init=False, repr=False, compare=False)
     place_of: Mapping[str, int] = field(init=False, repr=False, compare=False)
     kept: dict[Hashable, Any] = field(init=False, repr=False, compare=False)
 
@@ -347,7 +347,7 @@ class Structure:
             groups=tuple(e for e in elements if not isinstance(e, Driven)),
             driven=tuple(e for e in elements if isinstance(e, Driven)),
             dyads={i: e for i, e in enumerate(elements) if isinstance(e, Dyad)},
-            larger_groups=tuple(e for e in elements if isinstance(e, Cluster)),
+            larger_groups=tuple(e for e in elements if isinstance(e, LargerGroup)),
             place_of={name: i for i, e in enumerate(elements) for name in e.members},
         )  # fmt: skip
 
@@ -455,7 +455,7 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
         return None if found is None else [place for n in found if (place := structure.place_of.get(n)) is not None]
 
     count = len(structure.elements)
-    special = next((i for i, e in enumerate(structure.elements) if isinstance(e, Cluster)), count - 1)
+    special = next((i for i, e in enumerate(structure.elements) if isinstance(e, LargerGroup)), count - 1)
     before = [0.0] * count
     for symbol, size in sizes:
         at = places(symbol)
@@ -480,7 +480,7 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
 def in_stages(elements: Sequence[Element]) -> bool:
     """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
     followers of cams, whose law has pieces, and what rolls."""
-    return any(isinstance(e, Cluster) or (isinstance(e, Driven) and not e.driver.given) for e in elements)
+    return any(isinstance(e, LargerGroup) or (isinstance(e, Driven) and not e.driver.given) for e in elements)
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:

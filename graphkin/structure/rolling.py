@@ -22,7 +22,7 @@ from graphkin.plane import added_up
 from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.scene.touching import rack_place
-from graphkin.structure.model import Cluster, Coordinate, Pair, Rolled, RollingRelation, Structure
+from graphkin.structure.model import Coordinate, LargerGroup, Pair, Rolled, RollingRelation, Structure
 
 __all__ = ["Mesh", "drawn_angle", "followers_of", "meshes_of", "relations_of", "rolled_by", "start_drivers", "unrolled"]
 
@@ -235,7 +235,7 @@ def unrolled(scene: Mechanism, names: Sequence[str]) -> Mechanism:
     )
 
 
-def start_drivers(structure: Structure, groups: Sequence[Cluster]) -> Iterator[tuple[Driver, ...]]:
+def start_drivers(structure: Structure, groups: Sequence[LargerGroup]) -> Iterator[tuple[Driver, ...]]:
     """A driver for each rolling relation of some groups, in the order of the groups: those that the scene tells first.
     Which of them hold the mechanism remains to be seen."""
     each = [_of(structure, group, relation) for group in groups for relation in group.rolling]
@@ -250,7 +250,7 @@ def start_drivers(structure: Structure, groups: Sequence[Cluster]) -> Iterator[t
             yield tuple(driver for _, driver in chosen)
 
 
-def _of(structure: Structure, group: Cluster, relation: RollingRelation) -> list[tuple[int, Driver]]:
+def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> list[tuple[int, Driver]]:
     """What can be given for a relation, and how well it is told: as the start of what rolls, of another link of the
     group, by a sketched bar, not at all."""
     scene, inside = structure.scene, set(group.members)

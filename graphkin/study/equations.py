@@ -19,7 +19,7 @@ from graphkin.plane import Values
 from graphkin.solver import Motion
 from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array
-from graphkin.structure import Cluster, Driven, Dyad, Pair, Structure
+from graphkin.structure import Driven, Dyad, LargerGroup, Pair, Structure
 
 __all__ = ["DOUBLES", "Arithmetic", "Equations", "Solution", "solve_many"]
 
@@ -78,9 +78,9 @@ class Equations:
             if isinstance(e, Driven):
                 found.append(e.pair)
             elif isinstance(e, Dyad):
-                found += [e.outer_first, e.inner, e.outer_second, *(w.pair for body in e.bodies for w in body.welds)]
+                found += [e.outer_first, e.inner, e.outer_second, *(w.pair for body in e.bodies for w in body.joints)]
             else:
-                assert isinstance(e, Cluster)
+                assert isinstance(e, LargerGroup)
                 found += e.pairs
         return tuple(found)
 

@@ -25,7 +25,7 @@ from graphkin.solver.decimals import meant, meant_direction
 from graphkin.solver.drivers import own_values
 from graphkin.solver.engine import State, positions
 from graphkin.solver.pose import Drive
-from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
 from graphkin.study.equations import Arithmetic, Equations
 from graphkin.study.reference import context
 
@@ -300,7 +300,7 @@ def _meant(structure: Structure, mp: Any) -> Structure:
     def pairs(found: Sequence[Any]) -> tuple[Any, ...]:
         return tuple(slides.get(getattr(p, "key", ""), p) for p in found)
 
-    def element(e: Driven | Dyad | Cluster) -> Driven | Dyad | Cluster:
+    def element(e: Driven | Dyad | LargerGroup) -> Driven | Dyad | LargerGroup:
         if isinstance(e, Driven):
             return replace(e, pair=pairs([e.pair])[0])
         if isinstance(e, Dyad):

@@ -17,7 +17,7 @@ from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.solver.solve import driver_range
-from graphkin.structure import Cluster
+from graphkin.structure import LargerGroup
 from tests import EVERYTHING
 from tests.mechanisms import KINDS, random_scene
 from tests.scenes import four_bar
@@ -30,7 +30,7 @@ POSITIONS, LARGER = (12, 12) if EVERYTHING else (3, 2)
 def over_its_range(name: str) -> tuple[list[float], float | None]:
     """Driver values in the scene's unit, all over the range that the motion reaches, and one beyond its end."""
     whole = driver_range(mechanism_of(name))
-    larger = any(isinstance(group, Cluster) for group in whole.structure.groups)
+    larger = any(isinstance(group, LargerGroup) for group in whole.structure.groups)
     low, high = whole.ends
     n = LARGER if larger else POSITIONS
     inside = whole.value(low + (np.arange(n) + 0.5) / n * (high - low)).tolist()

@@ -14,7 +14,7 @@ from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster
+from graphkin.structure import LargerGroup
 
 pytestmark = pytest.mark.quick
 
@@ -76,7 +76,7 @@ def test_no_equation_is_drawn_with_more_than_two_unknown_sizes(name):
         terms = [t for side in equation.sides for t in side if t.direction_known]
         # what lies along one line counts once; a larger group has equations that only close what is known already
         lines = {t.direction for t in terms if not t.size_known}
-        assert len(lines) in ((0, 1, 2) if isinstance(equation.element, Cluster) else (0, 2)), equation
+        assert len(lines) in ((0, 1, 2) if isinstance(equation.element, LargerGroup) else (0, 2)), equation
 
 
 def test_an_image_is_similar_to_its_link_and_turned_the_same_way():

@@ -337,11 +337,11 @@ CHAIN = {  # links 2, 3 and 4 are one body of a dyad, joined by two drivers one 
 
 def test_a_driver_s_moment_loads_the_next_link_of_a_chain_with_the_opposite_sense(monkeypatch):
     assert set() == wrong(CHAIN)
-    right = groups._at_weld
+    right = groups._at_driven_joint
 
     def flipped(*given):
         forces, moment = right(*given)
         return forces, replace(moment, moment=-moment.moment)
 
-    monkeypatch.setattr(groups, "_at_weld", flipped)
+    monkeypatch.setattr(groups, "_at_driven_joint", flipped)
     assert "M_3" in wrong(CHAIN)

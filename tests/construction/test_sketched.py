@@ -9,7 +9,7 @@ import pytest
 import graphkin
 from graphkin.construction.assembly import as_sketched
 from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.structure import Cluster
+from graphkin.structure import LargerGroup
 
 BESIDE_A_GUIDE: dict[str, Any] = {  # the guides of link 5 lie beside its pin: they tell how it is turned
     "frame": {"points": {"A": [0, 0], "C": [252.366, 194.709]}},
@@ -80,7 +80,7 @@ def test_the_links_lie_where_an_exact_sketch_shows_them(name: str) -> None:
     motion = graphkin.solve(scene).motion
     at = {p: 1e3 * complex(motion.point(p).z[0]) for p in scene["sketch"]}
     sheet = graphkin.check({**scene, "sketch": {p: [z.real, z.imag] for p, z in at.items()}}).sheet
-    (group,) = (e for e in sheet.structure.elements if isinstance(e, Cluster))
+    (group,) = (e for e in sheet.structure.elements if isinstance(e, LargerGroup))
     mm = 1.0 / sheet.scales.length
     known = {name: pose for name, pose in sheet.poses.items() if name not in group.members}
     frame = PlacedLinks(sheet.structure.links, mm, dict(sheet.drivers), known)
@@ -97,7 +97,7 @@ def test_the_links_lie_where_an_exact_sketch_shows_them(name: str) -> None:
 def test_a_guide_of_which_nothing_but_its_pin_is_sketched_tells_either_sense() -> None:
     """The rod may lie on the cylinder or behind it; the first is tried first."""
     sheet = graphkin.check(ROD).sheet
-    (group,) = (e for e in sheet.structure.elements if isinstance(e, Cluster))
+    (group,) = (e for e in sheet.structure.elements if isinstance(e, LargerGroup))
     known = {name: pose for name, pose in sheet.poses.items() if name not in group.members}
     frame = PlacedLinks(sheet.structure.links, 1.0 / sheet.scales.length, dict(sheet.drivers), known)
     on, behind = as_sketched(sheet.structure, group, frame)

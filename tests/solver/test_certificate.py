@@ -7,7 +7,7 @@ import pytest
 
 from graphkin.scene import mechanism_of_text
 from graphkin.solver import driver_range, solve, structure_of
-from graphkin.solver import larger_groups as cluster
+from graphkin.solver import larger_groups as group
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.drivers import own_values
 from graphkin.solver.engine import positions
@@ -24,7 +24,7 @@ def test_an_ordinary_position_is_certified_with_room_to_spare(text: str) -> None
 
 
 def test_what_is_no_certain_position_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "certificate", lambda _, members, condition, residual: np.full(len(residual), 0.7))
+    monkeypatch.setattr(group, "certificate", lambda _, members, condition, residual: np.full(len(residual), 0.7))
     motion = solve(mechanism_of_text(scenes.TRIAD, "scene"))
     assert "links 2, 3, 4, 5 are so near to their dead point" in motion.why[0]
 

@@ -15,7 +15,7 @@ from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import Motion, solve
-from graphkin.solver.continuity import At, _passed, _walk_cluster
+from graphkin.solver.continuity import At, _passed, _walk_group
 from graphkin.solver.pose import Array
 from tests import scenes
 
@@ -285,7 +285,7 @@ def test_a_group_goes_on_from_where_it_stops_if_no_other_assembly_is_near(
     way: str, alone_within: float, end: float | None
 ) -> None:
     at = stopping(way, alone_within)
-    assert end == _walk_cluster(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05).end
+    assert end == _walk_group(at, at(0.0, np.zeros(1))[0].place[0], 1.0, 2.0, 0.05).end
 
 
 def changing(beside: float) -> At:

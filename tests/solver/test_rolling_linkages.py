@@ -11,7 +11,7 @@ import pytest
 from graphkin import solve
 from graphkin.scene import mechanism_of
 from graphkin.solver import solve as motion_of
-from graphkin.structure import Cluster, analyse
+from graphkin.structure import LargerGroup, analyse
 from tests.rolling_linkages import (
     ROLLING_LINKAGES,
     five_bar_by_its_middle,
@@ -25,7 +25,7 @@ from tests.solver.checks import closure, differences
 @pytest.mark.parametrize("made", ROLLING_LINKAGES)
 def test_joints_stay_closed_and_rates_are_slopes(made):
     scene = mechanism_of(made())
-    assert any(isinstance(e, Cluster) and e.rolling for e in analyse(scene).elements)
+    assert any(isinstance(e, LargerGroup) and e.rolling for e in analyse(scene).elements)
     assert 0.0 == pytest.approx(closure(motion_of(scene)), abs=1e-13)
     assert 0.0 == pytest.approx(differences(scene), abs=3e-6)
 

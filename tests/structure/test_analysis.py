@@ -11,7 +11,7 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import solve
-from graphkin.structure import Cluster, Driven, Dyad, Structure, analyse
+from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
 from tests import scenes
 from tests.rolling_linkages import cylinder_and_wheel, five_bar_by_its_middle, planet_by_a_rod, wheel_at_its_rim
 
@@ -98,13 +98,13 @@ def test_a_driven_coupler_is_a_group_of_class_three() -> None:
     group = structure(
         FOUR_BAR.replace('link = "1"', 'link = "2"') + "[sketch]\nB = [75, 130]\nC = [550, 260]\n"
     ).groups[0]
-    assert isinstance(group, Cluster)
+    assert isinstance(group, LargerGroup)
     assert (group.order, group.kind) == (3, "group of 1, 2, 3")
 
 
 def test_a_plate_on_three_bars_is_a_group_of_class_three() -> None:
     found = structure(scenes.TRIAD)
-    assert isinstance(found.groups[0], Cluster)
+    assert isinstance(found.groups[0], LargerGroup)
     assert (found.groups[0].links, found.groups[0].order) == (("2", "3", "4", "5"), 3)
 
 
@@ -136,7 +136,7 @@ angle = 50
 omega = 6
 """
     group = structure(text).groups[0]
-    assert isinstance(group, Cluster)
+    assert isinstance(group, LargerGroup)
     assert group.order == 4
 
 
@@ -210,7 +210,7 @@ def test_a_link_marked_redundant_that_is_needed_is_named() -> None:
 def test_a_rod_and_the_wheel_that_it_moves_are_a_dyad_about_where_it_rolls(
     scene: Callable[[], dict[str, Any]], order: int
 ) -> None:
-    (group,) = (e for e in analyse(mechanism_of(scene())).elements if isinstance(e, Cluster))
+    (group,) = (e for e in analyse(mechanism_of(scene())).elements if isinstance(e, LargerGroup))
     assert order == group.order
 
 

@@ -31,7 +31,7 @@ from graphkin.construction.forces.joints import BalanceForm, opposite
 from graphkin.construction.sizes import Direction, Part, Term
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Body, Cluster, Driven, Dyad, Pair, Weld
+from graphkin.structure import Body, Driven, DrivenJoint, Dyad, LargerGroup, Pair
 
 __all__ = ["at_driver", "of_dyad", "of_larger_group"]
 
@@ -217,8 +217,8 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
             _slide_found(cut, side, force, side.at, letter, figure, inside, (opposed,), (back,))
     slides = [pair for pair in dyad.pairs if not pair.turns]
     for side, force, opposed in zip((one, two), outer, inner, strict=True):
-        if side.body.welds:
-            _between_welded(cut, side, (opposed, force), slides, figure, balances)
+        if side.body.joints:
+            _between_driven(cut, side, (opposed, force), slides, figure, balances)
     cut.done |= set(inside)
     return figure.group(dyad.links, dyad.kind)
 
@@ -314,7 +314,7 @@ def _inner_forces(
 # -- where drivers act -------------------------------------------------------------------------------------------------
 
 
-def _between_welded(
+def _between_driven(
     cut: CutFree, side: CutBody, found: tuple[Acting, ...], slides: Sequence[Pair], figure: GroupFigure,
     balances: Mapping[str, BalanceForm],
 ) -> None:  # fmt: skip
@@ -335,15 +335,15 @@ def _between_welded(
         for moment in (KnownMoment(symbol, slide.a, couple), KnownMoment(opposite(symbol), slide.b, -couple)):
             if couple and moment.link in side.links:
                 turning[moment.link].append(moment)
-    for weld in reversed(side.body.welds):
-        balance = balances[weld.driver.key]
-        forces, moments = _at_weld(cut, weld, balance, extra[weld.b], turning[weld.b], figure, side.links)
-        extra[weld.a] += forces
-        turning[weld.a].append(moments)
+    for joint in reversed(side.body.joints):
+        balance = balances[joint.driver.key]
+        forces, moments = _at_driven_joint(cut, joint, balance, extra[joint.b], turning[joint.b], figure, side.links)
+        extra[joint.a] += forces
+        turning[joint.a].append(moments)
 
 
-def _at_weld(
-    cut: CutFree, weld: Weld, balance: BalanceForm, extra: Sequence[Acting], turning: Sequence[KnownMoment],
+def _at_driven_joint(
+    cut: CutFree, joint: DrivenJoint, balance: BalanceForm, extra: Sequence[Acting], turning: Sequence[KnownMoment],
     figure: GroupFigure, inside: tuple[str, ...],
 ) -> tuple[list[Acting], KnownMoment]:  # fmt: skip
     """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
@@ -352,7 +352,7 @@ def _at_weld(
     ----------
     extra, turning : forces and moments on the link, besides what is known from outside
     """
-    leaf, other, pair = weld.b, weld.a, weld.pair
+    leaf, other, pair = joint.b, joint.a, joint.pair
     chain: Chain = []
     for known in (*cut.forces_on((leaf,)), *extra):
         cut.lay(chain, known)
@@ -477,7 +477,7 @@ class UnknownForce:
         return (self.on, 1.0), (self.off, -1.0)
 
 
-def of_larger_group(cut: CutFree, group: Cluster, balances: Sequence[BalanceForm]) -> ForceGroup:
+def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[BalanceForm]) -> ForceGroup:
     """The forces of a group larger than a dyad, or of one that a balance holds otherwise than by a driven link.
 
     Raises

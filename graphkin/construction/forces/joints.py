@@ -17,7 +17,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import Cluster, Element, Pair, Structure, analyse
+from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
 
 __all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "force_groups", "opposite"]
@@ -143,7 +143,7 @@ def force_groups(structure: Structure) -> tuple[Element, ...]:
     except Unsolvable:
         members = tuple(name for name in structure.links if name != frame)
         real = tuple(link.name for link in scene.links if link.name in members)
-        return (Cluster(members, (), (driver,), real, 3),)
+        return (LargerGroup(members, (), (driver,), real, 3),)
 
 
 # -- motion off the polygons -------------------------------------------------------------------------------------------

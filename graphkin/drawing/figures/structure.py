@@ -27,7 +27,7 @@ from graphkin.drawing.text import plain, rich, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import dot
 from graphkin.scene.cams import LawCam
-from graphkin.structure import Cluster, Driven, Dyad, Element, Pair, Structure, replacement_told
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Pair, Structure, replacement_told
 from graphkin.words import Phrase, class_of, languages, say
 
 __all__ = ["FIGURES", "structure_figure"]
@@ -171,7 +171,7 @@ def _told(sheet: Sheet, element: Element, language: str) -> str:
             for name in (*element.links, *(n for n in element.members if n not in element.links))
         ]
         return say(Phrase("structure group", (
-            ", ".join(links), "" if isinstance(element, Cluster) else f" {element.kind}", class_of(element.order),
+            ", ".join(links), "" if isinstance(element, LargerGroup) else f" {element.kind}", class_of(element.order),
             ", ".join(p.key for p in inner), ", ".join(p.key for p in outer),
         )), language)  # fmt: skip
     driver = element.driver
@@ -193,7 +193,7 @@ def _blocks(sheet: Sheet) -> dict[str, str]:
 def _joints(element: Element) -> tuple[list[Pair], list[Pair]]:
     """Inner joints, between links of the group, and outer ones, to others."""
     if isinstance(element, Dyad):
-        return [element.inner, *(weld.pair for weld in element.welds)], [*element.outer]
+        return [element.inner, *(joint.pair for joint in element.joints)], [*element.outer]
     own = set(element.members)
     inner = [p for p in element.pairs if {p.a, p.b} <= own]
     return inner, [p for p in element.pairs if not {p.a, p.b} <= own]
