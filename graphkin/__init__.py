@@ -1,7 +1,7 @@
 """graphkin draws velocity and acceleration polygons of mechanisms as with ruler and compass, measures and checks them.
 
 A four-bar, from a scene to a checked diagram.  A scene is a text file (TOML), the name of a scene that comes along, a
-mapping of the same shape, or a `Scene` built of `Frame`, `Link`, `Guide`, `Driver`:
+mapping of the same shape, or a `Scene` built of the tables of `graphkin.scene`:
 
 >>> import graphkin
 >>> four_bar = {
@@ -44,78 +44,54 @@ from graphkin.version import __version__
 
 TYPE_CHECKING = False  # that of typing, without waiting for typing
 if TYPE_CHECKING:
-    from graphkin.api.audited import Audited, audit
-    from graphkin.api.cams import Cams, cam
-    from graphkin.api.centred import Centred, centres
-    from graphkin.api.centroded import Centroded, centrodes
-    from graphkin.api.checked import Checked, check
-    from graphkin.api.converted import Converted, convert
-    from graphkin.api.course_designs import CourseDesigns, course_design
-    from graphkin.api.designed import Designed, design
-    from graphkin.api.drawn import Drawn, draw
-    from graphkin.api.explained import Explained, explain
-    from graphkin.api.handouts import Handout, handout
-    from graphkin.api.prepared import Prepared, PreparedDesigns, Samples, prepare
-    from graphkin.api.problem_sets import ProblemSet, problem_set
-    from graphkin.api.scene_list import Listed, scenes
-    from graphkin.api.solved import Solved, solve
-    from graphkin.api.studied import SpeedAccuracy, Stability, speed_accuracy, stability
-    from graphkin.api.sweep import Swept, sweep
+    from graphkin.api.audited import audit
+    from graphkin.api.cams import cam
+    from graphkin.api.centred import centres
+    from graphkin.api.centroded import centrodes
+    from graphkin.api.checked import check
+    from graphkin.api.converted import convert
+    from graphkin.api.course_designs import course_design
+    from graphkin.api.designed import design
+    from graphkin.api.drawn import draw
+    from graphkin.api.explained import explain
+    from graphkin.api.handouts import handout
+    from graphkin.api.prepared import prepare
+    from graphkin.api.problem_sets import problem_set
+    from graphkin.api.scene_list import scenes
+    from graphkin.api.solved import solve
+    from graphkin.api.studied import speed_accuracy, stability
+    from graphkin.api.sweep import sweep
     from graphkin.board.server import open_board
     from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
-    from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
-    from graphkin.scene.bodies import Compass, Disc, Frame, Guide, Link, Pin, Polar
-    from graphkin.scene.cams import AllowedPressure, BaseCircle, Cam
-    from graphkin.scene.drivers import DrivenSlide, Driver
-    from graphkin.scene.laws import LawPiece
-    from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
     from graphkin.scene.scene import Scene, read
-    from graphkin.scene.sheet import Background, SheetWishes, Tools, Vary
-    from graphkin.scene.tables import Units
-    from graphkin.scene.touching import Contact, Gear
 
 __all__ = [
-    "AllowedPressure", "Audited", "Background", "Balance", "BaseCircle", "CallError", "Cam", "Cams", "Centred",
-    "Centroded", "Checked", "Compass", "Contact", "Converted", "CourseDesigns", "Designed", "Disc", "Drawn",
-    "DrivenSlide", "Driver", "Explained", "Flywheel", "Frame", "Gear", "GraphkinError", "Gravity", "Guide", "Handout",
-    "LawPiece", "Link", "Listed", "Load", "LoadPhase", "Mass", "Pin", "Polar", "Positions", "Prepared",
-    "PreparedDesigns", "PrintedTable", "ProblemSet", "Samples", "Scene", "SceneError", "SheetWishes", "Solved",
-    "SpeedAccuracy", "Spring", "Stability", "StrokeStart", "Swept", "Tools", "Units", "Unsolvable", "Vary",
-    "__version__", "audit", "cam", "centres", "centrodes", "check", "convert", "course_design", "design", "draw",
-    "explain", "handout", "open_board", "prepare", "problem_set", "read", "scenes", "solve", "speed_accuracy",
-    "stability", "sweep",
+    "CallError", "GraphkinError", "Scene", "SceneError", "Unsolvable", "__version__", "audit", "cam", "centres",
+    "centrodes", "check", "convert", "course_design", "design", "draw", "explain", "handout", "open_board", "prepare",
+    "problem_set", "read", "scenes", "solve", "speed_accuracy", "stability", "sweep",
 ]  # fmt: skip
 
 _PLACES = {
-    "api.audited": "Audited audit",
-    "api.cams": "Cams cam",
+    "api.audited": "audit",
+    "api.cams": "cam",
+    "api.centred": "centres",
+    "api.centroded": "centrodes",
+    "api.checked": "check",
+    "api.converted": "convert",
+    "api.course_designs": "course_design",
+    "api.designed": "design",
+    "api.drawn": "draw",
+    "api.explained": "explain",
+    "api.handouts": "handout",
+    "api.prepared": "prepare",
+    "api.problem_sets": "problem_set",
+    "api.scene_list": "scenes",
+    "api.solved": "solve",
+    "api.studied": "speed_accuracy stability",
+    "api.sweep": "sweep",
     "board.server": "open_board",
     "errors": "CallError GraphkinError SceneError Unsolvable",
-    "api.centred": "Centred centres",
-    "api.centroded": "Centroded centrodes",
-    "api.checked": "Checked check",
-    "api.converted": "Converted convert",
-    "api.course_designs": "CourseDesigns course_design",
-    "api.designed": "Designed design",
-    "api.drawn": "Drawn draw",
-    "api.explained": "Explained explain",
-    "api.handouts": "Handout handout",
-    "api.prepared": "Prepared PreparedDesigns Samples prepare",
-    "api.problem_sets": "ProblemSet problem_set",
-    "api.scene_list": "Listed scenes",
-    "api.solved": "Solved solve",
-    "api.studied": "SpeedAccuracy Stability speed_accuracy stability",
-    "api.sweep": "Swept sweep",
-    "scene.asked": "Positions PrintedTable StrokeStart",
-    "scene.bodies": "Compass Disc Frame Guide Link Pin Polar",
-    "scene.cams": "AllowedPressure BaseCircle Cam",
-    "scene.drivers": "DrivenSlide Driver",
-    "scene.laws": "LawPiece",
-    "scene.loads": "Balance Flywheel Gravity Load LoadPhase Mass Spring",
     "scene.scene": "Scene read",
-    "scene.sheet": "Background SheetWishes Tools Vary",
-    "scene.tables": "Units",
-    "scene.touching": "Contact Gear",
 }
 
 

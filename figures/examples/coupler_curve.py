@@ -13,10 +13,10 @@ import graphkin
 # The curve as an array of complex numbers, in the scene's millimetres.
 
 # %%
-turn = graphkin.prepare("four-bar-coupler-point", ["P"]).sweep(720)
+turn = graphkin.prepare("four-bar-coupler-point", find=["P"]).sweep(720)
 path = turn["P"]
 closed = np.append(path, path[0])
 print(f"{abs(np.diff(closed)).sum():.1f} mm long, {np.ptp(path.real):.1f} mm wide, {np.ptp(path.imag):.1f} mm high")
 
 # %%
-picture = graphkin.centrodes("four-bar-coupler-point", "2", "P").figure
+picture = graphkin.centrodes("four-bar-coupler-point", link="2", point="P").figure

@@ -11,7 +11,7 @@ import graphkin
 WANTED = 320.0  # mm
 
 shaper = graphkin.read("shaper-scheme-2")
-ram = graphkin.prepare(shaper, ["s_6/1"])  # the travel of ram 6 along its guide in frame 1
+ram = graphkin.prepare(shaper, find=["s_6/1"])  # the travel of ram 6 along its guide in frame 1
 
 # %% [markdown]
 # `over` changes numbers of the scene without reading it again: thirteen cranks, each over a turn, are one array.

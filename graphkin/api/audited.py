@@ -236,11 +236,12 @@ def _shown(value: Json) -> str:
 
 def audit(
     scene: SceneLike,
-    answers: AnswersLike | None = None,
+    *,
     at: At = None,
-    language: str | None = None,
+    answers: AnswersLike | None = None,
     variants: str | os.PathLike[str] | Mapping[str, SceneLike] | None = None,
     grading: Mapping[str, float] | None = None,
+    language: str | None = None,
 ) -> Audited:
     """Judge the scene's ``[printed]`` values and its ``[scans]``, or the answers of several people.
 

@@ -342,10 +342,11 @@ class Cams(OfScene, Result):
 
 def cam(
     scene: SceneLike,
+    *,
+    step: float = STEP,
     out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = ("svg",),
     language: str | None = None,
-    step: float = STEP,
 ) -> Cams:
     """Look over the cams of a scene: pressure angles, curvature, undercutting, rates; drawn by inversion.
 

@@ -468,6 +468,7 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
 
 def centres(
     scene: SceneLike,
+    *,
     at: At = None,
     out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = ("svg",),

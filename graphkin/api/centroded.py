@@ -132,9 +132,10 @@ def _branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list
 
 def centrodes(
     scene: SceneLike,
+    *,
+    at: At = None,
     link: str,
     point: str = "",
-    at: At = None,
     out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = ("svg",),
     language: str | None = None,

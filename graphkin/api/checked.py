@@ -211,6 +211,7 @@ def _plain(value: float) -> float:
 
 def check(
     scene: SceneLike,
+    *,
     at: At = None,
     find: Iterable[str | Symbol] | None = None,
     instrument: str = "exact",

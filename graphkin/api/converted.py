@@ -64,7 +64,7 @@ class Converted(Result):
         return f"<Converted {self.scene.name}: {len(self.scene.links)} moving links, {len(self.left)} left out>"
 
 
-def convert(source: SceneLike, out: str | os.PathLike[str] | None = None, lossy: bool = False) -> Converted:
+def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[str] | None = None) -> Converted:
     """Make a scene of another program's mechanism, or give a scene to another program.
 
     Read are PMKS (its table of joints), PMKS+ (a shared link), Linkage (.linkage2), pyslvs (an expression, .pyslvs),
@@ -85,7 +85,7 @@ def convert(source: SceneLike, out: str | os.PathLike[str] | None = None, lossy:
 
     Examples
     --------
-    >>> four_bar = convert("fourbar-150-500-300-400", None)
+    >>> four_bar = convert("fourbar-150-500-300-400")
     >>> four_bar.left
     ()
     """

@@ -182,18 +182,19 @@ class CourseDesigns(OfScene, Result):
 
 def course_design(
     scene: SceneLike,
-    students: str | os.PathLike[str] | None = None,
-    rows: str | os.PathLike[str] | None = None,
-    out: str | os.PathLike[str] | None = None,
+    *,
     at: At = None,
     find: Iterable[str | Symbol] | None = None,
+    students: str | os.PathLike[str] | None = None,
+    rows: str | os.PathLike[str] | None = None,
+    positions: int | None = None,
+    variants: int | None = None,
+    out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = FORMATS,
     language: str | None = None,
     convention: str | None = None,
-    positions: int | None = None,
-    progress: Progress | None = None,
-    variants: int | None = None,
     seed: int = 0,
+    progress: Progress | None = None,
 ) -> CourseDesigns:
     """The reports of a course project: one position of one mechanism for each student, and the table of the class.
 

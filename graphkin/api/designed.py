@@ -271,6 +271,7 @@ class Designed(Result):
 
 def design(
     file: DesignLike,
+    *,
     out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = ("svg",),
     language: str | None = None,

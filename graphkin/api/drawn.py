@@ -240,17 +240,18 @@ def known_figures(scene: Mechanism, names: Sequence[str] | None) -> tuple[str, .
 
 def draw(
     scene: SceneLike,
-    out: str | os.PathLike[str] | None = None,
+    *,
     at: At = None,
     find: Iterable[str | Symbol] | None = None,
+    figures: Sequence[str] | None = None,
+    driver: str = "",
+    beside: Sequence[str | float] = (),
+    out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = ("svg",),
     language: str | None = None,
     convention: str | None = None,
     instrument: str = "exact",
     seed: int = 0,
-    figures: Sequence[str] | None = None,
-    driver: str = "",
-    beside: Sequence[str | float] = (),
 ) -> Drawn:
     """Draw a scene step by step, check it, and write the figures if a folder is given.
 

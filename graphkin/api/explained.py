@@ -107,7 +107,7 @@ def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:
             yield "explained loads", Phrase(f"explained balancing {kind}", (name, name[2:]))
 
 
-def explain(scene: SceneLike, language: str | None = None) -> Explained:
+def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     """Say in words what was understood of a scene.
 
     Parameters

@@ -137,15 +137,16 @@ class Handout(OfScene, Result):
 
 def handout(
     scene: SceneLike,
-    out: str | os.PathLike[str] | None = None,
+    *,
     at: At = None,
     find: Iterable[str | Symbol] | None = None,
+    positions: int | None = None,
+    exports: Sequence[str] = (),
+    out: str | os.PathLike[str] | None = None,
     formats: Sequence[str] = FORMATS,
     language: str | None = None,
     convention: str | None = None,
-    positions: int | None = None,
     progress: Progress | None = None,
-    exports: Sequence[str] = (),
 ) -> Handout:
     """Problem sheet, worked solution and answer key of a scene.
 

@@ -259,7 +259,7 @@ class Prepared(Tabled, OfScene):
 
     def __reduce__(self) -> tuple[object, ...]:
         # what was asked is pickled, the code for it is made anew
-        return prepare, self._said
+        return _prepare, self._said
 
     @property
     def _said(self) -> tuple[SceneLike, tuple[str, ...], bool, bool | None]:
@@ -436,8 +436,12 @@ def _over(prepared: Prepared, designs: Mapping[str, ArrayLike]) -> PreparedDesig
     return prepared.over(designs)
 
 
+def _prepare(scene: SceneLike, find: tuple[str, ...], bounds: bool, fast: bool | None) -> Prepared:
+    return prepare(scene, find=find, bounds=bounds, fast=fast)
+
+
 def prepare(
-    scene: SceneLike, find: str | Symbol | Iterable[str | Symbol], bounds: bool = False, fast: bool | None = None
+    scene: SceneLike, *, find: str | Symbol | Iterable[str | Symbol], bounds: bool = False, fast: bool | None = None
 ) -> Prepared:
     """Make a mechanism ready to give a few quantities very often: for an optimiser, a simulation, a table of millions.
 
@@ -468,7 +472,7 @@ def prepare(
 
     Examples
     --------
-    >>> shaper = prepare("shaper-scheme-2", ["v_C", "omega_4"])
+    >>> shaper = prepare("shaper-scheme-2", find=["v_C", "omega_4"])
     >>> shaper.names
     ('v_C.x', 'v_C.y', 'omega_4')
     >>> ["%.4f" % x for x in shaper.at(90)]

@@ -128,17 +128,18 @@ def _cells(symbols: Sequence[str], answers: Sequence[Answer]) -> Iterator[float 
 
 def problem_set(
     scene: SceneLike,
+    *,
+    find: Iterable[str | Symbol] | None = None,
     variants: int | None = None,
-    seed: int = 0,
     rows: str | os.PathLike[str] | None = None,
-    out: str | os.PathLike[str] | None = None,
     spread: Spread | None = None,
+    render: Render | None = None,
+    out: str | os.PathLike[str] | None = None,
+    language: str | None = None,
+    seed: int = 0,
     executor: Executor | None = None,
     workers: int | None = None,
-    render: Render | None = None,
     progress: Progress | None = None,
-    find: Iterable[str | Symbol] | None = None,
-    language: str | None = None,
 ) -> ProblemSet:
     """Make a set of problems from one scene: the same mechanism with other numbers for everyone.
 

@@ -262,7 +262,11 @@ def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
 
 
 def solve(
-    scene: SceneLike, at: At = None, sweep: int | None = None, find: str | Symbol | Iterable[str | Symbol] | None = None
+    scene: SceneLike,
+    *,
+    at: At = None,
+    find: str | Symbol | Iterable[str | Symbol] | None = None,
+    sweep: int | None = None,
 ) -> Solved:
     """Solve a scene analytically: position, velocity, acceleration of everything that moves.
 

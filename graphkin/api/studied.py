@@ -84,7 +84,7 @@ class SpeedAccuracy(_Charted):
         return f"<SpeedAccuracy {self.race.scene.name}: {len(self.race.entries)} methods>"
 
 def speed_accuracy(
-    scene: SceneLike, repeats: int = 5, language: str | None = None, out: str | os.PathLike[str] | None = None
+    scene: SceneLike, *, repeats: int = 5, out: str | os.PathLike[str] | None = None, language: str | None = None
 ) -> SpeedAccuracy:
     """Let every method work the same scene: cost of a position against the largest error.
 
@@ -157,7 +157,7 @@ class Stability(_Charted):
         return f"<Stability: {', '.join(one.key for one in self.singularities)}>"
 
 def stability(
-    kinds: Iterable[str] = (), samples: int = 4, language: str = "en", out: str | os.PathLike[str] | None = None
+    *, kinds: Iterable[str] = (), samples: int = 4, out: str | os.PathLike[str] | None = None, language: str = "en"
 ) -> Stability:
     """Measure how the error of each method grows beside singular positions, and where it stops giving an answer.
 

@@ -274,22 +274,23 @@ class Swept(OfScene, Result):
 
 def sweep(
     scene: SceneLike,
-    out: str | os.PathLike[str] | None = None,
-    positions: int | None = None,
-    find: Iterable[str | Symbol] | None = None,
+    *,
     at: At = None,
+    find: Iterable[str | Symbol] | None = None,
+    positions: int | None = None,
     designs: Mapping[str, str | float | Sequence[float | str]] | None = None,
     designs_file: str | os.PathLike[str] | None = None,
-    executor: Executor | None = None,
-    workers: int | None = None,
-    scheduler: str | None = None,
-    formats: Sequence[str] = ("svg",),
-    language: str | None = None,
-    progress: Progress | None = None,
-    text: str = "glyphs",
     measured: AnswersLike | None = None,
     differentiate: Iterable[str] = (),
     integrate: Iterable[str] = (),
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    text: str = "glyphs",
+    language: str | None = None,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    progress: Progress | None = None,
 ) -> Swept:
     """Follow a scene over the whole turn of its driver, alone or as many designs.
 

@@ -338,10 +338,11 @@ def _papers(scene: Mechanism, asked: Message, options: FigureOptions, folder: Pa
 
     formats = ("html", "pdf") if have("typst") else ("html",)
     if asked.kind == "papers":
-        handout(scene, folder, asked.at, formats=formats, language=options.language, convention=options.convention)
+        spoken, school = options.language, options.convention
+        handout(scene, out=folder, at=asked.at, formats=formats, language=spoken, convention=school)
         return
     render = papers_of(scene, formats, options.language, options.convention)
-    problem_set(scene, asked.count, options.seed, out=folder, render=render)
+    problem_set(scene, variants=asked.count, seed=options.seed, out=folder, render=render)
 
 
 def _packed(folder: Path) -> bytes:

@@ -39,7 +39,7 @@ def check(given: Given) -> None:
 
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     with unsolvable_as_json(given.json, UNCHECKED):
-        checked = checking(given.scene, given.values, given.find or None, given.instrument, given.seed)
+        checked = given.call(checking)
     language = given.lang or checked.mechanism.sheet.language
     if given.out is not None:
         from graphkin.api.report_text import report_text
@@ -93,10 +93,7 @@ def draw(given: Given) -> None:
 
     known_words(given.formats, text=given.text)
     with unsolvable_as_json(given.json, UNCHECKED):
-        drawn = drawing(
-            given.scene, None, given.values, given.find or None, given.formats, given.lang, given.convention,
-            given.instrument, given.seed, given.figure or None, given.driver, given.beside or (),
-        )  # fmt: skip
+        drawn = given.call(drawing)
         paths = drawn.write(given.out, given.formats, given.text)
     made = {name.split("-")[0] for name in drawn.figures}
     missing = [name for name in given.figure or () if name not in made]
@@ -117,7 +114,7 @@ def audit(given: Given) -> None:
         return Problem("grading", f'"{text[:40]}"', Phrase("write equations 20 drawing 30 values 50"))
 
     points = named_numbers([text for text in map(str.strip, given.grading.split(",")) if text], wrong) or None
-    audited = auditing(given.scene, given.answers, given.values, given.lang, given.variants, points)
+    audited = given.call(auditing, grading=points)
     paths = audited.write(given.out) if given.out is not None else []
     if given.speaks:
         first = len(audited.heads) - 7
@@ -144,7 +141,6 @@ def centres(given: Given) -> None:
     from graphkin.api.centred import centres as finding
     from graphkin.api.centred import centres_text
 
-    values, spoken = given.values, (given.lang, given.convention)
     known_words(given.formats, text=given.text)
     if given.point and given.centrode is None:
         raise CallError(Problem("--point", Phrase("without centrode"), Phrase("write centrode link point p")))
@@ -153,11 +149,11 @@ def centres(given: Given) -> None:
     if given.centrode is not None:
         from graphkin.api.centroded import centrodes
 
-        rolled = centrodes(given.scene, given.centrode, given.point, values, None, given.formats, *spoken)
+        rolled = given.call(centrodes, link=given.centrode)
         finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)
         return
     with unsolvable_as_json(given.json, {"links": [], "centres": {}, "ok": False}):
-        found = finding(given.scene, values, None, given.formats, *spoken)
+        found = given.call(finding)
     none_wanted = given.json and given.out is None
     paths = [] if none_wanted else found.write(given.out, given.formats, given.text, given.motion)
     if given.speaks:
@@ -175,7 +171,7 @@ def design(given: Given) -> None:
     from graphkin.words import say, word
 
     with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "lengths": {}, "readings": []}):
-        designed = designing(given.file, None, given.formats, given.lang, given.instrument, given.seed)
+        designed = given.call(designing)
         paths = designed.write(given.out, given.formats)
     if given.speaks:
         language = languages(given.lang or designed.given.sheet.language)[0]
@@ -203,7 +199,7 @@ def cam(given: Given) -> None:
     from graphkin.api.cams import cam as looking
 
     with unsolvable_as_json(given.json, {"ok": False, "status": "", "why": "", "cams": {}}):
-        found = looking(given.scene, None, given.formats, given.lang, given.step)
+        found = given.call(looking)
         paths = found.write(given.out, given.formats)
     if given.speaks:
         print_paths(paths)

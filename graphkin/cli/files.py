@@ -103,7 +103,7 @@ def explain(given: Given) -> None:
     """Say in words what was understood: links, joints, mobility, drivers, groups, assembly, units."""
     from graphkin.api.explained import explain as explaining
 
-    explained = explaining(given.scene, given.lang)
+    explained = given.call(explaining)
     if given.json:
         print_json(explained.data)
     else:
@@ -120,7 +120,7 @@ def convert(given: Given) -> None:
 
     if given.out is not None:
         _must_be_new(given.out)
-    made = converting(given.source, given.out, given.lossy)
+    made = converting(given.source, out=given.out, lossy=given.lossy)
     if given.json:
         print_json(made.data)
     elif given.out is None:

@@ -41,7 +41,7 @@ def solve(given: Given) -> None:
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     values = given.values
     with unsolvable_as_json(given.json, lambda error: refused(given.scene, values, error)):
-        solved = solving(given.scene, values, given.sweep, given.find or None)
+        solved = given.call(solving)
     if given.out is not None:
         write_files(given.out, {"solution.json": solved.json()})
     drawn = solved.loops(given.lang) if given.loops and solved.ok else None
@@ -103,10 +103,9 @@ def sweep(given: Given) -> None:
         unsolvable_as_json(given.json, {}),
         progress_bar(given.speaks, target) as progress,
     ):
-        swept = sweeping(
-            given.scene, target, given.positions, given.find or None, given.values, _replaced(given.set or ()),
-            given.designs, None, None if given.scheduler else processes(given.workers), given.scheduler, given.formats,
-            given.lang, progress, given.text, given.measured, given.differentiate or (), given.integrate or (),
+        swept = given.call(
+            sweeping, out=target, designs=_replaced(given.set or ()), designs_file=given.designs, progress=progress,
+            workers=None if given.scheduler else processes(given.workers),
         )  # fmt: skip
     if given.json:
         print_json(swept.data)
@@ -141,7 +140,7 @@ def speed_accuracy(given: Given) -> None:
     """Cost of a position against the largest error, for all methods, measured on this machine."""
     from graphkin.api.studied import speed_accuracy as racing
 
-    found = racing(given.scene, given.repeats, given.lang)
+    found = given.call(racing)
     finish(given, found, found.write(given.out, given.formats))
 
 

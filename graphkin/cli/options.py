@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, TypeVar
 
 import typer
 
@@ -18,6 +18,7 @@ from graphkin.words import BOTH, LANGUAGES, Phrase
 
 __all__ = ["At", "Given", "command", "driver_values", "named_numbers", "processes", "split_words"]
 
+T = TypeVar("T")
 At = float | str | dict[str, float] | None
 """Driver values as public functions take them."""
 Texts = list[str] | None
@@ -136,11 +137,26 @@ class Given(SimpleNamespace):
     @property
     def values(self) -> At:
         """Driver values, or the name of a position."""
-        return driver_values(self.at, getattr(self, "position", None))
+        return driver_values(getattr(self, "at", None), getattr(self, "position", None))
 
     @property
     def formats(self) -> list[str]:
         return split_words(self.format)
+
+    def call(self, function: Callable[..., T], **others: Any) -> T:
+        """What a public function makes of what was given: each of its parameters is the option of that name, and keeps
+        its default where nothing was given; files are written later.
+
+        Parameters
+        ----------
+        others : of the function, what the options do not say as it takes them
+        """
+        first, *names = inspect.signature(function).parameters
+        given = {**vars(self), "at": self.values, "language": self.lang, "figures": getattr(self, "figure", None)}
+        wishes = {name: given[name] for name in names if name != "out" and given.get(name) not in (None, "", [])}
+        if "formats" in names:
+            wishes["formats"] = self.formats
+        return function(given[first], **wishes | others)
 
     @property
     def speaks(self) -> bool:

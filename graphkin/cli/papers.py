@@ -58,10 +58,7 @@ def _papers(given: Given) -> None:
     from graphkin.api.handouts import handout as handing
 
     with short_bar(given.speaks) as progress:
-        made = handing(
-            given.scene, None, given.values, given.find or None, given.formats, given.lang, given.convention,
-            given.positions, progress, split_words(given.export),
-        )  # fmt: skip
+        made = given.call(handing, progress=progress, exports=split_words(given.export))
         paths = made.write(given.out)
     _tell_written(given, made, paths, made.lesson.language)
 
@@ -70,7 +67,7 @@ def _design(given: Given) -> None:
     from graphkin.api.designed import design as designing
     from graphkin.api.task_papers import write_design_papers
 
-    designed = designing(given.scene, None, ("svg",), given.lang)
+    designed = designing(given.scene, language=given.lang)
     files = write_design_papers(designed, given.out, given.formats)
     if given.json:
         print_json(designed.data | {"files": [str(path) for path in files]})
@@ -81,12 +78,8 @@ def _design(given: Given) -> None:
 def _course(given: Given) -> None:
     from graphkin.api.course_designs import course_design
 
-    place = given.values
     with short_bar(given.speaks) as progress:
-        made = course_design(
-            given.scene, given.students, given.rows, None, place, given.find or None, given.formats, given.lang,
-            given.convention, given.positions, progress, given.variants, given.seed,
-        )  # fmt: skip
+        made = given.call(course_design, progress=progress)
         paths = made.write(given.out)
     _tell_written(given, made, paths, given.lang or made.mechanism.sheet.language)
 
@@ -106,10 +99,9 @@ def _problem_set(given: Given) -> None:
     target = given.out if given.out is not None else Path(mechanism_of(given.scene).name)
     papers = papers_of(given.scene, given.formats, given.lang, given.convention, split_words(given.export))
     with progress_bar(given.speaks, target) as progress:
-        made = problem_set(
-            given.scene, given.variants, given.seed, given.rows, target, workers=processes(given.workers),
-            render=papers, progress=progress, find=given.find or None, language=given.lang,
-        )  # fmt: skip
+        made = given.call(
+            problem_set, out=target, workers=processes(given.workers), render=papers, progress=progress
+        )
     if given.json:
         print_json(made.data)
     elif not given.quiet:

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 import graphkin
+from graphkin.scene import Driver, Frame, Scene
 
 pytestmark = pytest.mark.quick
 
 SIXBAR = "sixbar-guide-40deg"
+HERS = {"v_D": 480}
 
 
 def test_one_symbol_may_stand_without_a_list():
@@ -47,34 +49,34 @@ def test_one_symbol_may_stand_without_a_list():
         (lambda: graphkin.sweep(SIXBAR, designs={"links.1.length": None}), "--set links.1.length: found None; give"),
         (lambda: graphkin.sweep(SIXBAR, designs_file=3), "path: found 3; give the name of a file or folder as a text"),
         (lambda: graphkin.sweep(SIXBAR, executor=3), "executor: found 3; give one that has submit"),
-        (lambda: graphkin.prepare(SIXBAR, 5), "find: found 5; name quantities"),
-        (lambda: graphkin.prepare(SIXBAR, "v_D").at("50"), "at: '50' is no driver value"),
-        (lambda: graphkin.prepare(SIXBAR, "v_D").over([1]), "designs: are no numbers for each key"),
-        (lambda: graphkin.centrodes(SIXBAR, 2), "link: found 2; give a name as a text"),
+        (lambda: graphkin.prepare(SIXBAR, find=5), "find: found 5; name quantities"),
+        (lambda: graphkin.prepare(SIXBAR, find="v_D").at("50"), "at: '50' is no driver value"),
+        (lambda: graphkin.prepare(SIXBAR, find="v_D").over([1]), "designs: are no numbers for each key"),
+        (lambda: graphkin.centrodes(SIXBAR, link=2), "link: found 2; give a name as a text"),
         (lambda: graphkin.check(SIXBAR)[5], "name: found 5; give a name as a text"),
         (lambda: graphkin.solve(SIXBAR).table[None], "name: found None; give a name as a text"),
         (lambda: graphkin.solve(SIXBAR).write(5), "path: found 5; give the name of a file or folder as a text"),
         (lambda: graphkin.read(SIXBAR).save([]), "path: found []; give the name of a file or folder as a text"),
-        (lambda: graphkin.audit(SIXBAR, {"a": 1}), 'answers of a: found 1; give {"v_D": 480}'),
-        (lambda: graphkin.audit(SIXBAR, {"v_D": 480}, grading=[30]), "grading: found [30]; give points by parts"),
-        (lambda: graphkin.audit(SIXBAR, {"v_D": 480}, grading=np.array([1, 2])), "grading: found array([1, 2]); give"),
+        (lambda: graphkin.audit(SIXBAR, answers={"a": 1}), 'answers of a: found 1; give {"v_D": 480}'),
+        (lambda: graphkin.audit(SIXBAR, answers=HERS, grading=[30]), "grading: found [30]; give points by parts"),
+        (lambda: graphkin.audit(SIXBAR, answers=HERS, grading=np.array([1, 2])), "grading: found array([1, 2]); give"),
         (lambda: graphkin.design(None), "design: found None; give a file, the name of a design that comes along"),
         (lambda: graphkin.design(["stroke"]), "design: found ['stroke']; give a file"),
         (lambda: graphkin.draw(SIXBAR, figures=[[]]), 'figure: "[]"; known here: acceleration'),
         (lambda: graphkin.draw(SIXBAR, figures=np.array(3)), 'figures: found array(3); give a list: ["velocity"]'),
-        (lambda: graphkin.stability(None), 'kinds: found None; give a list: ["dead point RRR"]'),
+        (lambda: graphkin.stability(kinds=None), 'kinds: found None; give a list: ["dead point RRR"]'),
         (lambda: graphkin.stability(out=0), "path: found 0; give the name of a file or folder as a text"),
         (lambda: graphkin.speed_accuracy("shaper-scheme-2", out=b""), "path: found b''; give the name of a file"),
-        (lambda: graphkin.stability([[]]), 'kind: "[]"; known here'),
+        (lambda: graphkin.stability(kinds=[[]]), 'kind: "[]"; known here'),
         (lambda: graphkin.sweep(SIXBAR, differentiate=[None]), "differentiate: found None; give a name as a text"),
-        (lambda: graphkin.prepare(SIXBAR, "v_D").at(float("inf")), "at: inf is no driver value; give a finite number"),
-        (lambda: graphkin.prepare(SIXBAR, "v_D").at(float("nan")), "at: nan is no driver value; give a finite number"),
+        (lambda: graphkin.prepare(SIXBAR, find="v_D").at(np.inf), "at: inf is no driver value; give a finite number"),
+        (lambda: graphkin.prepare(SIXBAR, find="v_D").at(np.nan), "at: nan is no driver value; give a finite number"),
         (lambda: graphkin.solve(SIXBAR).loops(np.array([1, 2])), 'lang: "[1 2]"; known here: en, zh'),
         (
-            lambda: graphkin.Scene(name=5, frame=graphkin.Frame(), links={}, driver=graphkin.Driver(link="1", angle=0)),
+            lambda: Scene(name=5, frame=Frame(), links={}, driver=Driver(link="1", angle=0)),
             "name: found 5; give a name as a text",
         ),
-        (lambda: graphkin.prepare(SIXBAR, "v_D").columns([1, float("nan")]), "values: found nan; give finite numbers"),
+        (lambda: graphkin.prepare(SIXBAR, find="v_D").columns([1, np.nan]), "values: found nan; give finite numbers"),
         (lambda: graphkin.sweep(SIXBAR, integrate=range(3)), "integrate: found 0; give a name as a text"),
     ],
 )
@@ -126,9 +128,9 @@ def test_whole_numbers_may_be_those_of_numpy():
 RESULTS = {
     "Checked": lambda: graphkin.check(SIXBAR),
     "Solved": lambda: graphkin.solve(SIXBAR, sweep=3),
-    "Prepared": lambda: graphkin.prepare(SIXBAR, ["v_D"], bounds=True),
-    "PreparedDesigns": lambda: graphkin.prepare(SIXBAR, ["v_D"]).over({"links.1.length": [120, 121]}),
-    "Samples": lambda: graphkin.prepare(SIXBAR, ["v_D"]).sweep(4),
+    "Prepared": lambda: graphkin.prepare(SIXBAR, find=["v_D"], bounds=True),
+    "PreparedDesigns": lambda: graphkin.prepare(SIXBAR, find=["v_D"]).over({"links.1.length": [120, 121]}),
+    "Samples": lambda: graphkin.prepare(SIXBAR, find=["v_D"]).sweep(4),
     "Scene": lambda: graphkin.read(SIXBAR),
     "Mechanism": lambda: graphkin.read(SIXBAR).mechanism,
     "Table": lambda: graphkin.solve(SIXBAR).table,

@@ -152,7 +152,7 @@ def test_a_velocity_that_jumps_makes_a_corner_under_a_knife_edge_only(roller, co
 
 @pytest.mark.quick
 def test_the_table_has_a_row_a_degree_with_the_heads_of_the_contract(tmp_path):
-    graphkin.draw("cam-offset-roller", tmp_path, figures=["cam"])
+    graphkin.draw("cam-offset-roller", out=tmp_path, figures=["cam"])
     lines = (tmp_path / "cam.csv").read_text().splitlines()
     assert "cam,angle_deg,lift,pitch_x,pitch_y,profile_x,profile_y,pressure_deg" == lines[0]
     assert 361 == len(lines)
@@ -252,7 +252,7 @@ def test_a_disc_under_a_flat_rocker_has_no_pressure_angle():
 
 
 def test_the_points_of_a_disc_are_written_in_its_own_axes_over_a_turn_of_the_driver(tmp_path):
-    found = graphkin.cam(EXERCISE, tmp_path, ["svg", "dxf"])
+    found = graphkin.cam(EXERCISE, out=tmp_path, formats=["svg", "dxf"])
     assert {"cam.csv", "profile-1.dxf"} == {path.name for path in tmp_path.iterdir()}
     table = found.table
     profile, pitch = (table[f"{name}_x"] + 1j * table[f"{name}_y"] for name in ("profile", "pitch"))

@@ -38,7 +38,7 @@ def test_a_sweep_without_wishes_shows_the_forces_too():
 
 
 def test_prepared_forces_are_those_of_solve():
-    ready = graphkin.prepare(SHAPER, ["F_4/3", "v_C", "M_2"], bounds=True)
+    ready = graphkin.prepare(SHAPER, find=["F_4/3", "v_C", "M_2"], bounds=True)
     assert ("v_C.x", "v_C.y", "F_4/3.x", "F_4/3.y", "M_2") == ready.names
     assert {"v_C": "mm/s", "F_4/3": "N", "M_2": "N m"} == ready.units
     turn, solved = ready.sweep(24), graphkin.solve(SHAPER, sweep=24)
@@ -50,7 +50,7 @@ def test_prepared_forces_are_those_of_solve():
 
 
 def test_prepared_forces_alone_are_given_where_the_motion_comes_and_where_not():
-    ready = graphkin.prepare(shaper(balance={"on": "4"}), "M_4")
+    ready = graphkin.prepare(shaper(balance={"on": "4"}), find="M_4")
     turn = ready.sweep(12)
     assert np.isfinite(turn["M_4"]).sum() >= 10
     assert ready.at(194.90059668782988) is None

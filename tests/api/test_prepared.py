@@ -20,7 +20,7 @@ ASKED = ["C", "v_C", "a_C", "a_B@4", "v_C/B", "omega_4", "alpha_4", "theta_4", "
 
 
 def shaper(**wishes: bool) -> Prepared:
-    return graphkin.prepare("shaper-scheme-2", ASKED, **wishes)
+    return graphkin.prepare("shaper-scheme-2", find=ASKED, **wishes)
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def test_velocity_is_the_rate_of_the_place():
 
 
 def test_a_driven_slide_takes_travel_in_the_unit_of_the_scene():
-    ready = graphkin.prepare("hydraulic-cylinder", ["omega_1"])
+    ready = graphkin.prepare("hydraulic-cylinder", find=["omega_1"])
     value = ready.sweep(5).driver[2]
     omega = graphkin.solve("hydraulic-cylinder", at=float(value)).motion.omega("1")
     assert omega[0] == pytest.approx(ready.at(float(value))[0], rel=1e-12)
@@ -74,7 +74,7 @@ def test_no_value_is_further_from_that_of_solve_than_both_bounds_say(kind):
     scene = graphkin.read(random_scene(3, (kind, "RRR"))).mechanism
     links = [link.name for link in scene.links]
     asked = [f"{what}_{link}" for link in links for what in ("omega", "alpha")] + [f"a_{p}" for p in scene.holders]
-    samples, motion = graphkin.prepare(scene, asked, bounds=True).sweep(40), graphkin.solve(scene, sweep=40).motion
+    samples, motion = graphkin.prepare(scene, find=asked, bounds=True).sweep(40), graphkin.solve(scene, sweep=40).motion
     both = samples.ok & motion.ok
     assert both.any()
     for name in asked:
@@ -98,41 +98,41 @@ def test_the_bounds_of_a_shaper_are_a_few_roundings():
 
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_compiled_samples_are_those_of_numpy():
-    slow, fast = (graphkin.prepare("shaper-scheme-2", "v_C", fast=fast).sweep(1000) for fast in (False, True))
+    slow, fast = (graphkin.prepare("shaper-scheme-2", find="v_C", fast=fast).sweep(1000) for fast in (False, True))
     assert np.abs(fast.values - slow.values).max() < 2e-14 * np.abs(slow.values).max()
 
 
 def test_positions_out_of_reach_have_no_numbers():
-    samples = graphkin.prepare("sixbar-AE70", "v_C").columns([50, 180])
+    samples = graphkin.prepare("sixbar-AE70", find="v_C").columns([50, 180])
     assert [True, False] == samples.ok.tolist()
     assert [False, True] == np.isnan(samples["v_C"]).tolist()
 
 
 def test_a_larger_group_is_served_too():
-    samples = graphkin.prepare("double-butterfly", ["v_E"], bounds=True).sweep(3)
+    samples = graphkin.prepare("double-butterfly", find=["v_E"], bounds=True).sweep(3)
     motion = graphkin.solve("double-butterfly", sweep=3).motion
     off = np.abs(samples["v_E"] - motion.velocity("E") / motion.scene.units.metres)
     assert (off <= samples.bound("v_E")).all()
 
 
 def test_the_table_has_the_driver_and_each_column_with_its_unit():
-    heads = graphkin.prepare("shaper-scheme-2", ["v_C", "omega_4"]).sweep(4).table.heads
+    heads = graphkin.prepare("shaper-scheme-2", find=["v_C", "omega_4"]).sweep(4).table.heads
     assert ("position", "driver_2 (deg)", "v_C.x (mm/s)", "v_C.y (mm/s)", "omega_4 (rad/s)", "ok") == heads
 
 
 @pytest.mark.parametrize(("find", "what"), [("v_Q", "Q"), (["omega_9"], "9"), ([], "nothing")])
 def test_what_names_nothing_is_refused(find, what):
     with pytest.raises(graphkin.CallError, match=what):
-        graphkin.prepare("shaper-scheme-2", find)
+        graphkin.prepare("shaper-scheme-2", find=find)
 
 
 def test_a_quantity_that_was_not_asked_for_is_refused_with_what_was():
     with pytest.raises(graphkin.CallError, match="v_C"):
-        graphkin.prepare("shaper-scheme-2", "v_C").sweep(3)["v_B"]
+        graphkin.prepare("shaper-scheme-2", find="v_C").sweep(3)["v_B"]
 
 
 def test_values_are_put_where_they_are_wished():
-    ready = graphkin.prepare("shaper-scheme-2", "v_C")
+    ready = graphkin.prepare("shaper-scheme-2", find="v_C")
     out = np.empty((2, 50))
     assert ready.sweep(50, out).values is out
     assert ready.sweep(50).values.tolist() == out.tolist()
@@ -141,21 +141,21 @@ def test_values_are_put_where_they_are_wished():
 @pytest.mark.parametrize("out", [np.empty((2, 49)), np.empty((2, 50), order="F"), np.empty((2, 50), dtype="f4")])
 def test_room_that_does_not_fit_is_refused(out):
     with pytest.raises(graphkin.CallError, match=r"\(2, 50\)"):
-        graphkin.prepare("shaper-scheme-2", "v_C").sweep(50, out)
+        graphkin.prepare("shaper-scheme-2", find="v_C").sweep(50, out)
 
 
 @pytest.mark.parametrize("n", [0, 1.5, -3, 10**10])
 def test_no_number_of_positions_is_refused(n):
     with pytest.raises(graphkin.CallError, match="positions"):
-        graphkin.prepare("shaper-scheme-2", "v_C").sweep(n)
+        graphkin.prepare("shaper-scheme-2", find="v_C").sweep(n)
 
 
 def test_a_scene_of_the_tests_without_units_is_in_millimetres():
-    assert "mm/s" == graphkin.prepare(mechanism_of_text(scenes.FOUR_BAR, "f"), "v_C").units["v_C"]
+    assert "mm/s" == graphkin.prepare(mechanism_of_text(scenes.FOUR_BAR, "f"), find="v_C").units["v_C"]
 
 
 def test_without_numba_many_positions_are_computed_in_numpy(without_numba):
-    samples = graphkin.prepare("shaper-scheme-2", "omega_4").sweep(500_000)
+    samples = graphkin.prepare("shaper-scheme-2", find="omega_4").sweep(500_000)
     assert samples.ok.all()
 
 
@@ -166,7 +166,7 @@ def test_compiling_without_numba_says_what_to_install(without_numba):
 
 @pytest.mark.parametrize(("name", "along"), [("slider-crank-offset", "v_C"), ("engine-gas-force", "a_B")])
 def test_a_component_that_is_nothing_but_rounding_is_0_wherever_it_is_read(name, along):
-    turn = graphkin.prepare(name, [along]).sweep(100)
+    turn = graphkin.prepare(name, find=[along]).sweep(100)
     swept = graphkin.sweep(name, positions=100, find=[along]).table
     assert turn.values[1].any()  # what the engine gives has the residues
     assert [0.0] * 100 == turn[f"{along}.y"].tolist() == turn[along].imag.tolist()
@@ -181,4 +181,4 @@ def test_a_small_value_that_is_no_rounding_is_read_as_it_is():
         "driver": {"link": "1", "angle": 30, "omega": 10},
         "sketch": {"C": [300, 280]},
     }  # fmt: skip
-    assert [1e-8] * 9 == pytest.approx(np.abs(graphkin.prepare(tiny, ["v_E"]).sweep(9)["v_E"]).tolist(), rel=1e-9)
+    assert [1e-8] * 9 == pytest.approx(np.abs(graphkin.prepare(tiny, find=["v_E"]).sweep(9)["v_E"]).tolist(), rel=1e-9)

@@ -40,10 +40,11 @@ KEYS = {
 
 def off(source, designs, find, n=24):
     """How far the designs are from the scenes that say so, relative to the largest value of each column."""
-    found = graphkin.prepare(source, find).over(designs).sweep(n)
+    found = graphkin.prepare(source, find=find).over(designs).sweep(n)
     worst = 0.0
     for k in range(found.ok.shape[0]):
-        anew = graphkin.prepare(applied(source, tuple(designs), tuple(float(v[k]) for v in designs.values())), find)
+        design = applied(source, tuple(designs), tuple(float(v[k]) for v in designs.values()))
+        anew = graphkin.prepare(design, find=find)
         expected = anew.sweep(n)
         assert expected.ok.tolist() == found.ok[k].tolist()
         apart = np.abs(found.values[:, k] - expected.values)[:, expected.ok]
@@ -76,7 +77,7 @@ def test_points_placed_from_others_follow_as_the_reader_places_them(key, values)
 @pytest.mark.parametrize("key", ["links.2.at.E.x", "links.2.length"])
 def test_a_key_that_bends_the_way_of_a_point_is_refused(key):
     with pytest.raises(graphkin.CallError, match="neither as a line nor as a turn"):  # F lies from C toward E
-        graphkin.prepare(FOUR_BAR, "v_C").over({key: [480]})
+        graphkin.prepare(FOUR_BAR, find="v_C").over({key: [480]})
 
 
 def test_designs_that_do_not_turn_fully_are_followed_as_scenes_are():
@@ -91,26 +92,26 @@ def test_a_driven_slide_has_designs_too():
 
 
 def test_at_gives_all_designs_at_one_position():
-    ready = graphkin.prepare(SHAPER, ASKED)
+    ready = graphkin.prepare(SHAPER, find=ASKED)
     lengths = [80.0, 95.0]
     found = ready.over({"links.2.length": lengths}).at(70)
     for k, length in enumerate(lengths):
-        anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (length,)), ASKED)
+        anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (length,)), find=ASKED)
         assert anew.at(70) == pytest.approx(found.values[:, k].tolist(), rel=1e-12, abs=1e-9)
 
 
 def test_one_number_gives_one_design():
-    assert (24,) == graphkin.prepare(SHAPER, "v_C").over({"links.2.length": 80}).sweep(24)["v_C"].shape
+    assert (24,) == graphkin.prepare(SHAPER, find="v_C").over({"links.2.length": 80}).sweep(24)["v_C"].shape
 
 
 def test_its_own_numbers_give_the_scene_itself():
-    ready = graphkin.prepare(SHAPER, ASKED)
+    ready = graphkin.prepare(SHAPER, find=ASKED)
     itself = ready.over({"links.2.length": 90, "frame.points.O4.x": 0}).sweep(50)
     assert ready.sweep(50).values == pytest.approx(itself.values, rel=1e-13, abs=1e-9)
 
 
 def test_bounds_hold_for_designs():
-    ready, lengths = graphkin.prepare(SHAPER, ["v_C"], bounds=True), [80.0, 100.0]
+    ready, lengths = graphkin.prepare(SHAPER, find=["v_C"], bounds=True), [80.0, 100.0]
     found = ready.over({"links.2.length": lengths}).sweep(30)
     for k, length in enumerate(lengths):
         motion = graphkin.solve(applied(SHAPER, ("links.2.length",), (length,)), sweep=30).motion
@@ -121,12 +122,12 @@ def test_bounds_hold_for_designs():
 @pytest.mark.skipif(find_spec("numba") is None, reason="the extra fast is not installed")
 def test_compiled_designs_are_those_of_numpy():
     designs = {"links.2.length": [80, 90], "driver.rpm": [-60, 70]}
-    slow, fast = (graphkin.prepare(SHAPER, "a_C", fast=f).over(designs).sweep(100).values for f in (False, True))
+    slow, fast = (graphkin.prepare(SHAPER, find="a_C", fast=f).over(designs).sweep(100).values for f in (False, True))
     assert np.abs(fast - slow).max() < 1e-13 * np.abs(slow).max()
 
 
 def test_the_table_tells_designs_and_positions_and_what_changes():
-    table = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": [80, 90]}).sweep(3).table
+    table = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": [80, 90]}).sweep(3).table
     assert ("design", "position", "links.2.length", "driver_2 (deg)", "omega_4 (rad/s)", "ok") == table.heads
     assert [80, 80, 80, 90, 90, 90] == table["links.2.length"].tolist()
     assert [1, 2, 3, 1, 2, 3] == table["position"].tolist()
@@ -137,13 +138,13 @@ def test_the_table_tells_designs_and_positions_and_what_changes():
     [(80, None, ("position",)), ([80, 90], 30, ("design",)), (80, 30, ()), ([80, 90], None, ("design", "position"))],
 )
 def test_the_table_is_over_what_there_is_more_than_one_of(length, value, index):
-    designs = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": length})
+    designs = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": length})
     assert index == (designs.sweep(3) if value is None else designs.at(value)).table.index
 
 
 def test_designs_in_xarray_are_over_designs_and_positions():
     pytest.importorskip("xarray")
-    found = graphkin.prepare(SHAPER, "omega_4").over({"links.2.length": [80, 90]}).sweep(3)
+    found = graphkin.prepare(SHAPER, find="omega_4").over({"links.2.length": [80, 90]}).sweep(3)
     assert found["omega_4"].tolist() == found.to_xarray()["omega_4"].values.tolist()
 
 
@@ -160,13 +161,13 @@ def test_designs_in_xarray_are_over_designs_and_positions():
 )
 def test_designs_that_mean_nothing_are_refused(designs, what):
     with pytest.raises(graphkin.CallError, match=what):
-        graphkin.prepare(SHAPER, "v_C").over(designs)
+        graphkin.prepare(SHAPER, find="v_C").over(designs)
 
 
 def test_a_scene_that_is_read_already_has_designs():
     scene = graphkin.read("shaper-scheme-2")
-    found = graphkin.prepare(scene, "v_C").over({"links.2.length": [80.0]}).sweep(10)
-    anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (80.0,)), "v_C").sweep(10)
+    found = graphkin.prepare(scene, find="v_C").over({"links.2.length": [80.0]}).sweep(10)
+    anew = graphkin.prepare(applied(SHAPER, ("links.2.length",), (80.0,)), find="v_C").sweep(10)
     assert anew["v_C"] == pytest.approx(found["v_C"][0], rel=1e-12)
 
 
@@ -174,7 +175,7 @@ def test_a_sweep_over_designs_holds_what_they_give():
     designs = {"links.2.length": [80.0, 90.0, 30.0], "driver.rpm": [-60.0, 70.0]}
     table = graphkin.sweep(SHAPER, positions=5, find=["omega_4"], designs=designs).table
     every = {"links.2.length": np.repeat(designs["links.2.length"], 2), "driver.rpm": designs["driver.rpm"] * 3}
-    over = graphkin.prepare(SHAPER, "omega_4").over(every).sweep(5)
+    over = graphkin.prepare(SHAPER, find="omega_4").over(every).sweep(5)
     assert over["omega_4"].ravel() == pytest.approx(table["omega_4 (rad/s)"], rel=1e-12)
 
 
@@ -190,10 +191,10 @@ def test_a_crank_alone_has_designs():
 
 @pytest.mark.parametrize("angle", [30.0, [30.0], [30.0, 50.0], [-20.0, 200.0, 30.0]])
 def test_a_design_with_another_driver_angle_begins_there(angle):
-    ready = graphkin.prepare(SHAPER, ["theta_4", "omega_4"])
+    ready = graphkin.prepare(SHAPER, find=["theta_4", "omega_4"])
     found = ready.over({"driver.angle": angle})
     for k, one in enumerate(np.atleast_1d(angle).tolist()):
-        anew = graphkin.prepare(applied(SHAPER, ("driver.angle",), (one,)), ["theta_4", "omega_4"])
+        anew = graphkin.prepare(applied(SHAPER, ("driver.angle",), (one,)), find=["theta_4", "omega_4"])
         turn, here = found.sweep(5), found["omega_4"]
         rows = (turn["omega_4"], turn.driver) if np.ndim(angle) == 0 else (turn["omega_4"][k], turn.driver[k])
         assert anew.sweep(5)["omega_4"].tolist() == pytest.approx(rows[0].tolist(), rel=1e-12)
@@ -211,9 +212,9 @@ def test_the_driven_slide_of_each_design_has_its_own_range():
         },
         "driver": {"slide": "3", "travel": 520, "velocity": -60},
     }
-    found = graphkin.prepare(lift, ["theta_2"]).over({"links.2.length": [400, 380]}).sweep(5)
+    found = graphkin.prepare(lift, find=["theta_2"]).over({"links.2.length": [400, 380]}).sweep(5)
     for k, length in enumerate([400, 380]):
-        anew = graphkin.prepare(applied(lift, ("links.2.length",), (length,)), ["theta_2"]).sweep(5)
+        anew = graphkin.prepare(applied(lift, ("links.2.length",), (length,)), find=["theta_2"]).sweep(5)
         assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-9)
         assert anew["theta_2"].tolist() == pytest.approx(found["theta_2"][k].tolist(), rel=1e-9)
 
@@ -227,7 +228,7 @@ def test_a_face_may_lie_at_any_angle_in_its_own_link():
     h = 1e-5
     omega = 10 * (face(np.pi / 2 + h) - face(np.pi / 2 - h)) / (2 * h)
     designs, source = {"links.2.guides.f.angle": [0.0, 10.0, -25.0]}, "cam-eccentric-flat-rocker"
-    over = graphkin.prepare(source, "omega_2").over(designs).at(90)["omega_2"]
+    over = graphkin.prepare(source, find="omega_2").over(designs).at(90)["omega_2"]
     swept = graphkin.sweep(source, designs=designs, positions=1, find=["omega_2"]).table["omega_2"]
     assert [omega] * 3 == pytest.approx(over.tolist(), rel=1e-8)
     assert [omega] * 3 == pytest.approx(swept.tolist(), rel=1e-8)
@@ -235,21 +236,21 @@ def test_a_face_may_lie_at_any_angle_in_its_own_link():
 
 @pytest.mark.parametrize("key", ["frame.points.A.x", "frame.points.C.y", "links.2.length"])
 def test_a_key_that_moves_a_cam_by_its_law_is_refused(key):
-    ready = graphkin.prepare("cam-swinging-roller", ["theta_2"])
+    ready = graphkin.prepare("cam-swinging-roller", find=["theta_2"])
     with pytest.raises(graphkin.CallError, match=f"designs {key}: changes more than dimensions: cams"):
         ready.over({key: [50, 60]})
 
 
 def test_a_rate_that_follows_from_the_lengths_has_no_designs():
     driver = {"link": "1", "angle": 60, "speed": 2000, "of": "C"}
-    ready = graphkin.prepare(FOUR_BAR | {"driver": driver}, ["v_C"])
+    ready = graphkin.prepare(FOUR_BAR | {"driver": driver}, find=["v_C"])
     with pytest.raises(graphkin.CallError, match="the driver's rate is given by the speed of a point"):
         ready.over({"links.1.length": [140, 150]})
 
 
 def test_each_design_that_does_not_turn_fully_has_its_own_range():
     designs = {"links.1.length": np.array([180.0, 300.0])}
-    found = graphkin.prepare(FOUR_BAR, ["omega_3"]).over(designs).sweep(6)
+    found = graphkin.prepare(FOUR_BAR, find=["omega_3"]).over(designs).sweep(6)
     for k, length in enumerate(designs["links.1.length"].tolist()):
-        anew = graphkin.prepare(applied(FOUR_BAR, ("links.1.length",), (length,)), ["omega_3"]).sweep(6)
+        anew = graphkin.prepare(applied(FOUR_BAR, ("links.1.length",), (length,)), find=["omega_3"]).sweep(6)
         assert anew.driver.tolist() == pytest.approx(found.driver[k].tolist(), rel=1e-12)

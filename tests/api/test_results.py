@@ -25,10 +25,10 @@ SIXBAR = "sixbar-guide-40deg"
 COMMANDS = ["check", "solve", "draw", "centres", "audit", "handout", "sweep"]
 MAKE = {
     **{command: (lambda command=command: getattr(graphkin, command)(SIXBAR)) for command in COMMANDS},
-    "centrodes": lambda: graphkin.centrodes("four-bar-coupler-point", "2"),
+    "centrodes": lambda: graphkin.centrodes("four-bar-coupler-point", link="2"),
     "scenes": graphkin.scenes,
-    "problem_set": lambda: graphkin.problem_set("slider-crank-offset", 2),
-    "stability": lambda: graphkin.stability(["crossing height"], samples=2),
+    "problem_set": lambda: graphkin.problem_set("slider-crank-offset", variants=2),
+    "stability": lambda: graphkin.stability(kinds=["crossing height"], samples=2),
 }
 NAMES = {
     **dict.fromkeys(["check", "draw", "audit", "handout"], "v_D"),
@@ -130,9 +130,9 @@ def test_the_scene_of_a_result_is_changed_and_saved(tmp_path):
 
 
 PREPARED = {
-    "prepared": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]),
-    "samples": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]).sweep(4),
-    "designs": lambda: graphkin.prepare(SIXBAR, ["v_D", "omega_3"]).over({"links.1.length": [120, 121]}),
+    "prepared": lambda: graphkin.prepare(SIXBAR, find=["v_D", "omega_3"]),
+    "samples": lambda: graphkin.prepare(SIXBAR, find=["v_D", "omega_3"]).sweep(4),
+    "designs": lambda: graphkin.prepare(SIXBAR, find=["v_D", "omega_3"]).over({"links.1.length": [120, 121]}),
 }
 
 
@@ -149,7 +149,7 @@ def test_what_is_prepared_speaks_as_results_do(kind, tmp_path):
 
 
 def test_what_is_prepared_says_the_position_of_the_scene():
-    ready, solved = graphkin.prepare(SIXBAR, ["v_D", "omega_3"]), graphkin.solve(SIXBAR)
+    ready, solved = graphkin.prepare(SIXBAR, find=["v_D", "omega_3"]), graphkin.solve(SIXBAR)
     here = ready.over({"links.1.length": graphkin.read(SIXBAR).links["1"].length})
     for name in ("v_D", "omega_3"):
         np.testing.assert_allclose([solved[name][0]] * 2, [ready[name][0], here[name]], rtol=1e-9)
@@ -179,7 +179,7 @@ def routes(name):
     found = {way: (value.exact, value.unit) for way, value in ways.items()}
     arrays = {
         "solve": graphkin.solve(CENTIMETRES)[name], "sweep": graphkin.sweep(CENTIMETRES, positions=1)[name],
-        "prepare": graphkin.prepare(CENTIMETRES, [name])[name],
+        "prepare": graphkin.prepare(CENTIMETRES, find=[name])[name],
     }  # fmt: skip
     return found | {way: (values[0], values.unit) for way, values in arrays.items()}
 
@@ -202,7 +202,7 @@ def test_what_is_asked_by_name_shows_its_unit():
         (graphkin.check(CENTIMETRES), "v_C"), (graphkin.solve(CENTIMETRES), "v_C"),
         (graphkin.centres(CENTIMETRES), "v_C"), (graphkin.audit(CENTIMETRES), "v_C"),
         (graphkin.handout(CENTIMETRES), "v_C"),
-        (graphkin.sweep(CENTIMETRES, positions=2), "v_C"), (graphkin.prepare(CENTIMETRES, ["v_C"]), "v_C"),
+        (graphkin.sweep(CENTIMETRES, positions=2), "v_C"), (graphkin.prepare(CENTIMETRES, find=["v_C"]), "v_C"),
         (made("problem_set"), "01"), (graphkin.design("slider-crank-stroke-50"), "AB"), (made("centres"), "1-3"),
         (made("centrodes"), "fixed_x"),
     )]  # fmt: skip

@@ -137,7 +137,7 @@ def test_nothing_is_studied_that_is_not_asked_for(monkeypatch: pytest.MonkeyPatc
 
 def test_a_written_sweep_gives_its_arrays_back(tmp_path: Path) -> None:
     here = graphkin.sweep(NAME, positions=30, find=["v_C", "at_C/B"])
-    there = graphkin.sweep(NAME, tmp_path, positions=30, find=["v_C", "at_C/B"])
+    there = graphkin.sweep(NAME, out=tmp_path, positions=30, find=["v_C", "at_C/B"])
     np.testing.assert_array_equal(here["v_C"], there["v_C"])
     assert here.table.csv() == there.table.csv() == (tmp_path / "table.csv").read_text()
 
@@ -221,5 +221,5 @@ def test_solve_sweep_and_prepare_go_in_the_sense_of_a_driven_slide(velocity: flo
     solved = graphkin.solve(scene, sweep=7)
     assert travels.tolist() == pytest.approx(solved["driver_2/3"].tolist(), rel=1e-9)
     assert swept["theta_1"].tolist() == pytest.approx(solved["theta_1"].tolist(), rel=1e-9)
-    prepared = graphkin.prepare(scene, ["theta_1"]).sweep(7)
+    prepared = graphkin.prepare(scene, find=["theta_1"]).sweep(7)
     assert prepared.driver.tolist() == pytest.approx(travels.tolist(), rel=1e-9)

@@ -93,7 +93,7 @@ def rows(case: Case) -> list[tuple[str, int, float, str]]:
     """What, number of positions, seconds, and whether the values agree."""
     scene = mechanism_of_text(case.text, case.name)
     ready = prepare(scene, case.asked)
-    public, compiled = (graphkin.prepare(scene, case.asked, fast=fast) for fast in (False, True))
+    public, compiled = (graphkin.prepare(scene, find=case.asked, fast=fast) for fast in (False, True))
     shaper = by_hand.compiled_shaper() if peers.have("numba") else None
     found: list[tuple[str, int, float, str]] = []
     for n in COUNTS:

@@ -101,7 +101,7 @@ def prepared(tables: Mapping[str, Any], names: list[str], key: str = "", value: 
     """By ``prepare`` of the edited scene, or ``over`` the key."""
 
     def make() -> tuple[list[bool], dict[str, list[float]]]:
-        ready = graphkin.prepare(tables, names)
+        ready = graphkin.prepare(tables, find=names)
         samples = ready.over({key: value}).sweep(POSITIONS) if key else ready.sweep(POSITIONS)
         columns = {n: np.asarray(samples[n], float).tolist() for n in ready.names}
         driver = f"driver_{ready.mechanism.drivers[0].key}"

@@ -18,7 +18,7 @@ MESSY = "姓名;v_D (mm/s);a_D [mm/s²];ω3;备注\n张三;482,7;554,7 mm/s²;-2
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "gb18030"])
 def test_a_table_is_read_as_people_write_it(tmp_path, encoding):
     (tmp_path / "a.csv").write_bytes(MESSY.replace("²", "2" if encoding == "gb18030" else "²").encode(encoding))
-    audited = graphkin.audit(SIXBAR, tmp_path / "a.csv")
+    audited = graphkin.audit(SIXBAR, answers=tmp_path / "a.csv")
     found = [(v["person"], v["symbol"], v["verdict"]) for v in audited.data["values"]]
     expected = [("张三", s, "right") for s in ("v_D", "a_D", "omega_3")]
     rest = [("李四", "v_D", "right"), ("李四", "a_D", "missing"), ("李四", "omega_3", "wrong")]
@@ -36,7 +36,7 @@ def test_a_table_is_read_as_people_write_it(tmp_path, encoding):
 def test_what_may_be_meant_in_two_ways_is_refused(tmp_path, text, said):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(CallError, match=re.escape(said)):
-        graphkin.audit(SIXBAR, tmp_path / "a.csv")
+        graphkin.audit(SIXBAR, answers=tmp_path / "a.csv")
 
 
 @pytest.mark.parametrize(
@@ -45,13 +45,13 @@ def test_what_may_be_meant_in_two_ways_is_refused(tmp_path, text, said):
 )
 def test_a_cell_that_may_be_meant_in_two_ways_is_not_readable(tmp_path, head, cell, said):
     (tmp_path / "a.csv").write_text(f"name,{head}\nx,{cell}\n")
-    (value,) = graphkin.audit(SIXBAR, tmp_path / "a.csv").data["values"]
+    (value,) = graphkin.audit(SIXBAR, answers=tmp_path / "a.csv").data["values"]
     assert ("not readable", True) == (value["verdict"], said in value["why"])
 
 
 def test_a_comma_between_digits_of_a_list_is_a_decimal_comma_where_it_can_be_nothing_else(tmp_path):
     (tmp_path / "a.csv").write_text('name,v_D\nx,"482,7"\n')
-    assert graphkin.audit(SIXBAR, tmp_path / "a.csv").ok
+    assert graphkin.audit(SIXBAR, answers=tmp_path / "a.csv").ok
 
 
 def test_a_component_that_cancels_is_zero():

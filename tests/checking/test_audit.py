@@ -29,7 +29,7 @@ def verdicts(audited):
 def judged(scene, at=None, **values):
     """The entry of the last of one person's values; @ is written _at_ and / is written _to_."""
     named = {k.replace("_at_", "@").replace("_to_", "/"): v for k, v in values.items()}
-    return graphkin.audit(scene, {"A": named}, at).data["values"][-1]
+    return graphkin.audit(scene, answers={"A": named}, at=at).data["values"][-1]
 
 
 def test_every_published_value_of_the_six_bar_passes():
@@ -74,7 +74,7 @@ def test_drawings_in_pencil_are_within_drafting_accuracy():
     for seed in range(2):
         rows = graphkin.check(SIXBAR, instrument="pencil", seed=seed).data["readings"]
         people[str(seed)] = {r["symbol"]: f"{r['measured']:.4g}" for r in rows}
-    assert graphkin.audit(SIXBAR, people).ok
+    assert graphkin.audit(SIXBAR, answers=people).ok
 
 
 @pytest.mark.parametrize(
@@ -164,20 +164,20 @@ def test_two_digits_exchanged_are_among_the_transcription_errors():
 
 def test_people_and_positions_are_read_from_a_table(tmp_path):
     (tmp_path / "a.csv").write_bytes("姓名;at;v_D\n王;-60;1293.695\n李;-90;1466.08\n".encode("gb18030"))
-    found = graphkin.audit(TABLE, tmp_path / "a.csv").data["values"]
+    found = graphkin.audit(TABLE, answers=tmp_path / "a.csv").data["values"]
     assert [("王", -60, "right"), ("李", -90, "right")] == [(v["person"], v["at"], v["verdict"]) for v in found]
 
 
 def test_everything_wrong_with_the_heads_of_a_table_is_said_at_once(tmp_path):
     (tmp_path / "a.csv").write_text("name,v_Q,v_D,v_D (kg),a_D\nx,1,1,1,2\n")
     with pytest.raises(CallError) as refusal:
-        graphkin.audit(TABLE, tmp_path / "a.csv")
+        graphkin.audit(TABLE, answers=tmp_path / "a.csv")
     assert 3 == len(refusal.value.problems)
 
 
 def test_one_bad_cell_is_a_verdict_of_its_own_and_the_rest_is_judged(tmp_path):
     (tmp_path / "a.csv").write_text("name,v_D,a_D\nx,many,\ny,1293.7,nan\n")
-    found = graphkin.audit(TABLE, tmp_path / "a.csv", -60).data["values"]
+    found = graphkin.audit(TABLE, answers=tmp_path / "a.csv", at=-60).data["values"]
     assert ["not readable", "missing", "right", "not readable"] == [v["verdict"] for v in found]
 
 
@@ -185,11 +185,11 @@ def test_one_bad_cell_is_a_verdict_of_its_own_and_the_rest_is_judged(tmp_path):
 def test_a_table_without_answers_is_refused(tmp_path, text):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(CallError):
-        graphkin.audit(TABLE, tmp_path / "a.csv")
+        graphkin.audit(TABLE, answers=tmp_path / "a.csv")
 
 
 def test_a_name_cannot_write_into_the_page():
-    page = graphkin.audit(SIXBAR, {"<script>": {"v_D": 480}})._repr_html_()
+    page = graphkin.audit(SIXBAR, answers={"<script>": {"v_D": 480}})._repr_html_()
     assert "<script>" not in page
 
 

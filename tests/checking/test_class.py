@@ -23,12 +23,12 @@ SIXBAR = "sixbar-guide-40deg"  # v_D 482.72 to the left, omega_3 -2.819, alpha_3
 
 def judged(**values):
     named = {k.replace("_at_", "@").replace("_to_", "/"): v for k, v in values.items()}
-    return graphkin.audit(SIXBAR, {"A": named}).data["values"]
+    return graphkin.audit(SIXBAR, answers={"A": named}).data["values"]
 
 
 def table(folder, text, **more):
     (folder / "a.csv").write_text(text, encoding="utf-8")
-    return graphkin.audit(SIXBAR, folder / "a.csv", **more)
+    return graphkin.audit(SIXBAR, answers=folder / "a.csv", **more)
 
 
 @pytest.mark.parametrize(
@@ -143,7 +143,7 @@ def test_newtons_are_not_north():
 
 def test_a_zero_component_is_zero_to_the_accuracy_of_the_other():
     mapping = {"A": {"v_D": [-0.7, 0.0]}}
-    assert "wrong" == graphkin.audit(SIXBAR, mapping).data["values"][0]["verdict"]
+    assert "wrong" == graphkin.audit(SIXBAR, answers=mapping).data["values"][0]["verdict"]
 
 
 def test_a_direction_turned_back_is_called_so():
@@ -183,13 +183,13 @@ def test_points_follow_a_scheme_with_marks_of_the_teacher(tmp_path):
 
 def test_a_scheme_stands_in_the_scene_too():
     source = graphkin.read(SIXBAR).to_dict() | {"grading": {"v_D": 3, "omega_3": 1}}
-    (person,) = graphkin.audit(source, {"A": {"v_D": "482.7", "omega_3": "2.82"}}).data["people"]
+    (person,) = graphkin.audit(source, answers={"A": {"v_D": "482.7", "omega_3": "2.82"}}).data["people"]
     assert (3, 4) == (person["total"], person["of"])
 
 
 def test_a_strange_name_in_a_scheme_is_refused():
     with pytest.raises(CallError, match="no part and no quantity"):
-        graphkin.audit(SIXBAR, {"A": {"v_D": 480}}, grading={"neatness": 5})
+        graphkin.audit(SIXBAR, answers={"A": {"v_D": 480}}, grading={"neatness": 5})
 
 
 def test_each_student_has_a_slip_and_each_quantity_its_commonest(tmp_path):
@@ -201,10 +201,13 @@ def test_each_student_has_a_slip_and_each_quantity_its_commonest(tmp_path):
 
 
 def test_one_table_serves_a_set_of_variants_and_whose_answer_it_is_is_told(tmp_path):
-    made = graphkin.problem_set("four-bar-coupler-point", 2, seed=3, out=tmp_path / "set", find=["v_P", "omega_3"])
+    made = graphkin.problem_set(
+        "four-bar-coupler-point", find=["v_P", "omega_3"], variants=2, seed=3, out=tmp_path / "set"
+    )
     one, two = (made[name][0].value for name in ("01", "02"))
     (tmp_path / "a.csv").write_text(f"name,variant,v_P\nA,01,{one:.4g}\nB,1,{two:.4g}\nC,2,{two:.4g}\n")
-    found = graphkin.audit("four-bar-coupler-point", tmp_path / "a.csv", variants=tmp_path / "set").data["values"]
+    judged = graphkin.audit("four-bar-coupler-point", answers=tmp_path / "a.csv", variants=tmp_path / "set")
+    found = judged.data["values"]
     assert ["right", "wrong", "right"] == [v["verdict"] for v in found]
     assert "the answer of variant 02" == found[1]["looks_like"]
 
@@ -215,7 +218,7 @@ def test_answers_of_variants_need_their_set(tmp_path):
 
 
 def test_no_cell_that_is_written_can_be_a_formula(tmp_path):
-    audited = graphkin.audit(SIXBAR, {'=HYPERLINK("x")': {"v_D": "482.7", "omega_3": "=1+1"}})
+    audited = graphkin.audit(SIXBAR, answers={'=HYPERLINK("x")': {"v_D": "482.7", "omega_3": "=1+1"}})
     audited.write(tmp_path)
     tables = [(tmp_path / name).read_text("utf-8-sig") for name in ("audit.csv", "students.csv")]
     cells = [cell for text in tables for row in csv.reader(text.splitlines()) for cell in row]
@@ -250,7 +253,7 @@ def test_the_command_reads_points_and_prints_the_class(tmp_path):
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_the_tables_of_a_class_are_written_in_both_languages(tmp_path, language):
     answers = {"A": {"v_D": "482.7", "omega_3": "2.82"}}
-    audited = graphkin.audit(SIXBAR, answers, language=language, grading={"values": 10})
+    audited = graphkin.audit(SIXBAR, answers=answers, language=language, grading={"values": 10})
     audited.write(tmp_path)
     (row,) = csv.DictReader((tmp_path / "students.csv").read_text("utf-8-sig").splitlines())
     heads = {"en": ("total", "of"), "zh": ("总分", "满分")}[language]
@@ -320,20 +323,20 @@ TRAIN = {
     ],
 )
 def test_the_usual_slips_with_wheels_have_names(name, value, slip):
-    (found,) = graphkin.audit(TRAIN, {"x": {name: value}}).data["values"]
+    (found,) = graphkin.audit(TRAIN, answers={"x": {name: value}}).data["values"]
     assert slip in found["looks_like"]
 
 
 def test_points_of_a_contact_are_spelled_as_other_points_are(tmp_path):
     (tmp_path / "a.csv").write_text("name,v_K1,vK2\nx,1,1\n")
-    found = graphkin.audit("cam-eccentric-flat-slider", tmp_path / "a.csv").data["values"]
+    found = graphkin.audit("cam-eccentric-flat-slider", answers=tmp_path / "a.csv").data["values"]
     assert ["v_K@1", "v_K@2"] == [v["symbol"] for v in found]
 
 
 def test_millimetres_for_inches_are_a_wrong_unit():
     scene = {**graphkin.read("four-bar-coupler-point").to_dict(), "units": {"length": "in"}, "find": ["v_B"]}
-    exact = graphkin.audit(scene, {"x": {"v_B": 1}}).data["values"][0]["exact"]
-    (found,) = graphkin.audit(scene, {"x": {"v_B": f"{exact * 25.4:.5g}"}}).data["values"]
+    exact = graphkin.audit(scene, answers={"x": {"v_B": 1}}).data["values"][0]["exact"]
+    (found,) = graphkin.audit(scene, answers={"x": {"v_B": f"{exact * 25.4:.5g}"}}).data["values"]
     assert "wrong unit: 25.4 times the right value" == found["looks_like"]
 
 

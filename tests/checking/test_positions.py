@@ -7,6 +7,7 @@ import math
 import pytest
 
 import graphkin
+from graphkin.api.checked import Checked
 from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.symbol import Symbol
 
@@ -26,45 +27,45 @@ EVERY = ["theta_4", "theta_5/4", "x_C", "d_B/C", "d_P25/P46", "s_3/4", "gamma_5-
 
 
 @pytest.fixture(scope="module")
-def shaper() -> graphkin.Checked:
+def shaper() -> Checked:
     return graphkin.check(SHAPER, find=EVERY)
 
 
-def test_every_kind_of_position_agrees_with_the_solver(shaper: graphkin.Checked) -> None:
+def test_every_kind_of_position_agrees_with_the_solver(shaper: Checked) -> None:
     assert [] == [str(row.symbol) for row in shaper.report.rows if row.error > 1e-11]
 
 
-def test_the_shaper_has_the_stroke_and_the_K_of_its_course_design(shaper: graphkin.Checked) -> None:
+def test_the_shaper_has_the_stroke_and_the_K_of_its_course_design(shaper: Checked) -> None:
     theta = 2 * math.asin(90 / 350)
     stroke, k = shaper["stroke_6/1"].measured, shaper["K_6/1"].measured
     assert [580 * 2 * 90 / 350, (math.pi + theta) / (math.pi - theta)] == pytest.approx([stroke, k], rel=1e-12)
 
 
-def test_the_angle_between_the_limit_positions_is_that_of_the_tangents(shaper: graphkin.Checked) -> None:
+def test_the_angle_between_the_limit_positions_is_that_of_the_tangents(shaper: Checked) -> None:
     assert shaper["theta_lag_6/1"].measured == pytest.approx(2 * math.degrees(math.asin(90 / 350)))
 
 
-def test_lengths_stand_on_paper_and_angles_do_not(shaper: graphkin.Checked) -> None:
+def test_lengths_stand_on_paper_and_angles_do_not(shaper: Checked) -> None:
     rows = {row["symbol"]: row["on_paper_mm"] for row in shaper.data["readings"]}
     assert (None, None, 298.28571428571428 / 5) == (rows["theta_4"], rows["K_6/1"], pytest.approx(rows["stroke_6/1"]))
 
 
-def test_angles_are_radians_for_programs_and_degrees_in_files(shaper: graphkin.Checked) -> None:
+def test_angles_are_radians_for_programs_and_degrees_in_files(shaper: Checked) -> None:
     (row,) = (r for r in shaper.data["readings"] if r["symbol"] == "theta_4")
     column = list(shaper.table["symbol"]).index("theta_4")
     assert math.degrees(row["measured"]) == pytest.approx(shaper.table["measured"][column])
 
 
 @pytest.fixture(scope="module")
-def pencil() -> graphkin.Checked:
+def pencil() -> Checked:
     return graphkin.check(FOUR_BAR, find=["theta_3", "d_P13/A", "K_3", "swing_3"], instrument="pencil", seed=3)
 
 
-def test_a_pencil_keeps_within_what_is_predicted_for_positions(pencil: graphkin.Checked) -> None:
+def test_a_pencil_keeps_within_what_is_predicted_for_positions(pencil: Checked) -> None:
     assert [] == [str(row.symbol) for row in pencil.report.rows if not row.ok]
 
 
-def test_a_pencil_is_uncertain_of_what_it_measures(pencil: graphkin.Checked) -> None:
+def test_a_pencil_is_uncertain_of_what_it_measures(pencil: Checked) -> None:
     places = [row for row in pencil.report.rows if row.symbol.scope != "motion"]
     assert all(row.uncertainty and row.uncertainty.deviation > 0 for row in places)
 

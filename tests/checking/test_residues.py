@@ -114,7 +114,7 @@ def test_no_table_shows_what_rounding_leaves(name, at):
     printed = read(name).to_dict() | {"printed": {"by": "computation", **computed}}
     tables = {
         "check": made.table.csv(),
-        "audit": audit(name, {"x": nought}, at=at).table.csv(),
+        "audit": audit(name, answers={"x": nought}, at=at).table.csv(),
         "computed": audit(printed, at=at).table.csv(),
     }
     assert [] == [(t, line) for t, text in tables.items() for line in text.splitlines() if RESIDUE.search(line)]

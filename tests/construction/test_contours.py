@@ -82,7 +82,7 @@ SCENES = {
 @pytest.mark.parametrize("more", [-8, 0, 5])
 def test_a_driver_between_links_needs_no_trial_and_every_reading_agrees(name: str, more: float) -> None:
     scene = SCENES[name]
-    result = graphkin.check(scene, scene["driver"]["angle"] + more)
+    result = graphkin.check(scene, at=scene["driver"]["angle"] + more)
     assert "special points" == result.data["construction"]
     assert set() == everything(scene) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]

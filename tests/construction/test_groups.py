@@ -261,7 +261,7 @@ WELDED: dict[str, Any] = {  # a driven hinge in the group, and one place of both
 
 @pytest.mark.parametrize("at", [70, 55, 95])
 def test_plates_joined_by_two_bars_are_drawn_by_the_special_point_of_both(at: float) -> None:
-    result = graphkin.check(CONTOUR, at)
+    result = graphkin.check(CONTOUR, at=at)
     assert "special points" == result.data["construction"]
     assert set() == everything(CONTOUR) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
@@ -280,7 +280,7 @@ def test_a_cylinder_that_joins_two_plates_moves_their_special_points_apart() -> 
 
 @pytest.mark.parametrize("at", [-193.22, -190, -195])
 def test_a_group_of_which_only_driven_blocks_can_be_left_out_is_drawn(at: float) -> None:
-    result = graphkin.check(HELD, at)
+    result = graphkin.check(HELD, at=at)
     assert set() == everything(HELD) - {str(row.symbol) for row in result.report.rows}
     assert [] == [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 import graphkin
+from graphkin.api.checked import Checked
 from graphkin.construction.steps import RateTrial, Step
 from tests.construction.test_groups import CONTOUR, everything
 
@@ -46,11 +47,11 @@ def bent_leg(off: float) -> dict[str, Any]:
     return {**CONTOUR, "links": {**CONTOUR["links"], **halves}, "driver": [CONTOUR["driver"], turned], "sketch": sketch}
 
 
-def special(result: graphkin.Checked) -> list[Step]:
+def special(result: Checked) -> list[Step]:
     return [step for step in result.sheet.steps if step.reason == "special point"]
 
 
-def off(result: graphkin.Checked) -> list[str]:
+def off(result: Checked) -> list[str]:
     return [str(row.symbol) for row in result.report.rows if row.error > 1e-9 * max(abs(row.exact), 1e-3)]
 
 

@@ -170,7 +170,7 @@ def test_a_built_mechanism_is_written_with_its_springs():
 
 @pytest.mark.parametrize(("language", "said"), [("en", "spring R between E of link 3"), ("zh", "弹簧 R")])
 def test_explain_tells_springs(language, said):
-    assert said in graphkin.explain(ROCKER, language).text
+    assert said in graphkin.explain(ROCKER, language=language).text
 
 
 def test_the_figure_shows_the_spring_between_its_points():

@@ -111,19 +111,19 @@ def test_an_indeterminate_linkage_is_said_to_be_one_on_its_figure() -> None:
 
 
 def test_branches_of_a_centrode_end_where_the_centre_passes_through_infinity() -> None:
-    found = centrodes("fourbar-150-500-300-400", "2")
+    found = centrodes("fourbar-150-500-300-400", link="2")
     fixed = [g for g in things(found.figure) if isinstance(g, Group) and g.id == "centrode-fixed"]
     assert 2 <= sum(isinstance(line, Polyline) for line in fixed[0].children)
 
 
 def test_no_stroke_of_a_centrode_leaps_across_the_figure() -> None:
-    found = centrodes("slider-crank-offset", "2", "S2")
+    found = centrodes("slider-crank-offset", link="2", point="S2")
     curves = [t for t in things(found.figure) if isinstance(t, Polyline)]
     assert 8.0 > max(abs(b - a) for c in curves for a, b in zip(c.points, c.points[1:], strict=False))
 
 
 def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
-    found = centrodes("slider-crank-offset", "2")
+    found = centrodes("slider-crank-offset", link="2")
     pose = found.centres.links.poses["2"]
     mm = found.centres.links.mm
     moving = pose.origin + pose.axis * complex(found.curves.moving[0]) * mm
@@ -133,7 +133,7 @@ def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
 @pytest.mark.parametrize("link", ["1", "3", "9"])
 def test_links_without_centrodes_are_refused_by_name(link: str) -> None:
     with pytest.raises(CallError, match=f"centrode {link}"):
-        centrodes("slider-crank-offset", link)
+        centrodes("slider-crank-offset", link=link)
 
 
 def test_a_formula_of_a_bilingual_figure_is_written_once():

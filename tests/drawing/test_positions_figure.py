@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 import graphkin
+from graphkin.api.drawn import Drawn
 from graphkin.drawing import svg_bytes
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.place.piece import obstacles_of
@@ -82,7 +83,7 @@ def limits_alone(driver: str) -> dict[str, object]:
     }
 
 
-def words_of(drawn: graphkin.Drawn) -> str:
+def words_of(drawn: Drawn) -> str:
     parts = walk(drawn.figures["positions"].children)
     return " ".join("".join(run.text for run in part.runs) for part in parts if isinstance(part, Text))
 

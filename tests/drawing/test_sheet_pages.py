@@ -74,7 +74,7 @@ def test_every_reading_stands_on_a_sheet(language):
 
 
 def test_a_sheet_that_goes_on_is_one_pdf_of_two_pages(tmp_path):
-    draw("sixbar-1A-last-link", tmp_path, formats=("svg", "pdf"))
+    draw("sixbar-1A-last-link", out=tmp_path, formats=("svg", "pdf"))
     assert {"sheet.svg", "sheet-2.svg", "sheet.pdf"} == {p.name for p in tmp_path.glob("sheet*")}
     assert b"/Count 2" in (tmp_path / "sheet.pdf").read_bytes()
 

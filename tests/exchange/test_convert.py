@@ -13,6 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.api.converted import convert
+from graphkin.api.solved import Solved
 from graphkin.errors import CallError
 from graphkin.exchange import read_bodies
 
@@ -211,7 +212,7 @@ def test_what_is_not_carried_over_is_named(file: Path) -> None:
     assert LEFT.get(file.name, ()) == convert(file).left
 
 
-def moving(solved: graphkin.Solved) -> list[complex]:
+def moving(solved: Solved) -> list[complex]:
     """Where the points lie that move and are no ends of slots, from left to right, in mm to a millionth."""
     scene = solved.motion.scene
     names = [p for p in scene.holders if p not in scene.frame.points and not p.startswith("Slot")]
@@ -223,7 +224,7 @@ def moving(solved: graphkin.Solved) -> list[complex]:
 @pytest.mark.parametrize("name", ["fourbar-150-500-300-400", "four-bar-coupler-point", "sixbar-coupler-1A"])
 def test_a_scene_comes_back_from_another_program(name: str, ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"there{ending}"
-    convert(name, path)
+    convert(name, out=path)
     back = convert(path).scene
     there, here = graphkin.solve(name), graphkin.solve(back)
     assert moving(there) == pytest.approx(moving(here), abs=1e-6)
@@ -307,10 +308,10 @@ LOADED = WHITWORTH | {
 )
 def test_what_moves_or_loads_is_only_lost_where_that_is_asked_for(scene, ending: str, lost: list[str], tmp_path: Path):
     with pytest.raises(CallError) as stop:
-        convert(scene, tmp_path / f"a{ending}")
+        convert(scene, out=tmp_path / f"a{ending}")
     assert lost == [problem.where for problem in stop.value.problems]
     assert [] == list(tmp_path.iterdir())
-    assert set(lost) <= set(convert(scene, tmp_path / f"a{ending}", lossy=True).left)
+    assert set(lost) <= set(convert(scene, out=tmp_path / f"a{ending}", lossy=True).left)
 
 
 def test_the_command_says_what_would_be_lost_and_leaves_it_out_where_it_may(tmp_path: Path):

@@ -33,7 +33,7 @@ def test_one_report_without_a_class_stands_at_the_position_asked_for(tmp_path):
 
 def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_class(tmp_path):
     names = _file(tmp_path, "学号,姓名,位置\n1,李华,\n2,王芳,1\n3,=1+1,\n")
-    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=4, formats=("html",))
+    made = graphkin.course_design(SCENE, students=names, find=["v_C"], positions=4, formats=("html",))
     assert ["2", "1", "3"] == [row.student.place for row in made.rows]
     for name, row in zip(sorted(n for n in made.files if n[0].isdigit()), made.rows, strict=True):
         loops = graphkin.draw(SCENE, at=row.values.driver, figures=["loops"]).figures["loops"]
@@ -51,7 +51,7 @@ def test_everyone_has_a_position_of_their_own_and_stands_in_the_table_of_the_cla
 
 def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
     names = _file(tmp_path, "name\nA\nB\n")
-    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=2, formats=("html",))
+    made = graphkin.course_design(SCENE, students=names, find=["v_C"], positions=2, formats=("html",))
     lines = list(csv.reader(io.StringIO(made.files["answers_template.csv"].decode("utf-8-sig"))))
     for line, row in zip(lines[1:], made.rows, strict=True):
         line[4] = f"{next(iter(row.values.exact.values())):.6g}"
@@ -62,7 +62,7 @@ def test_the_template_of_a_course_is_read_by_the_audit(tmp_path):
 def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
     rows = _file(tmp_path, "scheme,links.1.length\nI,23.8\nII,20\n", "schemes.csv")
     names = _file(tmp_path, "name,scheme\nA,\nB,\nC,\nD,II\n")
-    made = graphkin.course_design(SCENE, names, rows, find=["v_C"], positions=2, formats=("html",))
+    made = graphkin.course_design(SCENE, students=names, rows=rows, find=["v_C"], positions=2, formats=("html",))
     assert [("I", "1"), ("I", "2"), ("II", "1"), ("II", "2")] == [
         (row.student.scheme, row.student.place) for row in made.rows
     ]
@@ -72,12 +72,12 @@ def test_schemes_are_dealt_out_one_after_the_other(tmp_path):
 def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
     wished = {"find": ["v_C"], "positions": 2, "formats": ("html",)}
     with pytest.raises(CallError, match=r"方案: schemes without their data: I, II; .*--rows"):
-        graphkin.course_design(SCENE, _file(tmp_path, "姓名,方案\nA,I\nB,II\nC,\n"), **wished)
+        graphkin.course_design(SCENE, students=_file(tmp_path, "姓名,方案\nA,I\nB,II\nC,\n"), **wished)
     for text in ("姓名,方案\nA,\nB,\n", "name,group\nA,I\nB,II\n"):
-        assert 2 == len(graphkin.course_design(SCENE, _file(tmp_path, text), **wished).rows)
+        assert 2 == len(graphkin.course_design(SCENE, students=_file(tmp_path, text), **wished).rows)
     rows = _file(tmp_path, "scheme,links.1.length\nI,23.8\n", "schemes.csv")
     with pytest.raises(CallError, match='line 2: there is no scheme "II"'):
-        graphkin.course_design(SCENE, _file(tmp_path, "name,scheme\nA,II\n"), rows, **wished)
+        graphkin.course_design(SCENE, students=_file(tmp_path, "name,scheme\nA,II\n"), rows=rows, **wished)
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_schemes_without_their_data_are_refused_and_groups_are_not(tmp_path):
 )
 def test_what_is_wrong_with_a_table_of_students_is_said(tmp_path, text, said):
     with pytest.raises(CallError, match=said):
-        graphkin.course_design(SCENE, _file(tmp_path, text), find=["v_C"], positions=2)
+        graphkin.course_design(SCENE, students=_file(tmp_path, text), find=["v_C"], positions=2)
 
 
 def test_a_template_that_there_is_not_is_said(tmp_path):
@@ -100,7 +100,9 @@ def test_a_template_that_there_is_not_is_said(tmp_path):
 
 def test_schemes_of_a_course_are_drawn_as_a_set_of_problems_is(tmp_path):
     names = _file(tmp_path, "name\nA\nB\nC\n")
-    made = graphkin.course_design(SCENE, names, find=["v_C"], positions=2, formats=("html",), variants=2, seed=4)
+    made = graphkin.course_design(
+        SCENE, students=names, find=["v_C"], positions=2, formats=("html",), variants=2, seed=4
+    )
     assert ["01", "01", "02"] == [row.student.scheme for row in made.rows]
     whole = made.files["01-A-01-1.html"].decode()
     assert all(f'<span lang="en">{head}</span></th>' in whole for head in ("AB", "BC", "h.y"))

@@ -38,13 +38,13 @@ HERE = Path(__file__).parent
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("set")
-    return problem_set(SHAPER, 3, 7, out=folder)
+    return problem_set(SHAPER, variants=3, seed=7, out=folder)
 
 
 @pytest.fixture(scope="module")
 def four_bars():
     """The table of a small set, made one after another."""
-    return problem_set(FOUR_BAR, 4, 1).table.csv()
+    return problem_set(FOUR_BAR, variants=4, seed=1).table.csv()
 
 
 def scenes(made):
@@ -100,7 +100,7 @@ def test_the_numbers_are_round(made):
 
 def test_threads_and_seeds_give_the_same_set_as_one_after_another(four_bars, tmp_path):
     with ThreadPoolExecutor(3) as pool:
-        again = problem_set(FOUR_BAR, 4, 1, out=tmp_path, executor=pool, workers=3)
+        again = problem_set(FOUR_BAR, variants=4, seed=1, out=tmp_path, executor=pool, workers=3)
     assert four_bars == again.table.csv()
 
 
@@ -109,19 +109,19 @@ def test_a_broken_executor_loses_nothing(four_bars):
         def submit(self, *_, **__):
             raise BrokenExecutor
 
-    assert four_bars == problem_set(FOUR_BAR, 4, 1, executor=Broken(1), workers=2).table.csv()
+    assert four_bars == problem_set(FOUR_BAR, variants=4, seed=1, executor=Broken(1), workers=2).table.csv()
 
 
 def test_a_variant_whose_papers_fail_is_listed(tmp_path):
     def refuse(variant):
         raise CallError(Problem("papers", "no"))
 
-    made = problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=refuse)
+    made = problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=refuse)
     assert [("01", "papers: no"), ("02", "papers: no")] == [(f.name, f.why) for f in made.made.failures]
 
 
 def test_another_seed_gives_another_set(four_bars):
-    assert four_bars != problem_set(FOUR_BAR, 4, 2).table.csv()
+    assert four_bars != problem_set(FOUR_BAR, variants=4, seed=2).table.csv()
 
 
 def test_an_interrupted_set_goes_on_where_it_was(four_bars, tmp_path, monkeypatch):
@@ -131,24 +131,24 @@ def test_an_interrupted_set_goes_on_where_it_was(four_bars, tmp_path, monkeypatc
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        problem_set(FOUR_BAR, 4, 1, out=tmp_path, progress=stop)
+        problem_set(FOUR_BAR, variants=4, seed=1, out=tmp_path, progress=stop)
     (kept,) = tmp_path.glob(".set-*")
     (kept / ".0000003.k3j_x9a1").write_text('{"number": 3, "vari')
     worked = []
     work = room.work
     monkeypatch.setattr(room, "work", lambda job, attempt: worked.append(job.number) or work(job, attempt))
-    again = problem_set(FOUR_BAR, 4, 1, out=tmp_path)
+    again = problem_set(FOUR_BAR, variants=4, seed=1, out=tmp_path)
     assert (four_bars, [3, 4]) == (again.table.csv(), worked)
 
 
 def test_a_variant_that_cannot_be_made_is_listed_with_the_reason(monkeypatch):
     monkeypatch.setattr(room, "ATTEMPTS", 0)
-    made = problem_set(FOUR_BAR, 2, 1)
+    made = problem_set(FOUR_BAR, variants=2, seed=1)
     assert (2, False) == (len(made.made.failures), made.ok)
 
 
 def test_variants_are_rendered_and_their_files_kept(tmp_path):
-    problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=lambda variant: {"sheet.txt": variant.name.encode()})
+    problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=lambda variant: {"sheet.txt": variant.name.encode()})
     assert b"02" == (tmp_path / f"{FOUR_BAR}-02-sheet.txt").read_bytes()
 
 
@@ -159,7 +159,7 @@ def test_a_scene_stated_by_drawn_points_has_variants_too():
         "drawn": {"B": [30, 30], "C": [110, 70]},
         "driver": {"link": "1", "omega": 10},
     }
-    assert problem_set(scene, 2, 3).ok
+    assert problem_set(scene, variants=2, seed=3).ok
 
 
 def test_the_design_table_of_the_shaper_runs_as_it_stands(tmp_path):
@@ -240,7 +240,7 @@ def test_variants_of_a_scene_without_a_driver_are_refused_as_the_scene_is():
 
 def test_variants_and_rows_together_are_refused(tmp_path):
     with pytest.raises(CallError):
-        problem_set(SIXBAR, 3, rows=tmp_path / "x.csv")
+        problem_set(SIXBAR, variants=3, rows=tmp_path / "x.csv")
 
 
 def test_the_data_of_a_set_is_json(made):
@@ -253,7 +253,7 @@ def test_whatever_goes_wrong_with_one_the_others_are_made(tmp_path):
             raise RuntimeError("out of ink")
         return {"sheet.txt": b"x"}
 
-    made = problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render)
+    made = problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=render)
     assert (["02"], [("01", "RuntimeError: out of ink")]) == (
         made.made.names,
         [(f.name, f.why) for f in made.made.failures],
@@ -269,8 +269,8 @@ def test_papers_that_failed_are_tried_again_and_the_others_are_not(tmp_path):
             raise CallError(Problem("papers", "no"))
         return {"sheet.txt": b"x"}
 
-    problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render)
-    assert problem_set(FOUR_BAR, 2, 1, out=tmp_path, render=render).ok
+    problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=render)
+    assert problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, render=render).ok
     assert ["01", "02", "01"] == worked
 
 
@@ -280,9 +280,9 @@ def test_a_variant_whose_file_is_gone_is_made_again(tmp_path):
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        problem_set(FOUR_BAR, 3, 1, out=tmp_path, progress=stop)
+        problem_set(FOUR_BAR, variants=3, seed=1, out=tmp_path, progress=stop)
     (tmp_path / f"{FOUR_BAR}-01.toml").unlink()
-    problem_set(FOUR_BAR, 3, 1, out=tmp_path)
+    problem_set(FOUR_BAR, variants=3, seed=1, out=tmp_path)
     assert (tmp_path / f"{FOUR_BAR}-01.toml").exists()
 
 
@@ -295,12 +295,12 @@ def test_an_executor_that_loses_its_workers_loses_no_variant(four_bars):
             lost.set_exception(RuntimeError("the worker is gone"))
             return lost
 
-    assert four_bars == problem_set(FOUR_BAR, 4, 1, executor=Lossy(1), workers=2).table.csv()
+    assert four_bars == problem_set(FOUR_BAR, variants=4, seed=1, executor=Lossy(1), workers=2).table.csv()
 
 
 def test_what_a_killed_process_left_half_written_is_removed(tmp_path):
     (tmp_path / f".{FOUR_BAR}-01.toml.k3j_x9a1").write_text("title = ")
-    problem_set(FOUR_BAR, 1, 1, out=tmp_path)
+    problem_set(FOUR_BAR, variants=1, seed=1, out=tmp_path)
     assert {f"{FOUR_BAR}-01.toml", "answers.csv", "answers_template.csv"} == {p.name for p in tmp_path.iterdir()}
 
 
@@ -320,7 +320,7 @@ def test_a_killed_set_goes_on(tmp_path):
 
 
 def test_a_set_asks_what_is_asked(tmp_path):
-    made = problem_set(FOUR_BAR, 2, 1, out=tmp_path, find=["omega_3"])
+    made = problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, find=["omega_3"])
     assert {("omega_3",)} == {tuple(a.symbol for a in answers) for answers in made.made.answers.values()}
     assert all([str(s) for s in scene.find] == ["omega_3"] for scene in scenes(made))
 
@@ -351,7 +351,7 @@ def test_one_quantity_that_a_pencil_finds_is_asked_where_two_are_not_to_be_had(f
 
 
 def test_a_force_that_a_mechanism_never_carries_does_not_keep_its_variants_from_being_made():
-    (answers,) = problem_set("boom-lifted", 1, 3, workers=1).made.answers.values()
+    (answers,) = problem_set("boom-lifted", variants=1, seed=3, workers=1).made.answers.values()
     assert {"F_2", "F_4/1", "F_1/2", "F_3/2", "F_4/3"} == {a.symbol for a in answers}
     assert ["F_3/2"] == [a.symbol for a in answers if a.value == 0]
 
@@ -360,6 +360,6 @@ def test_what_cannot_vary_is_refused_in_its_time(monkeypatch):
     monkeypatch.setattr(room, "PATIENCE", 0.5)
     source = graphkin.read("shaper-forces").to_dict() | {"vary": {"tolerance": 0.001}}
     begun = time.process_time()
-    (failure,) = problem_set(source, 1, workers=1).made.failures
+    (failure,) = problem_set(source, variants=1, workers=1).made.failures
     assert 1.5 > time.process_time() - begun
     assert re.search(r"cannot be drawn more closely than to 0.1 % \(\d+ times\); ask for less", failure.why)

@@ -52,7 +52,7 @@ def test_each_variant_asks_some_of_the_list_in_its_order():
 
 
 def test_the_table_of_a_set_has_a_column_for_each_quantity_that_somebody_is_asked():
-    made = graphkin.problem_set(_source(), 3, seed=2)
+    made = graphkin.problem_set(_source(), variants=3, seed=2)
     assert made.ok
     assert 3 == len(made.table)
     for answers in made.made.answers.values():
@@ -62,14 +62,14 @@ def test_the_table_of_a_set_has_a_column_for_each_quantity_that_somebody_is_aske
 
 def test_every_wrong_key_is_named():
     with pytest.raises(CallError) as refusal:
-        graphkin.problem_set(_source(keep=["links.9.length"], ranges={"driver.angle": [80, 40]}, ask=4), 2)
+        graphkin.problem_set(_source(keep=["links.9.length"], ranges={"driver.angle": [80, 40]}, ask=4), variants=2)
     assert 3 == len(refusal.value.problems)
 
 
 def test_a_scene_that_cannot_vary_is_refused_in_seconds():
     source = _source(only=True, ranges={"links.1.length": [300, 400]}, ratios=[])
     begun = time.process_time()
-    made = graphkin.problem_set(source, 30)
+    made = graphkin.problem_set(source, variants=30)
     assert 5 > time.process_time() - begun
     assert 30 == len(made.made.failures)
 
@@ -120,7 +120,7 @@ def test_transmission_and_pressure_angles_are_held(scene, bound, why):
     ],
 )
 def test_cams_and_rolling_wheels_vary_and_are_asked_for_something(scene, asked):
-    made = graphkin.problem_set(scene, 2, seed=4)
+    made = graphkin.problem_set(scene, variants=2, seed=4)
     assert made.ok
     for answers in made.made.answers.values():
         assert {a.symbol for a in answers} <= asked
@@ -183,7 +183,7 @@ def test_a_range_of_teeth_gives_whole_numbers_and_the_others_follow():
 
 
 def test_a_rolling_wheel_stands_on_its_rail_and_its_rim_stays_its_rim():
-    made = graphkin.problem_set("wheel-on-rail", 4, seed=1, workers=1)
+    made = graphkin.problem_set("wheel-on-rail", variants=4, seed=1, workers=1)
     assert made.ok
     lengths = {answers[0].value for answers in made.made.answers.values()}
     assert 4 == len(lengths)

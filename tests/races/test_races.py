@@ -141,7 +141,7 @@ def test_a_mechanism_without_closed_form_is_refused_by_name() -> None:
 def test_without_mpmath_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "mpmath", None)
     with pytest.raises(graphkin.CallError, match=r"graphkin\[study\]"):
-        graphkin.stability(["crossing height"])
+        graphkin.stability(kinds=["crossing height"])
 
 
 def test_the_caption_tells_cores_versions_and_repeats() -> None:

@@ -62,7 +62,7 @@ def test_it_is_drawn_and_checked(scene: dict[str, Any]) -> None:
 
 
 def test_a_pin_in_one_counts_as_a_higher_pair() -> None:
-    count = graphkin.prepare(with_pin(), ["v_C"]).ready.range.structure.mobility
+    count = graphkin.prepare(with_pin(), find=["v_C"]).ready.range.structure.mobility
     assert (2, 2, 1, 1) == (count.links, count.lower, count.higher, count.value)
 
 

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 import graphkin
-from graphkin import (
+import graphkin.scene as tables_of_scenes
+from graphkin.errors import SceneError
+from graphkin.scene import (
     DrivenSlide,
     Driver,
     Frame,
@@ -24,11 +26,10 @@ from graphkin import (
     Pin,
     Polar,
     Scene,
-    SceneError,
     Spring,
     Units,
+    library,
 )
-from graphkin.scene import library
 from graphkin.scene.tables import keys_of
 
 
@@ -59,7 +60,7 @@ def test_a_built_scene_is_that_of_its_mapping() -> None:
 @pytest.mark.parametrize("name", library())
 def test_every_table_of_a_file_has_a_builder_among_the_public_names(name: str) -> None:
     scene = graphkin.read(name)
-    public = {n: getattr(graphkin, n) for n in graphkin.__all__}
+    public = {name: getattr(tables_of_scenes, name) for name in tables_of_scenes.__all__}
     tables = {key.name: eval(repr(getattr(scene, key.name)), public) for key in keys_of(scene)}
     assert scene == Scene(**tables)
 

@@ -164,7 +164,7 @@ def test_what_a_disc_does_to_its_follower_drawn_back_by_inversion_is_the_disc(na
 @pytest.mark.parametrize("name", LIBRARY)
 def test_a_sweep_a_prepared_mechanism_and_single_positions_agree(name):
     swept = graphkin.solve(name, sweep=24)
-    prepared = graphkin.prepare(name, ["v_B", "a_B"]).sweep(24)
+    prepared = graphkin.prepare(name, find=["v_B", "a_B"]).sweep(24)
     one = graphkin.solve(name, at=float(swept.table["driver_1"][7]))
     assert one["a_B"][0] == pytest.approx(swept["a_B"][7], rel=1e-12)
     assert swept["a_B"] == pytest.approx(prepared["a_B"], rel=1e-12, abs=1e-9)

@@ -144,7 +144,8 @@ def test_a_rack_goes_as_far_as_the_pitch_circle_rolls():
 def test_prepared_wheels_move_as_solved_ones():
     from graphkin import prepare
 
-    ready, turn = prepare("geared-five-bar", ["C", "a_C"]), sweep("geared-five-bar", positions=36, find=["C", "a_C"])
+    asked = ["C", "a_C"]
+    ready, turn = prepare("geared-five-bar", find=asked), sweep("geared-five-bar", positions=36, find=asked)
     prepared = ready.sweep(36)
     assert turn["C"] == pytest.approx(prepared["C"], rel=1e-12)
     assert turn["a_C"] == pytest.approx(prepared["a_C"], rel=1e-11)

@@ -133,16 +133,16 @@ def test_a_group_that_is_not_asked_for_may_stand_in_a_dead_point() -> None:
 
 
 def test_the_report_says_what_was_left_out(tmp_path) -> None:
-    graphkin.draw(SIXBAR, tmp_path, find=["v_D", "alpha_3"])
+    graphkin.draw(SIXBAR, out=tmp_path, find=["v_D", "alpha_3"])
     text = (tmp_path / "report.txt").read_text()
     assert "Left out, since nothing asked for needs it: the accelerations of links 4, 5" in text
 
 
 def test_the_report_names_links_left_out(tmp_path) -> None:
-    graphkin.draw(SIXBAR, tmp_path, find=["omega_3"])
+    graphkin.draw(SIXBAR, out=tmp_path, find=["omega_3"])
     assert "needs it: links 4, 5" in (tmp_path / "report.txt").read_text()
 
 
 def test_the_report_of_everything_leaves_nothing_out(tmp_path) -> None:
-    graphkin.draw(SIXBAR, tmp_path)
+    graphkin.draw(SIXBAR, out=tmp_path)
     assert "Left out" not in (tmp_path / "report.txt").read_text()

@@ -17,7 +17,7 @@ def test_what_is_asked_alone_is_drawn_alone() -> None:
 
 
 def test_the_table_holds_positions_too(tmp_path: Path) -> None:
-    swept = graphkin.sweep("fourbar-150-500-300-400", tmp_path, positions=12, find=["gamma_2-3"], at=0)
+    swept = graphkin.sweep("fourbar-150-500-300-400", out=tmp_path, positions=12, find=["gamma_2-3"], at=0)
     cosine = (500**2 + 300**2 - 250**2) / (2 * 500 * 300)
     assert math.degrees(math.acos(cosine)) == pytest.approx(swept.table["gamma_2-3"][0], rel=1e-12)
 

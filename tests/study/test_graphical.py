@@ -51,7 +51,7 @@ def test_the_page_is_true_to_scale_and_parallel() -> None:
 
 
 def test_files_hold_the_results_with_what_the_solver_says(tmp_path: Path) -> None:
-    graphkin.sweep("shaper-scheme-2", tmp_path, positions=2, find=["v_C"], integrate=["omega_4"])
+    graphkin.sweep("shaper-scheme-2", out=tmp_path, positions=2, find=["v_C"], integrate=["omega_4"])
     table = (tmp_path / "integral-omega_4.csv").read_text("utf-8-sig").splitlines()
     assert ("driver_2 (deg),on_paper_mm (mm),theta_4 (deg),exact (deg),difference (deg)", 26) == (table[0], len(table))
 

@@ -35,7 +35,7 @@ def verdicts(scene: str, at: float | None) -> dict[str, str]:
         if v.printed and (v.scene, v.at) == (scene, at):
             unit = 1.0 if v.unit.startswith("rad") else UNITS[v.unit] / metres
             stated[v.asked.removeprefix("check ")] = f"{float(v.printed) * unit:g}" if unit != 1.0 else v.printed
-    judged = graphkin.audit(scene, {"the page": stated}, at=at).data["values"]
+    judged = graphkin.audit(scene, answers={"the page": stated}, at=at).data["values"]
     return {row["symbol"]: row["verdict"] for row in judged}
 
 
