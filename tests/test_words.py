@@ -93,7 +93,7 @@ def test_the_help_names_every_language(with_another_language):
 
 def test_a_scene_may_ask_for_a_further_language(with_another_language):
     scene = {"frame": {"points": {"A": [0, 0]}}, "links": {"1": {"points": ["A"]}}, "sheet": {"language": "xx"}}
-    asking = f"from graphkin.scene import mechanism_of; print(mechanism_of({scene}).sheet.language)"
+    asking = f"from graphkin.scene import mechanism_of; print(mechanism_of({scene}).question.sheet.language)"
     done = subprocess.run([sys.executable, "-c", asking], cwd=with_another_language, capture_output=True, text=True)
     assert "xx" == done.stdout.strip(), done.stderr
 

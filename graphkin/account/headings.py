@@ -95,7 +95,7 @@ def titles(sheet: Sheet, language: str) -> tuple[str, ...]:
         d.dead_point is not None or math.isclose(sheet.drivers[d.key], d.values[0], rel_tol=1e-9, abs_tol=1e-12)
         for d in scene.drivers
     )
-    found = (scene.title_in(each) or scene.name for each in languages(language))
+    found = (scene.question.title_in(each) or scene.name for each in languages(language))
     return tuple(dict.fromkeys(in_markup(title if own else _OWN_POSITION.sub("", title).strip()) for title in found))
 
 

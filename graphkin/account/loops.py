@@ -265,7 +265,7 @@ class LoopText:
     @property
     def plain(self) -> str:
         """The loops as lines of text."""
-        units, letters = self.scene.units, self.scene.sheet.convention
+        units, letters = self.scene.units, self.scene.question.sheet.convention
         told = Phrase("explained unit", (units.length, units.of("velocity").text))
         lines = [say(told, self.language), ""] if self.blocks else []
         for block in self.blocks:
@@ -291,7 +291,7 @@ class LoopText:
     def latex(self) -> str:
         """The same as LaTeX, a formula a line."""
         lines: list[str] = []
-        letters = self.scene.sheet.convention
+        letters = self.scene.question.sheet.convention
         for block in self.blocks:
             for one in block.loops:
                 lines += [as_latex(equation(one, letters)), *map(as_latex, projections(one, block, self.scene))]

@@ -185,7 +185,8 @@ def _answers(
         problems.append(Problem(name, Phrase("no column is a quantity", names=', '.join(sheet.heads)[:200]), known))
     places = [own for _, cells in sheet.rows if (own := columns.cell("at", cells))]
     # numbers are driver values, unless all of them are names of positions
-    by_name = scene.positions is not None and bool(places) and set(places) <= set(scene.positions.names)
+    positions = scene.question.positions
+    by_name = positions is not None and bool(places) and set(places) <= set(positions.names)
     found = []
     for line, cells in sheet.rows:
         at: float | str | None = None

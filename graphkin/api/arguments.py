@@ -175,7 +175,7 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
     if not scene.drivers:
         raise CallError(Problem("at", Phrase("the scene has no driver"), Phrase("give one in the file")))
     if isinstance(at, str):
-        if scene.positions is None:
+        if scene.question.positions is None:
             wanted = Phrase("give a value of driver at 75 or", key=scene.drivers[0].key)
             raise CallError(Problem(f'position "{at:.40}"', Phrase("the scene has no positions table"), wanted))
         return {scene.drivers[0].key: value_at(scene, at)}
@@ -241,7 +241,7 @@ def value_at(scene: Mechanism, name: str) -> float:
     """
     from graphkin.solver.named_positions import named_positions
 
-    known = scene.positions.names if scene.positions else ()
+    known = scene.question.positions.names if scene.question.positions else ()
     if name not in known:
         wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
         raise CallError(Problem(Phrase("position", name=name), Phrase("there is no position of that name"), wanted))
@@ -277,7 +277,7 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     CallError : a symbol that names nothing in the scene
     """
     if find is None:
-        return scene.find
+        return scene.question.find
     found, problems = [], []
     for text in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         try:
@@ -285,7 +285,7 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
         except ValueError as error:
             problems.append(Problem("find", error.args[0]))
             continue
-        known = scene.positions.names if scene.positions else ()
+        known = scene.question.positions.names if scene.question.positions else ()
         if symbol.at and symbol.at not in known:
             wanted = did_you_mean(symbol.at, known) if known else Phrase("name positions in positions")
             problems.append(Problem(f"find {symbol}", Phrase("there is no position", at=symbol.at), wanted))

@@ -274,11 +274,11 @@ def audit(
     """
     given = as_scene(scene)
     known_words(language=language)
-    if answers is None and not given.stated and not given.scans:
+    if answers is None and not given.question.stated and not given.question.scans:
         raise CallError.of(
             "printed", Phrase("the scene has no printed values"), Phrase("write them in printed or give answers as")
         )
-    scans = _scanned(given, at) if given.scans and answers is None else ()
+    scans = _scanned(given, at) if given.question.scans and answers is None else ()
     scheme = scheme_of(given, grading)
     people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
     people = _with_signs(people)
@@ -300,7 +300,7 @@ def audit(
         )
     told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in [*filter(_opens, judged)][:MOST_LOOPS]}
     judged = tuple((who, told.get(id(who), own)) for who, own in judged)
-    return Audited(given, judged, language or given.sheet.language, unused, scheme, scans)
+    return Audited(given, judged, language or given.question.sheet.language, unused, scheme, scans)
 
 
 # -- what values are held against --------------------------------------------------------------------------------------
@@ -385,7 +385,7 @@ def _with_signs(people: Sequence[Answers]) -> tuple[Answers, ...]:
 def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     """What a scene's own tables state, a row for each position."""
     found: list[Answers] = []
-    for own in scene.stated:
+    for own in scene.question.stated:
         if own.file:
             rows, _ = as_answers(scene, own.file)
             found += [replace(row, person="", by=own.by) for row in rows]
@@ -500,7 +500,7 @@ def evidence_at(
     whole = plan(structure, values, ())
     drawn = what if set(what.elements) == set(whole.elements) else whole
 
-    predicted = predict(what, "pencil", scene.sheet.tools)
+    predicted = predict(what, "pencil", scene.question.sheet.tools)
     exact = exact_values(as_drawn(motion, what.structure), asked)
     return Evidence(drawn, exact, predicted, _elsewhere(scene, values), variants, motion)
 
@@ -559,7 +559,7 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
 
     Raises CallError for a name that is neither a part nor a quantity of the scene, and for points below 0.
     """
-    weights = given if given is not None else scene.grading
+    weights = given if given is not None else scene.question.grading
     if not isinstance(weights, Mapping):
         wanted = Phrase("give points by parts and symbols drawing 30")
         raise CallError.of("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted)

@@ -269,7 +269,7 @@ class Cams(OfScene, Result):
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin cam --json`` prints."""
         return {
-            "title": self.mechanism.title,
+            "title": self.mechanism.question.title,
             "ok": self.ok,
             "units": {"length": self.mechanism.units.length, "angle": "rad"},
             "cams": {one.cam.link: one.data for one in self.made},
@@ -318,7 +318,7 @@ class Cams(OfScene, Result):
     @cached_property
     def figures(self) -> dict[str, Drawing]:
         """Each cam by inversion: "cam", and "cam-3" of a further one of link 3."""
-        spoken = self.language or self.mechanism.sheet.language
+        spoken = self.language or self.mechanism.question.sheet.language
         return {"cam" if i == 0 else f"cam-{one.cam.link}": one.figure(spoken) for i, one in enumerate(self.made)}
 
     @property

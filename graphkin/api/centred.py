@@ -55,8 +55,9 @@ __all__ = ["ROOM", "Centred", "Velocity", "centres", "centres_text", "found_cent
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
     """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
     below it."""
-    language = languages(centred.language or centred.mechanism.sheet.language)[0]
-    letter = "P" if (centred.convention or centred.mechanism.sheet.convention) in ("chinese", "russian") else "I"
+    language = languages(centred.language or centred.mechanism.question.sheet.language)[0]
+    convention = centred.convention or centred.mechanism.question.sheet.convention
+    letter = "P" if convention in ("chinese", "russian") else "I"
 
     def name(pair: object) -> str:
         if isinstance(pair, PointRef):
@@ -143,8 +144,8 @@ class Velocity:
 def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:
     """Velocities measured through centres beside the exact ones: those the scene asks for, or all."""
     scene = centres.links.scene
-    asked = [s for s in scene.find if s.kind in ("v", "omega")]
-    symbols = asked if scene.find else _all(centres)
+    asked = [s for s in scene.question.find if s.kind in ("v", "omega")]
+    symbols = asked if scene.question.find else _all(centres)
     found = []
     # what is asked may be nought beside the rest: it is judged by the whole mechanism
     exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *_all(centres)))}
@@ -305,7 +306,7 @@ class Centred(OfScene, Result):
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
-            row["why"] = say(centre.why, languages(self.language or self.mechanism.sheet.language)[0])
+            row["why"] = say(centre.why, languages(self.language or self.mechanism.question.sheet.language)[0])
         return row
 
     def where(self, centre: Centre) -> tuple[float, float] | tuple[()]:
@@ -326,7 +327,7 @@ class Centred(OfScene, Result):
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
         if v.ok is None:
-            language = languages(self.language or self.mechanism.sheet.language)[0]
+            language = languages(self.language or self.mechanism.question.sheet.language)[0]
             row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
         return row
 

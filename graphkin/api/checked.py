@@ -285,7 +285,7 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
         return Checked(sheet, report, None, what.asked, passed, turning, forces)
     from graphkin.checking.uncertainty import advise, predict
 
-    tools = what.structure.scene.sheet.tools
+    tools = what.structure.scene.question.sheet.tools
     predicted = predict(what, hand.name, tools)
     advice = advise(what, hand.name, tools, readings, predicted)
     report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
@@ -343,7 +343,7 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     if name == "cad":
         return Cad()
     if name == "pencil":
-        return pencil(scene.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
+        return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
     raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))
 
 

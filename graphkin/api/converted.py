@@ -103,7 +103,7 @@ def convert(source: SceneLike, *, lossy: bool = False, out: str | os.PathLike[st
     else:
         given = as_scene(source)
         scene = source if isinstance(source, Scene) else Scene.of(_written(source, given), given.name)
-        bodies = Bodies(given.title) if ending == ".toml" else _bodies(given)
+        bodies = Bodies(given.question.title) if ending == ".toml" else _bodies(given)
     text = toml_text(scene.to_dict()) if ending == ".toml" else write_bodies(bodies, ending)
     _all_kept(bodies, lossy)
     made = Converted(scene, ending, text, (*bodies.lost, *bodies.left))
@@ -139,9 +139,9 @@ def _bodies(scene: Mechanism) -> Bodies:
 
     motion = solver.solve(scene)
     if not motion.ok[0]:
-        raise Unsolvable(str(motion.status[0]), Problem(scene.title, motion.reasons[0]))
+        raise Unsolvable(str(motion.status[0]), Problem(scene.question.title, motion.reasons[0]))
     unit = scene.units.metres
-    made = Bodies(scene.title, unit=scene.units.length)
+    made = Bodies(scene.question.title, unit=scene.units.length)
     for point, place in scene.frame.points.items():
         made.point(point, place / unit)
     for point, name in solver.listed_points(scene, motion.slides):

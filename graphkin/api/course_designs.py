@@ -226,7 +226,7 @@ def course_design(
     if students is not None and at is not None:
         raise CallError.of("at", Phrase("beside students"), Phrase("write each position into the table of the"))
     count = 12 if positions is None else whole_number("positions", positions, 2, 72)
-    spoken, letters = language or given.sheet.language, convention or given.sheet.convention
+    spoken, letters = language or given.question.sheet.language, convention or given.question.sheet.convention
     if rows is not None and variants is not None:
         raise CallError.of("variants", Phrase("beside rows"), Phrase("give one of them"))
     sources: Mapping[str, SceneLike] = {"": scene}
@@ -423,7 +423,7 @@ def asked_in_tables(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tu
     """What the tables show: what is asked of the position itself, else the motion of the last joint and the rates of
     what turns about fixed pivots, else every velocity and acceleration that is read off."""
     asked = (s for s in asked_symbols(scene, find) if s.scope in ("motion", "position", "force") and not s.at)
-    kept = tuple(asked) or asked_of(replace(scene, find=()))
+    kept = tuple(asked) or asked_of(scene.asking(find=()))
     if kept:
         return kept
     drawn = (reading.symbol for reading in read_off(execute(paper_plan(scene, None, ()))))

@@ -126,7 +126,7 @@ class Drawn(OfScene, Result):
 
     @property
     def files(self) -> Mapping[str, bytes]:
-        spoken = languages(self.language or self.mechanism.sheet.language)[0]
+        spoken = languages(self.language or self.mechanism.question.sheet.language)[0]
         return {"report.txt": report_text(self.checked, spoken).encode()}
 
     def pages(self, formats: Sequence[str], text: str = "glyphs") -> dict[str, bytes]:
@@ -310,8 +310,8 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
     """
     structure, scene = what.structure, what.structure.scene
     own = execute(what)
-    show = scene.positions.show if scene.positions else ("limits",)
-    marks = scene.positions.marks if scene.positions else MARKS
+    positions = scene.question.positions
+    show, marks = (positions.show, positions.marks) if positions else (("limits",), MARKS)
     key = scene.drivers[0].key
     names = [n for n in values if n in show or ("all" in show and n in _numbered(scene))]
 
@@ -345,15 +345,15 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
 
 
 def _numbered(scene: Mechanism) -> tuple[str, ...]:
-    count = scene.positions.count if scene.positions else 0
+    count = scene.question.positions.count if scene.question.positions else 0
     return tuple(str(k) for k in range(1, count + 1))
 
 
 def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
     """Outputs whose limits are shown, the likeliest first: that of position 1, slides on the frame, rockers."""
     frame, found = scene.frame, []
-    if scene.positions is not None:
-        places = (scene.positions.first, *scene.positions.also.values())
+    if scene.question.positions is not None:
+        places = (scene.question.positions.first, *scene.question.positions.also.values())
         found += [place.pair for place in places if place is not None and not isinstance(place, float)]
     last = [n for g in reversed(structure.groups) for n in g.links]
     found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.slot]
@@ -443,13 +443,13 @@ def sheets_beside(
     Unsolvable : a position that cannot be assembled or reached
     """
     scene = structure.scene
-    named = scene.positions.show if scene.positions else ()
-    known = scene.positions.names if scene.positions else ()
+    named = scene.question.positions.show if scene.question.positions else ()
+    known = scene.question.positions.names if scene.question.positions else ()
     wished = wished or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
     if len(wished) < 2:
         wanted = Phrase("name two or more beside 1 beside 7")
         raise CallError(Problem("figure polygons", Phrase("shows several positions beside each other"), wanted))
-    asked = tuple(s for s in scene.find if s.scope == "motion" and not s.at)
+    asked = tuple(s for s in scene.question.find if s.scope == "motion" and not s.at)
     sheets = []
     for name in map(str, wished):
         values = {**drivers, **(driver_values(scene, name if name in known else _number(name)) or {})}

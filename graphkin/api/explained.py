@@ -50,7 +50,7 @@ class Explained(OfScene, Result):
     @property
     def text(self) -> str:
         """All of it, paragraph by paragraph."""
-        lines, before = [self.mechanism.title_in(self.language)], ""
+        lines, before = [self.mechanism.question.title_in(self.language)], ""
         for about, phrase in self.sentences:
             if about != before:
                 lines += ["", word(about, self.language)]
@@ -70,7 +70,8 @@ class Explained(OfScene, Result):
         found: dict[str, list[str]] = {}
         for about, phrase in self.sentences:
             found.setdefault(about.removeprefix("explained "), []).append(plain_said(phrase, "en"))
-        return {"title": self.mechanism.title, "ok": self.ok, **found, **({"why": str(self.why)} if self.why else {})}
+        why = {"why": str(self.why)} if self.why else {}
+        return {"title": self.mechanism.question.title, "ok": self.ok, **found, **why}
 
     @property
     def files(self) -> Mapping[str, bytes]:
@@ -142,18 +143,18 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     except Unsolvable as error:
         why, exit_code = error.reason, error.exit_code
     sentences += _loads(given)
-    sentences += [("explained asked", Phrase("explained asked all"))] if not given.find else [
-        ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.find)),)))
+    sentences += [("explained asked", Phrase("explained asked all"))] if not given.question.find else [
+        ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.question.find)),)))
     ]  # fmt: skip
-    return Explained(given, tuple(sentences), why, language or given.sheet.language, exit_code)
+    return Explained(given, tuple(sentences), why, language or given.question.sheet.language, exit_code)
 
 
 def _units(scene: Mechanism) -> Iterator[Sentence]:
     yield "explained units", Phrase("explained unit", (scene.units.length, scene.units.of("velocity").text))
-    if scene.background is not None:
-        step = scene.background.step
+    if scene.question.background is not None:
+        step = scene.question.background.step
         turned = _number(math.degrees(cmath.phase(step)))
-        told = scene.background.name, _number(abs(step) / scene.units.metres), scene.units.length, turned
+        told = scene.question.background.name, _number(abs(step) / scene.units.metres), scene.units.length, turned
         yield "explained units", Phrase("explained background", told)
 
 

@@ -180,7 +180,8 @@ def handout(
     given, values = placed(given, at)
     motion = solved_here(given, values)
     what = paper_plan(motion.structure, values, asked)
-    lesson = lesson_of(what, motion, language or given.sheet.language, convention or given.sheet.convention)
+    wishes = given.question.sheet
+    lesson = lesson_of(what, motion, language or wishes.language, convention or wishes.convention)
     question = question_of(lesson, evidence_of(what, motion, lesson), given.name) if platforms else None
     made = Handout(lesson, values, tuple(dict.fromkeys(formats)), count, progress, question, platforms)
     if out is not None:
@@ -200,7 +201,7 @@ def papers_of(
     """
     known_words(formats, language, convention, known_formats=FORMATS, known_languages=ON_SHEETS)
     given = as_scene(scene)
-    wishes = given.sheet
+    wishes = given.question.sheet
     kinds = tuple(dict.fromkeys(formats)), known_platforms(exports)
     return Papers(language or wishes.language, convention or wishes.convention, *kinds, given.name)
 

@@ -198,7 +198,7 @@ def problem_set(
             ProblemSet(given, made, unused).write(folder)
             if made.names:
                 asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
-                speaking = languages(language or given.sheet.language)[0]
+                speaking = languages(language or given.question.sheet.language)[0]
                 blank = answers_template(tuple(asked), given.units, speaking, made.names)
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):

@@ -35,10 +35,10 @@ def plain_said(phrase: Phrase, language: str) -> str:
 def report_text(checked: Checked, language: str) -> str:
     """The whole report."""
     sheet, scene = checked.sheet, checked.mechanism
-    title, colon = scene.title_in(language), word("colon", language)
+    title, colon = scene.question.title_in(language), word("colon", language)
     lines = [title, "=" * _width(title), ""]
-    if scene.source_in(language):
-        lines.append(f"{word('source', language)}{colon}{scene.source_in(language)}")
+    if scene.question.source_in(language):
+        lines.append(f"{word('source', language)}{colon}{scene.question.source_in(language)}")
     count = sheet.structure.mobility
     lines.append(f"F = 3·{count.links} - 2·{count.lower} - {count.higher} = {count.value}")
     drivers = [f"{d.key}: {scene.unit_of(d).said(sheet.drivers[d.key])}" for d in scene.drivers]
@@ -83,7 +83,7 @@ def _forces(checked: Checked, language: str) -> list[str]:
     from graphkin.account.notation import letters_of
 
     sheet, forces = checked.sheet, checked.forces
-    letters = letters_of(sheet, sheet.scene.sheet.convention)
+    letters = letters_of(sheet, sheet.scene.question.sheet.convention)
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
     lines += [inertia_line(sheet, one, letters) for one in forces.inertias.values()]

@@ -73,5 +73,5 @@ def scenes() -> Listed:
     rows = []
     for name in library():
         scene = mechanism_of(name)
-        rows.append((name, scene.title, scene.title_zh, analyse(scene).mobility.value))
+        rows.append((name, scene.question.title, scene.question.title_zh, analyse(scene).mobility.value))
     return Listed(tuple(rows))

@@ -219,7 +219,7 @@ class Solved(OfScene, Result):
 
         known_words(language=language)
         solved = next((block for block in self.blocks() if block.motion.ok.any()), self.first)
-        return loops_text(solved.motion, language or self.mechanism.sheet.language)
+        return loops_text(solved.motion, language or self.mechanism.question.sheet.language)
 
     @cached_property
     def ok(self) -> bool:
@@ -253,7 +253,7 @@ def refused(scene: SceneLike, at: At, stop: Unsolvable) -> dict[str, Json]:
     values = found or {}
     driver = {d.key: given.unit_of(d, radians=True).of(values.get(d.key, d.value)) for d in given.drivers}
     return {
-        "title": given.title,
+        "title": given.question.title,
         "units": {"length": given.units.length, "time": "s", "angle": "rad"},
         "mobility": mobility_of(given).value,
         "groups": [],

@@ -109,7 +109,7 @@ def speed_accuracy(
     repeats = whole_number("repeats", repeats, 1, 1000)
     known_words(language=language)
     _ = out is None or path_of(out)  # what is wrong with it is said before minutes of work
-    found = SpeedAccuracy(race(given, repeats), language or given.sheet.language)
+    found = SpeedAccuracy(race(given, repeats), language or given.question.sheet.language)
     if out is not None:
         found.write(out)
     return found

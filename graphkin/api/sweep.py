@@ -156,7 +156,7 @@ class Swept(OfScene, Result):
     @property
     def _wished(self) -> list[Quantity]:
         """What is asked besides the scene's own wishes: it alone is drawn."""
-        own = [str(s) for s in self.over.scene.find]
+        own = [str(s) for s in self.over.scene.question.find]
         wished = [q for q in self.over.asked if q.kind != "place"]
         return wished if [q.name for q in self.over.asked] != own else []
 
@@ -165,7 +165,8 @@ class Swept(OfScene, Result):
         """The object that ``graphkin sweep --json`` prints."""
         from graphkin.study.turn_data import to_json
 
-        data: dict[str, Json] = to_json(self.turn) if self.turn is not None else {"title": self.over.scene.title}
+        titled: dict[str, Json] = {"title": self.over.scene.question.title}
+        data = to_json(self.turn) if self.turn is not None else titled
         if self.time is not None:
             data = dict(self.time.data)
         data["positions"] = {"rows": self.rows, "ok": self.good}
@@ -247,7 +248,7 @@ class Swept(OfScene, Result):
         """The whole summary as lines of text."""
         from graphkin.api.report_text import turn_text
 
-        lines = [self.mechanism.title_in(self.language)]
+        lines = [self.mechanism.question.title_in(self.language)]
         if self.turn is not None:
             lines += turn_text(self.turn, self.language)
         if self.time is not None:
@@ -364,7 +365,7 @@ def sweep(
         _over_time_alone(at=at, measured=measured, **{name: tuple(names) for name, names in wishes.items()})
     start = driver_values(given, at) or {}
     if positions is None:
-        positions = (given.positions.count if given.positions is not None else 0) or ROWS
+        positions = (given.question.positions.count if given.question.positions is not None else 0) or ROWS
     ways: dict[Way, list[str]] = {"derivative": wishes["differentiate"], "integral": wishes["integrate"]}
     on_paper = tuple((way, name) for way, names in ways.items() for name in names)
     if on_paper:
@@ -380,7 +381,7 @@ def sweep(
     if find is None and elsewhere:
         find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))
     over = Sweep(source, name or given.name, made, positions, _asked(given, find), tuple(sorted(start.items())))
-    spoken = language or given.sheet.language
+    spoken = language or given.question.sheet.language
     if out is None:
         if over.numbers > IN_MEMORY:
             raise CallError(Problem("sweep", Phrase("rows", number=over.rows), Phrase("give a folder out or o")))
@@ -442,8 +443,9 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quant
     from graphkin.study.quantities import named_quantity, symbol_quantity
 
     if find is None:
-        shown = (s for s in scene.find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
-        forces = {s: named_quantity(scene, str(s)) for s in scene.find if s.scope == "force"}
+        find = scene.question.find
+        shown = (s for s in find if s.scope not in ("turn", "cycle") and s.kind not in ("h", "arm") and not s.at)
+        forces = {s: named_quantity(scene, str(s)) for s in find if s.scope == "force"}
         return tuple(forces.get(s) or symbol_quantity(s) for s in shown)
     found: list[Quantity] = []
     problems: list[Problem] = []

@@ -187,7 +187,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     scene, sheet, cam = made.mechanism, made.sheet, made.cam
     swings = isinstance(cam.motion, SwingingFollower)
     results = []
-    spread = predict_cam(sheet, "pencil", scene.sheet.tools)
+    spread = predict_cam(sheet, "pencil", scene.question.sheet.tools)
     for d, off in zip(sheet.divisions, spread, strict=True) if not cam.flat else ():
         angle = math.degrees(d.pressure)
         within = _accepted(angle, math.degrees(off.pressure))
@@ -203,7 +203,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
     spoken = {each: made.sentences(each) for each in languages(language)}
     captions = said("cam diagram", language), said("cam figure", language)
     return _papers(
-        title=_each(language, lambda each: in_markup(scene.title_in(each) or scene.name)),
+        title=_each(language, lambda each: in_markup(scene.question.title_in(each) or scene.name)),
         given=(_each(language, lambda each: cam_given(scene, cam, each)),
                _each(language, lambda each: labelled("find", word("cam find", each), each))),
         start=cam_pictures(scene, sheet, language, begun=True),
@@ -212,7 +212,7 @@ def cam_papers(made: CamMade, formats: Sequence[str], language: str, prefix: str
         results=results,
         notes=_by_sentence(spoken),
         language=language,
-        paper=Paper(*scene.sheet.size),
+        paper=Paper(*scene.question.sheet.size),
         formats=formats,
         prefix=prefix,
     )  # fmt: skip

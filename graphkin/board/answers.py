@@ -109,7 +109,7 @@ def _draft_of(desk: Desk, text: str, message: object) -> Answer:
         made = pictures.with_own_files(parsed(text), desk.shelf.folder)
         scene = resolved({**made, "driver": trial} if trial else made, "scene")[1]
         count = 0 if trial else len(scene.drivers)
-        spoken = language if language in LANGUAGES else scene.sheet.language
+        spoken = language if language in LANGUAGES else scene.question.sheet.language
         told["mobility"] = pictures.mobility_text(scene, spoken, count)
         told["freedom"] = mobility_of(scene).value
     except GraphkinError:
@@ -281,7 +281,7 @@ def _thumbnail(desk: Desk, asked: Message) -> Answer:
     name = asked.name
     scene = pictures.scene_of(desk.shelf.text(name), safe_name(name.removesuffix(".toml")), desk.shelf.folder)
     language = asked.language if asked.language in LANGUAGES else None
-    return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.title_in(asked.spoken)}
+    return {"name": name, "svg": pictures.thumbnail(scene, language), "title": scene.question.title_in(asked.spoken)}
 
 
 def _save(desk: Desk, asked: Message) -> Answer:

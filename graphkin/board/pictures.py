@@ -125,7 +125,7 @@ def drawn_at(structure: Structure, at: Mapping[str, float] | None, options: Figu
     """
     scene, values = placed(structure.scene, at or None)
     structure = structure if scene is structure.scene else solver.structure_of(scene)
-    asked = tuple(scene.find)
+    asked = tuple(scene.question.find)
     motion = solved_here(structure, values, asked_here(asked))
     what = plan(structure, values, asked_here(asked))
     if options.scales is not None:
@@ -197,7 +197,7 @@ class _Moved:
 
     def plan(self, values: Mapping[str, float] | None) -> Plan:
         """What to draw at values of the drivers.  Raises Unsolvable for a position that cannot be had."""
-        asked = asked_here(tuple(self.structure.scene.find))
+        asked = asked_here(tuple(self.structure.scene.question.find))
         try:
             return plan(self.structure, values, asked, near=None if self.last is None else self.last.exact)
         except Unsolvable:  # the way from there may be barred
@@ -219,7 +219,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
     try:
         what = moved.plan(values)
         if _is_fast(what):  # beside a limit of the motion the solver has the last word, in fifty digits
-            solved_here(moved.structure, values, asked_here(tuple(scene.find)))
+            solved_here(moved.structure, values, asked_here(tuple(scene.question.find)))
     except Unsolvable as error:
         if not at or len(scene.drivers) != 1:
             raise
@@ -239,7 +239,7 @@ def _in_motion(moved: _Moved, at: Mapping[str, float] | None, options: FigureOpt
 
 def _spoken(language: str | None, scene: Mechanism) -> str:
     """The language in which is said what is no figure."""
-    return languages(language or scene.sheet.language)[0]
+    return languages(language or scene.question.sheet.language)[0]
 
 
 def _said(error: GraphkinError, language: str) -> str:
@@ -249,7 +249,7 @@ def _said(error: GraphkinError, language: str) -> str:
 def _exactly(structure: Structure, values: Mapping[str, float] | None, stop: Unsolvable) -> Unsolvable:
     """Why a position cannot be had, in the words of the solver, which tells it in fifty digits, if it finds so too."""
     try:
-        solved_here(structure, values, asked_here(tuple(structure.scene.find)))
+        solved_here(structure, values, asked_here(tuple(structure.scene.question.find)))
     except Unsolvable as exact:
         return exact
     return stop
@@ -297,7 +297,7 @@ def _figures(drawn: Drawn) -> dict[str, str]:
 def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
     scene, sheet = drawn.mechanism, drawn.checked.sheet
     spoken = _spoken(options.language, scene)
-    account = Account(sheet, letters_of(sheet, options.convention or scene.sheet.convention))  # type: ignore[arg-type]
+    account = Account(sheet, letters_of(sheet, options.convention or scene.question.sheet.convention))  # type: ignore[arg-type]
     try:
         low, high, over = reach(scene)
         limits: dict[str, Json] = {"low": low, "high": high, "turns": over.full, "why": say(over.limit_why, spoken)}
@@ -322,7 +322,7 @@ def _whole(drawn: Drawn, options: FigureOptions) -> dict[str, Json]:
             for i, d in enumerate(scene.drivers)
         ],
         "mobility": mobility_text(scene, spoken),
-        "title": scene.title_in(spoken),
+        "title": scene.question.title_in(spoken),
         "unit": scene.units.length,
     }  # fmt: skip
 

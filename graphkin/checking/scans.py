@@ -111,7 +111,7 @@ def judge_scans(sheet: Sheet, diagram: DiagramName | None = None) -> tuple[Judge
     ------
     CallError : an end that the figure does not have; two ends that lie at one place; no line between those read
     """
-    return tuple(_judged(sheet, scan) for scan in sheet.scene.scans if diagram in (None, scan.diagram))
+    return tuple(_judged(sheet, scan) for scan in sheet.scene.question.scans if diagram in (None, scan.diagram))
 
 
 def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:

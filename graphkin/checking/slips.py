@@ -256,7 +256,7 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
         yield Suspect(Phrase("slip factor", (f"{factor:.4g}",)), exact * factor, 0.02)
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)
     yield Suspect(Phrase("slip half"), exact / 2, 0.02)
-    scales, wanted = case.plan.scales, case.plan.structure.scene.sheet
+    scales, wanted = case.plan.scales, case.plan.structure.scene.question.sheet
     if symbol.scope != "motion":
         return
     if wanted.velocity_scale and wanted.acceleration_scale:

@@ -40,7 +40,7 @@ def check(given: Given) -> None:
     known_words(language=given.lang, convention=given.convention, instrument=given.instrument)
     with unsolvable_as_json(given.json, UNCHECKED):
         checked = given.call(checking)
-    language = given.lang or checked.mechanism.sheet.language
+    language = given.lang or checked.mechanism.question.sheet.language
     if given.out is not None:
         from graphkin.api.report_text import report_text
 
@@ -100,7 +100,7 @@ def draw(given: Given) -> None:
     complain(*(Problem(f"figure {name}", Phrase("the scene has nothing of it")) for name in missing))
     if given.speaks:
         print_paths(paths)
-    _tell_check(drawn.checked, languages(given.lang or drawn.mechanism.sheet.language)[0], given)
+    _tell_check(drawn.checked, languages(given.lang or drawn.mechanism.question.sheet.language)[0], given)
 
 
 @command(
@@ -203,6 +203,6 @@ def cam(given: Given) -> None:
         paths = found.write(given.out, given.formats)
     if given.speaks:
         print_paths(paths)
-        language = languages(given.lang or found.mechanism.sheet.language)[0]
+        language = languages(given.lang or found.mechanism.question.sheet.language)[0]
         tell("\n".join(found.sentences(language)))
     finish(given, found)

@@ -67,8 +67,8 @@ def _print_solution(solved: Solved, lang: str | None) -> None:
     scene, blocks = solved.mechanism, solved.blocks()
     head: Mapping[str, Any] = solved.head
     first = next(blocks)
-    language = lang or scene.sheet.language
-    tell(f"{scene.title_in(language)}   F = {head['mobility']}")
+    language = lang or scene.question.sheet.language
+    tell(f"{scene.question.title_in(language)}   F = {head['mobility']}")
     for group, assembly in zip(head["groups"], first.motion.assembly, strict=True):
         links, order = listed(group["links"]), class_of(group["class"])
         larger = Phrase("solved larger group", (links, order, assembly))

@@ -81,7 +81,7 @@ def _course(given: Given) -> None:
     with short_bar(given.speaks) as progress:
         made = given.call(course_design, progress=progress)
         paths = made.write(given.out)
-    _tell_written(given, made, paths, given.lang or made.mechanism.sheet.language)
+    _tell_written(given, made, paths, given.lang or made.mechanism.question.sheet.language)
 
 
 def _tell_written(given: Given, made: Handout | CourseDesigns, paths: Sequence[Path], language: str) -> None:
@@ -106,7 +106,7 @@ def _problem_set(given: Given) -> None:
         print_json(made.data)
     elif not given.quiet:
         gaps = {"count": len(made.made.names), "folder": target, "answers": target / "answers.csv"}
-        spoken = languages(given.lang or mechanism_of(given.scene).sheet.language)[0]
+        spoken = languages(given.lang or mechanism_of(given.scene).question.sheet.language)[0]
         tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
     tell_unused(made.unused)
     for failure in made.made.failures:

@@ -408,7 +408,7 @@ def plan(
     """
     structure = analyse(with_cams(scene))
     scene = structure.scene
-    asked = tuple(scene.find if find is None else find)
+    asked = tuple(scene.question.find if find is None else find)
     if scene.cams:
         from graphkin.construction.cams_in_place import cams_in_place
 

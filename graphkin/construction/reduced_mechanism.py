@@ -216,8 +216,7 @@ def _opened(
         pins=tuple(p for p in scene.pins if p.key not in gone and not gone & {p.of, p.on}),
         contacts=tuple(c for c in scene.contacts if c.block not in gone),
         drivers=tuple(drivers.values()),
-        find=(),
-        stated=(),
+        question=replace(scene.question, find=(), stated=()),
     )
 
 

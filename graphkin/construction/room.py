@@ -43,7 +43,8 @@ INTO_MARGIN = 1.1  # times as large as its room may trial polygons be: panels ha
 def chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
     """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
     fast = scene.units.rates.metres
-    wanted = scene.sheet.length_scale, scene.sheet.velocity_scale, scene.sheet.acceleration_scale
+    sheet = scene.question.sheet
+    wanted = sheet.length_scale, sheet.velocity_scale, sheet.acceleration_scale
     wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, fast, fast), strict=True)]
     space = room or Room()
     best: tuple[float, list[float]] | None = None

@@ -102,8 +102,7 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
         drivers=(triangle.driver,),
         sketch={},
         drawn={},
-        find=(),
-        stated=(),
+        question=replace(scene.question, find=(), stated=()),
     )
 
 

@@ -285,7 +285,7 @@ class FigurePage:
         cls, sheet: Sheet, name: str, language: str | None, convention: str | None, width: float = INSIDE
     ) -> FigurePage:
         """``language`` and ``convention`` are the scene's own where they are None."""
-        wish = sheet.scene.sheet
+        wish = sheet.scene.question.sheet
         letters = letters_of(sheet, convention or wish.convention)  # type: ignore[arg-type]
         return cls(sheet, name, language or wish.language, letters, width)
 

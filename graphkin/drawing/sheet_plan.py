@@ -127,7 +127,7 @@ def with_less_polygons(plan: SheetPlan, heights: Sequence[float]) -> Iterator[Sh
 
 def _plans(scene: Mechanism) -> Iterator[SheetPlan]:
     """All plans, the usual one first; larger papers where scales are wished for."""
-    wishes = scene.sheet
+    wishes = scene.question.sheet
     wished = any((wishes.length_scale, wishes.velocity_scale, wishes.acceleration_scale))
     landscape = wishes.orientation == "landscape"
     sizes = sorted(PAPERS.values())

@@ -66,7 +66,7 @@ def table_rows(sheet: Sheet, report: Report | None) -> list[TableRow]:
     if report is not None:
         rows = [TableRow(row.reading, row) for row in report.rows if row.symbol.scope != "force"]
     else:
-        found = (r for r in read_off(sheet, sheet.scene.find) if r.symbol.scope != "force")
+        found = (r for r in read_off(sheet, sheet.scene.question.find) if r.symbol.scope != "force")
         rows = [TableRow(reading) for reading in found]
     shown: list[TableRow] = []
     for entry in rows:

@@ -90,7 +90,7 @@ def answer_key(lesson: Lesson) -> Document:
         name = f"${lesson.letters.vector(row.symbol)}$"
         shown = number(line.exact if row.symbol.scope == "position" else size, 5)
         rows.append((name, length_on_paper(row), shown, *within, line.unit, way(row, language)))
-    tools = lesson.sheet.scene.sheet.tools
+    tools = lesson.sheet.scene.question.sheet.tools
     words = said(
         "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
     )

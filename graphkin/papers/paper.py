@@ -80,7 +80,7 @@ LARGER: tuple[PaperName, ...] = ("A4", "A3", "A2", "A1")
 
 def paper_of(scene: Mechanism) -> Paper:
     """The paper that a scene asks for."""
-    return Paper(*scene.sheet.size)
+    return Paper(*scene.question.sheet.size)
 
 
 NAMES = ("length", "velocity", "acceleration")
@@ -99,7 +99,7 @@ def paper_plan(
     own = plan(of, values, asked)
     scene = own.structure.scene
     paper = paper_of(scene)
-    wished = {name: getattr(scene.sheet, f"{name}_scale") for name in NAMES}
+    wished = {name: getattr(scene.question.sheet, f"{name}_scale") for name in NAMES}
     if paper != A4:
         scales, filled = own.scales, own.scales_for(paper.filled)
         own = replace(own, scales=_scales(lambda name: getattr(scales if wished[name] else filled, name)))
@@ -108,7 +108,7 @@ def paper_plan(
         larger = _larger(own, paper, wished)
         if larger is not None:
             whole = of if isinstance(of, Mechanism) else of.scene
-            return paper_plan(replace(whole, sheet=replace(whole.sheet, paper=larger)), values, asked, share)
+            return paper_plan(whole.asking(sheet=replace(whole.question.sheet, paper=larger)), values, asked, share)
         scales, roomed = own.scales, own.scales_for(paper.most)
         own = replace(own, scales=_scales(lambda name: getattr(scales if fits[name] else roomed, name)))
     return _sharing(own, paper, wished) if share else own

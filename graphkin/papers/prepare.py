@@ -59,7 +59,7 @@ def lesson_of(what: Plan, motion: Motion, language: str, convention: str) -> Les
     lesson = compared(execute(what), motion, language, convention, what.asked)
     scene = lesson.sheet.scene
     lesson.report.must_agree(scene)
-    return replace(lesson, tolerance=predict(what, "pencil", scene.sheet.tools))
+    return replace(lesson, tolerance=predict(what, "pencil", scene.question.sheet.tools))
 
 
 def compared(sheet: Sheet, motion: Motion, language: str, convention: str, asked: tuple[Symbol, ...]) -> Lesson:

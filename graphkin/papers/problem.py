@@ -138,7 +138,7 @@ def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
 def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
     """What a sheet gives of the equations: blanks; at the level "easy" the equations, at "hard" nothing."""
     equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
-    language, vary = lesson.language, lesson.sheet.scene.vary
+    language, vary = lesson.language, lesson.sheet.scene.question.vary
     level = vary.level if vary is not None else "usual"
     if level == "hard":
         return ()
@@ -187,7 +187,7 @@ def _forces(lesson: Lesson, layers: Layers, paper: Paper) -> Iterator[Block]:
     heading = said("forces", language)
     counts = [len(g.equation) for g in forces.states[0].groups if g.way != "drawn system" and len(g.equation) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
-    if counts and (sheet.scene.vary is None or sheet.scene.vary.level != "hard"):
+    if counts and (sheet.scene.question.vary is None or sheet.scene.question.vary.level != "hard"):
         blank = blank_sums(counts, lesson.letters, language, min(paper.body.width, A4.body.width))
         asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
     high = added_up(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
@@ -253,7 +253,7 @@ def given(lesson: Lesson) -> Iterator[Paragraph]:
         yield Paragraph(_labelled(lesson, "find", asked, "symbol comma"))
     yield from reach(lesson)
     names = languages(lesson.language)
-    own = {each: in_markup(scene.source_in(each)) for each in names}
+    own = {each: in_markup(scene.question.source_in(each)) for each in names}
     if len(set(own.values())) > 1:
         told = ((each, word("source", each) + word("colon", each) + text) for each, text in own.items() if text)
         yield Paragraph(tuple(told), small=True)

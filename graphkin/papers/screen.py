@@ -125,7 +125,7 @@ def handout_page(
     whole = solution(lesson, stages)
     first = languages(lesson.language)[0]
 
-    paper = lesson.sheet.scene.sheet.paper
+    paper = lesson.sheet.scene.question.sheet.paper
     data = {
         **positions_data(views, progress),
         "start": start,

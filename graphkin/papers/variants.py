@@ -86,8 +86,8 @@ class Unfit(Exception):
 def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     """What a problem asks: the scene's own ``find``, else the motion of the last group's joint, and the rates of
     the links about fixed pivots; of what has no groups what the drivers lead: wheels, racks, followers of cams."""
-    if scene.find:
-        return scene.find
+    if scene.question.find:
+        return scene.question.find
     structure = analyse(scene)
     driven = {e.link for e in structure.driven}
     turning = [k.name for k in scene.links if k.name not in driven and set(k.points) & set(scene.frame.points)]
@@ -200,7 +200,7 @@ def examined(
             raise Unfit(next(_unread(sheet, asked), "nothing that is asked for moves here"))
         most = {s: bounds.tolerance * abs(value) for s, value in read}
         spare = max(0, len(read) - fewest) if chosen else 0
-        found = predict(what, "pencil", scene.sheet.tools, together=False, most=most, spare=spare)
+        found = predict(what, "pencil", scene.question.sheet.tools, together=False, most=most, spare=spare)
         first = {s: u.bound for s, u in found.items()}
         if chosen:
             usual = asked_of(scene)
@@ -209,7 +209,7 @@ def examined(
             read = answers = tuple(one for one in answers if one[0] in asked)
             made["find"] = [str(s) for s in asked]
         _held(read, first, bounds.tolerance)
-    predicted = predict(what, "pencil", scene.sheet.tools)
+    predicted = predict(what, "pencil", scene.question.sheet.tools)
     bounded = []
     for symbol, value in answers:
         bound = predicted[symbol].bound if symbol in predicted else 0.0

@@ -170,7 +170,7 @@ NUMBERED = {"newton": ("1", "2", "3", "4"), "differences": ("1e-1", "1e-4", "1e-
 def race_page(race: Race, language: str = "en") -> ChartPage:
     """One page for both."""
     title = word("speed title", language)
-    name = race.scene.title_in(language)
+    name = race.scene.question.title_in(language)
     versions = ", ".join(f"{n} {v}" for n, v in race.machine.versions)
     facts = say(
         Phrase("speed facts", (race.machine.cores, race.machine.processor, versions, race.repeats, race.count,

@@ -286,7 +286,7 @@ def drawn(work: Work, repeats: int) -> Iterator[Entry]:
     plans = [plan(work.scene, work.at(k), ()) for k in kept]
     yield _drawn(few, plans, "exact drawing", "", [EXACT], repeats)
     yield _drawn(few, plans, "cad drawing", "", [Cad()], repeats)
-    tools = work.scene.sheet.tools
+    tools = work.scene.question.sheet.tools
     for factor in SCALES:
         larger = [_larger(p, factor) for p in plans]
         hands: list[Instrument] = [pencil(tools, seed) for seed in range(SEEDS)]
@@ -307,7 +307,7 @@ def _larger(what: Plan, factor: float) -> Plan:
 
 def acts(what: Plan, order: str) -> int:
     """Acts of the hand in drawing a plan and reading it off, as far as velocities or with accelerations."""
-    hand = pencil(what.structure.scene.sheet.tools, 0)
+    hand = pencil(what.structure.scene.question.sheet.tools, 0)
     sheet = execute(what, hand)
     read_off(sheet, (), hand)
     share = 1.0

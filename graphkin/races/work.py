@@ -121,8 +121,8 @@ class Work:
     @property
     def asked(self) -> tuple[Symbol, ...]:
         """What the scene asks for; of a scene that asks for everything, the motion of a point of its first group."""
-        if self.scene.find:
-            return self.scene.find
+        if self.scene.question.find:
+            return self.scene.question.find
         group = next((e for e in self.structure.elements if isinstance(e, Dyad)), None)
         links = group.links if group is not None else tuple(self.structure.links)
         first = next((o for o in self.outputs if o.link in links), self.outputs[0])

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Any, Literal
 
 from graphkin.scene.cams import LawCam
 from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
@@ -30,6 +30,7 @@ __all__ = [
     "PinInSlot",
     "PlacedGuide",
     "PlacedLink",
+    "Question",
     "SlidingPair",
     "StatedValues",
 ]
@@ -273,75 +274,36 @@ class NamedPositions:
 
 
 @dataclass(frozen=True)
-class Mechanism:
-    """A mechanism at one position, with what is asked of it.
+class Question:
+    """What is asked of a mechanism, and how it shall be told.
 
-    ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
-    ``sketch`` and ``drawn`` give places of points in world axes (m); ``stated`` holds all that somebody printed, digit
-    by digit, first that of this position; ``loops`` are vector loops by name, each through its points; ``vary`` says
-    how a set of problems is drawn from it, ``grading`` for what there are points; ``slots`` are the circular ones, for
-    which bars and turning pairs stand among the links.
-    ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
-    acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
-    (rad), or the travel (m) of a sliding pair or of a contact by its block.  ``background`` lies under the drawing;
-    ``scans`` are drawings to be judged; ``written`` is what it was read from, None where it was made otherwise.
-    ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
-    for each point the links that have it, the frame first; ``size`` (m), the largest distance given in the file, says
-    how large the mechanism is.
+    ``find`` are the quantities asked for, none where all are; ``stated`` holds all that somebody printed, digit by
+    digit, first that of the scene's own position; ``loops`` are vector loops by name, each through its points;
+    ``vary`` says how a set of problems is drawn from the scene, ``grading`` for what there are points.  ``background``
+    lies under the drawing; ``scans`` are drawings to be judged.  ``written`` is the file that was read, None where the
+    mechanism was made otherwise.
     """
 
-    name: str
-    title: str
-    frame: PlacedLink
-    links: tuple[PlacedLink, ...]
-    slidings: tuple[SlidingPair, ...]
-    pins: tuple[PinInSlot, ...]
-    drivers: tuple[Driver, ...]
-    units: Units = field(default_factory=Units)
+    title: str = ""
     title_zh: str = ""
     source: str = ""
-    sketch: Mapping[str, complex] = field(default_factory=dict)
-    drawn: Mapping[str, complex] = field(default_factory=dict)
+    source_zh: str = ""
     find: tuple[Symbol, ...] = ()
     sheet: SheetWishes = field(default_factory=SheetWishes)
-    loading: Loading = field(default_factory=Loading)
     stated: tuple[StatedValues, ...] = ()
     positions: NamedPositions | None = None
     loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     vary: Vary | None = None
     grading: Mapping[str, float] = field(default_factory=dict)
-    cams: tuple[LawCam, ...] = ()
-    instead_of: Mechanism | None = None
-    contacts: tuple[PlacedContact, ...] = ()
-    gears: tuple[PlacedGear, ...] = ()
-    starts: Mapping[str, float] = field(default_factory=dict)
-    slots: tuple[CircularSlot, ...] = ()
     background: PlacedBackground | None = None
     scans: tuple[PlacedScan, ...] = ()
-    source_zh: str = ""
     written: FileTable | None = field(default=None, compare=False, repr=False)
-    by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
-    order: Mapping[str, int] = field(init=False, repr=False, compare=False)
-    holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
-    size: float = field(init=False, repr=False, compare=False)
-
-    def __hash__(self) -> int:
-        return hash((self.name, self.title, tuple(link.name for link in self.links)))
-
-    @property
-    def whole(self) -> Mechanism:
-        """The mechanism itself: that with cams, in whose place this one may stand."""
-        return self if self.instead_of is None else self.instead_of
 
     @property
     def printed(self) -> dict[Symbol, float | complex]:
         """What is printed of this position, by symbol in SI: a float, or a complex number for two components."""
         here = (own for own in self.stated if own.at is None)
         return {symbol: printed.value for own in here for symbol, printed in own.values.items()}
-
-    def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
-        """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
-        return self.units.of(driver.measure, radians)
 
     def title_in(self, language: str) -> str:
         """The title in a language: the Chinese one where there is one, else the one there is."""
@@ -350,6 +312,60 @@ class Mechanism:
     def source_in(self, language: str) -> str:
         """Where the problem comes from, in a language: as the title."""
         return self.source_zh if language == "zh" and self.source_zh else self.source
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """A mechanism at one position: links, pairs, drivers and sizes.  What is asked of it is its ``question``.
+
+    ``links`` are the moving links in the order of the file (redundant ones included, see ``PlacedLink.redundant``);
+    ``sketch`` and ``drawn`` give places of points in world axes (m); ``slots`` are the circular ones, for which bars
+    and turning pairs stand among the links.
+    ``instead_of`` is the mechanism with cams in whose place this one moves alike at this position, in velocity and
+    acceleration.  ``starts`` say where what rolls stands at the scene's own position: the angle of a link's own axis
+    (rad), or the travel (m) of a sliding pair or of a contact by its block.
+    ``by_name`` has every link, the frame included; ``order`` the place of each in the file, the frame last; ``holders``
+    for each point the links that have it, the frame first; ``size`` (m), the largest distance given in the file, says
+    how large the mechanism is.
+    """
+
+    name: str
+    frame: PlacedLink
+    links: tuple[PlacedLink, ...]
+    slidings: tuple[SlidingPair, ...]
+    pins: tuple[PinInSlot, ...]
+    drivers: tuple[Driver, ...]
+    units: Units = field(default_factory=Units)
+    sketch: Mapping[str, complex] = field(default_factory=dict)
+    drawn: Mapping[str, complex] = field(default_factory=dict)
+    loading: Loading = field(default_factory=Loading)
+    cams: tuple[LawCam, ...] = ()
+    instead_of: Mechanism | None = None
+    contacts: tuple[PlacedContact, ...] = ()
+    gears: tuple[PlacedGear, ...] = ()
+    starts: Mapping[str, float] = field(default_factory=dict)
+    slots: tuple[CircularSlot, ...] = ()
+    question: Question = field(default_factory=Question)
+    by_name: Mapping[str, PlacedLink] = field(init=False, repr=False, compare=False)
+    order: Mapping[str, int] = field(init=False, repr=False, compare=False)
+    holders: Mapping[str, tuple[str, ...]] = field(init=False, repr=False, compare=False)
+    size: float = field(init=False, repr=False, compare=False)
+
+    def __hash__(self) -> int:
+        return hash((self.name, tuple(link.name for link in self.links)))
+
+    @property
+    def whole(self) -> Mechanism:
+        """The mechanism itself: that with cams, in whose place this one may stand."""
+        return self if self.instead_of is None else self.instead_of
+
+    def asking(self, **changed: Any) -> Mechanism:
+        """The same mechanism with some of its question changed: ``find``, the wishes of its ``sheet``, and so on."""
+        return replace(self, question=replace(self.question, **changed))
+
+    def unit_of(self, driver: Driver, radians: bool = False) -> Unit:
+        """The unit of a driver's value: degrees (radians in JSON), or the scene's unit of length."""
+        return self.units.of(driver.measure, radians)
 
     def __post_init__(self) -> None:
         each = self.frame, *self.links

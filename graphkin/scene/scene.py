@@ -92,8 +92,8 @@ class Scene(SceneTables):
     def saying(cls, mechanism: Mechanism) -> Scene:
         """The scene that says a mechanism: what it was read from, or else, and where links or drivers were replaced
         since, everything placed in the links' own axes."""
-        if mechanism.written is not None:
-            scene = cls.of(plain(mechanism.written), mechanism.name)
+        if mechanism.question.written is not None:
+            scene = cls.of(plain(mechanism.question.written), mechanism.name)
             read = scene.mechanism
             if (read.drivers, read.links, read.frame) == (mechanism.drivers, mechanism.links, mechanism.frame):
                 return scene

@@ -33,7 +33,7 @@ from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_
 from graphkin.scene.force_names import no_force
 from graphkin.scene.form import Form, path_name, plain
 from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of, stated_loading
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink, Question
 from graphkin.scene.pairs import (
     check_own_points,
     check_references,
@@ -234,16 +234,19 @@ def mechanism_said(
         drivers[0] = positions.placed(drivers[0])
     if problems:
         raise SceneError(*dict.fromkeys(problems))
+    question = Question(
+        title=file.title or name, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh, find=find,
+        sheet=file.sheet, stated=stated, positions=positions, loops=loops, vary=file.vary, grading=dict(file.grading),
+        background=under, scans=scans, written=file,
+    )  # fmt: skip
     made = Mechanism(
-        name=name, title=file.title or name, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh,
-        frame=_placed(frame.name, position, discs),
+        name=name, frame=_placed(frame.name, position, discs),
         links=tuple(_placed(n, position, discs, link) for n, link in links.items()),
         slidings=slidings, pins=pins, drivers=tuple(drivers), units=file.units,
-        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, find=find,
-        sheet=file.sheet, loading=loading, stated=stated, positions=positions, loops=loops, vary=file.vary,
-        grading=dict(file.grading), cams=cams, contacts=contacts, gears=gears,
+        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, loading=loading,
+        cams=cams, contacts=contacts, gears=gears,
         starts=places.starts_of(links, position, contacts) if contacts or gears else {}, slots=slots,
-        background=under, scans=scans, written=file,
+        question=question,
     )  # fmt: skip
     _check_forces(made)
     return made
@@ -273,7 +276,7 @@ def _check_texts(file: SceneTables, reading: Reading) -> None:
 
 def _check_forces(made: Mechanism) -> None:
     """Raises SceneError for symbols of forces that the mechanism does not have."""
-    wanted = [("find", made.find), *(("printed", tuple(own.values)) for own in made.stated)]
+    wanted = [("find", made.question.find), *(("printed", tuple(own.values)) for own in made.question.stated)]
     wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in wanted for symbol in symbols)
     problems = [problem for problem in wrong if problem is not None]
     if problems:
@@ -319,11 +322,11 @@ def as_mapping(scene: Mechanism) -> OwnTables:
         of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
         pins.setdefault(slot.point, (of, []))[1].append(f"{slot.on}.{slot.name}")
     driver_unit = scene.units.of(scene.drivers[0].measure).si if scene.drivers else 1.0
-    units = scene.units
+    units, asks = scene.units, scene.question
     if not scene.loading:
         units = Units(length=units.length, speed=units.speed)
     said = SceneTables(
-        title=scene.title, title_zh=scene.title_zh, source=scene.source, source_zh=scene.source_zh, units=units,
+        title=asks.title, title_zh=asks.title_zh, source=asks.source, source_zh=asks.source_zh, units=units,
         frame=Frame(scene.frame.name, {**_points(scene.frame)}, _guides(scene, scene.frame), _discs(scene.frame)),
         links={link.name: _link(scene, link, rolling) for link in scene.links if link.name not in bars},
         pins={point: Pin(of, slots) for point, (of, slots) in pins.items()},
@@ -333,7 +336,7 @@ def as_mapping(scene: Mechanism) -> OwnTables:
         driver=[stated_driver(d, scene.frame.name, scene.units) for d in scene.drivers],
         sketch={p: xy(z) for p, z in {**scene.drawn, **scene.sketch}.items() if p not in scene.frame.points},
         drawn={p: xy(z) for p, z in scene.drawn.items() if p in held},
-        find=[str(symbol) for symbol in scene.find] or None,
+        find=[str(symbol) for symbol in scene.question.find] or None,
         **stated_loading(scene.loading, driver_unit),
     )  # fmt: skip
     made = plain(in_units(said, scene.units))

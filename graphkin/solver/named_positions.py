@@ -94,9 +94,9 @@ class PlacesByName:
 
 def named_positions(scene: Mechanism) -> PlacesByName | None:
     """The positions that a scene names; None where it names none.  Raises Unsolvable."""
-    if scene.positions is None:
+    if scene.question.positions is None:
         return None
-    return PlacesByName(scene.positions, range_of(structure_of(scene)))
+    return PlacesByName(scene.question.positions, range_of(structure_of(scene)))
 
 
 def standing(scene: Mechanism) -> Mechanism:

@@ -143,7 +143,7 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
     """A motion at one position, with the blocks and points that a replacing mechanism has there; itself of a mechanism
     that nothing replaces."""
     if len(motion.scene.drivers) < len(structure.scene.drivers):  # solved for what leads to the asked alone
-        structure = structure_of(part_of(structure, motion.scene.find))
+        structure = structure_of(part_of(structure, motion.scene.question.find))
     if structure.scene.instead_of is None and structure.links.keys() == motion.structure.links.keys():
         return motion
     poses = dict(motion.poses)

@@ -458,7 +458,7 @@ def head(motion: Motion) -> dict[str, Json]:
     force = {"force": scene.units.force} if scene.loading else {}
     speed = {"speed": scene.units.speed} if scene.units.speed else {}
     return {
-        "title": scene.title,
+        "title": scene.question.title,
         "units": {"length": scene.units.length, **speed, "time": "s", "angle": "rad", **force},
         "mobility": motion.structure.mobility.value,
         **({"passed": [_change_point(motion.scene, one) for one in motion.passed]} if motion.passed else {}),

@@ -98,7 +98,7 @@ def loops_of(structure: Structure) -> tuple[Loop, ...]:
     ------
     CallError : a chosen loop goes from a point to another that no link and no guide joins
     """
-    chosen = structure.scene.loops
+    chosen = structure.scene.question.loops
     return _chosen(structure, chosen) if chosen else _found(structure)
 
 

@@ -511,8 +511,7 @@ def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> 
         contacts=tuple(c for c in scene.contacts if set(c.links) <= kept),
         gears=tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= kept),
         drivers=tuple(d for d in scene.drivers if {of.get(d.link, d.link), d.relative_to} <= kept),
-        find=asked,
-        stated=(),
+        question=replace(scene.question, find=asked, stated=()),
         instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
     )
 

@@ -69,7 +69,7 @@ EMPTY: Array = np.zeros((0, 2))
 
 def title_of(scene: Mechanism, language: str) -> str:
     """The scene's title as markup."""
-    return in_markup(scene.title_in(language))
+    return in_markup(scene.question.title_in(language))
 
 
 def heading(scene: Mechanism, title: str, facts: Sequence[str], language: str) -> tuple[Primitive, ...]:

@@ -114,7 +114,7 @@ def force_over_turn(axis: DriverAxis, name: str) -> ForceRun:
 
 def _written(scene: Mechanism, name: str) -> str:
     """A force or a moment in the letters of the scene's convention."""
-    return f"${force_letters(scene.sheet.convention, Symbol.parse(name))}$"
+    return f"${force_letters(scene.question.sheet.convention, Symbol.parse(name))}$"
 
 
 def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:

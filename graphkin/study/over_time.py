@@ -135,7 +135,7 @@ class TimeStudy:
             found[quantity.name] = {
                 ends[e.kind]: {"value": unit.of(e.value), "time": e.offset} for e in extremes
             }
-        return {"title": self.scene.title, "time": [low, high], "outputs": found}
+        return {"title": self.scene.question.title, "time": [low, high], "outputs": found}
 
 
 def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:

@@ -195,7 +195,7 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     def by_pencil(e: float) -> Answer:
         what, symbol = plan(beside(e)), Symbol("omega", link=follower)
         sheet = execute(what, EXACT)
-        deviation = predict(what, "pencil", scene.sheet.tools, together=False)[symbol].deviation
+        deviation = predict(what, "pencil", scene.question.sheet.tools, together=False)[symbol].deviation
         part = deviation / abs(sheet.omega[follower].value)
         warns = any(r.key == "sharp crossing" for r in sheet.remarks)
         return Answer((part if math.isfinite(part) else math.nan,), warns)
@@ -463,7 +463,7 @@ def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:
 
     def by_pencil(phi: float) -> Answer:
         four_bar = _CoupledFourBar.at(phi, mp)
-        hands = [pencil(four_bar.scene.sheet.tools, seed) for seed in range(SEEDS)]
+        hands = [pencil(four_bar.scene.question.sheet.tools, seed) for seed in range(SEEDS)]
         columns = zip(*map(four_bar.errors, hands), strict=True)
         return Answer([math.sqrt(added_up(e * e for e in errors) / SEEDS) for errors in columns])
 
@@ -623,7 +623,7 @@ def slow_sliding(mp: MPContext, samples: int = 4) -> Singularity:
         return Answer([float(abs(value / exact - 1)) for value, exact in zip(rates, right(e), strict=True)])
 
     def by_pencil(e: float) -> Answer:
-        predicted = predict(plan(beside(e)), "pencil", scene.sheet.tools, together=False)
+        predicted = predict(plan(beside(e)), "pencil", scene.question.sheet.tools, together=False)
         symbols = Symbol.parse("v_B@3/B@2"), Symbol("omega", link="3")
         return Answer([float(predicted[s].deviation / abs(size)) for s, size in zip(symbols, right(e), strict=True)])
 
@@ -660,7 +660,7 @@ def drawing_scale(mp: MPContext, samples: int = 1) -> Singularity:
         scales = Scales(*(s * times for s in (what.scales.length, what.scales.velocity, what.scales.acceleration)))
         larger = replace(what, scales=scales)
         return Answer([predict(larger, "pencil", tools, together=False)[symbol].deviation / right
-                       for tools in (POINTS_ONLY, scene.sheet.tools)])  # fmt: skip
+                       for tools in (POINTS_ONLY, scene.question.sheet.tools)])  # fmt: skip
 
     stated = ErrorLaw("pencil points", theory=-1.0, lost=1.0), ErrorLaw("pencil all", lost=1.0)
     laws = measured(stated, sizes, map(errors, sizes))

@@ -91,7 +91,7 @@ class FollowedDesign:
         not give, where a larger group has no closed form, or where it starts elsewhere than the scene."""
         if not self.asked or not all(w.can_be_prepared for w in self.asked):
             return None
-        if self.at or self.scene.positions is not None or moves_by_law(self.scene):
+        if self.at or self.scene.question.positions is not None or moves_by_law(self.scene):
             return None
         if in_stages(self.structure.elements):
             return None

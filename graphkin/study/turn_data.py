@@ -53,7 +53,7 @@ def to_json(turn: TurnStudy) -> dict[str, Json]:
     reach, scene = turn.reach, turn.scene
     driver = reach.driver
     return {
-        "title": scene.title,
+        "title": scene.question.title,
         "units": {"length": scene.units.length, "time": "s", "angle": "rad"},
         "mobility": reach.structure.mobility.value,
         "driver": {"key": driver.key, "full_turn": reach.full, "turns_to_close": reach.turns or None},

@@ -18,7 +18,7 @@ SCENES = ("cam-offset-roller", "cam-swinging-roller", "cam-flat-face")
 
 def drawn(name):
     (made,) = cam(name).made
-    return made.sheet, made.mechanism.sheet.tools
+    return made.sheet, made.mechanism.question.sheet.tools
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -265,7 +265,7 @@ def test_the_tables_of_a_class_are_written_in_both_languages(tmp_path, language)
 )
 def test_printed_values_go_by_the_names_that_people_write(text, symbol):
     scene = {**written(SIXBAR)[0], "printed": {text: 1.0}}
-    assert [symbol] == [str(one) for one in mechanism_of(scene).printed]
+    assert [symbol] == [str(one) for one in mechanism_of(scene).question.printed]
 
 
 def test_a_quantity_printed_under_two_names_is_said():

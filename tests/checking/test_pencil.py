@@ -56,7 +56,7 @@ def test_the_same_seed_draws_the_same_sheet():
 
 def test_bounds_that_are_kept_change_no_prediction_and_what_is_passed_is_seen():
     scene = mechanism_of("shaper-scheme-2")
-    what, tools = plan(scene, None, ()), scene.sheet.tools
+    what, tools = plan(scene, None, ()), scene.question.sheet.tools
     whole = predict(what, "pencil", tools, together=False)
     kept = predict(what, "pencil", tools, together=False, most={s: 3 * u.bound for s, u in whole.items()})
     assert whole == kept
@@ -92,7 +92,7 @@ def test_pricking_errors_fall_with_the_size_of_the_figures():
 
 def test_faultless_tools_draw_exactly():
     scene = mechanism_of(SIXBAR)
-    clean = replace(scene, sheet=replace(scene.sheet, tools=Tools(0, 0, 0, 0, 0)))
+    clean = scene.asking(sheet=replace(scene.question.sheet, tools=Tools(0, 0, 0, 0, 0)))
     result = graphkin.check(clean, instrument="pencil")
     assert all(row.error <= 1e-9 * abs(row.exact) + 1e-12 for row in result.report.rows)
 

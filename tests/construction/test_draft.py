@@ -131,7 +131,7 @@ def test_a_zero_velocity_is_said_not_drawn_askew():
 
 def test_lines_that_meet_far_away_are_crossed_all_the_same_and_it_is_said():
     scene = mechanism_of("slider-crank-s50-e16-K1.2")
-    near = replace(scene, sheet=replace(scene.sheet, velocity_scale=0.05))
+    near = scene.asking(sheet=replace(scene.question.sheet, velocity_scale=0.05))
     sheet = draft(near)
     assert any(r.key == "off the sheet" for r in sheet.remarks)
     v_c = sheet.ends["velocity"][PointRef("C")] * sheet.scales.velocity
@@ -227,7 +227,7 @@ def test_a_remark_belongs_to_the_scale_of_its_figure():
 
 def test_a_sheet_drawn_by_hands_that_err_is_not_had_at_another_scale():
     scene = mechanism_of(SIXBAR)
-    sheet = draft(scene, instrument=pencil(scene.sheet.tools, 1))
+    sheet = draft(scene, instrument=pencil(scene.question.sheet.tools, 1))
     with pytest.raises(ValueError, match="pencil"):
         sheet.at(Scales(1.0, 1.0, 1.0))
 

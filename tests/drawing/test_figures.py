@@ -281,7 +281,7 @@ def test_no_two_feet_of_components_bear_the_same_name(convention):
 
 def on_paper(name: str, paper: str, orientation: str) -> Drawing:
     scene = mechanism_of(name)
-    scene = replace(scene, sheet=replace(scene.sheet, paper=paper, orientation=orientation))
+    scene = scene.asking(sheet=replace(scene.question.sheet, paper=paper, orientation=orientation))
     small = draft(scene, room=sheet_room(scene))
     return figures(small, small)["sheet"]
 

@@ -150,8 +150,8 @@ def test_what_goes_on_in_other_rooms_of_a_sheet_stands_on_nothing_else(scene, ho
 
 def test_what_a_large_sheet_leaves_goes_overleaf_on_a4():
     scene = mechanism_of("sixbar-guide-40deg")
-    finer = replace(scene.sheet, acceleration_scale=0.8 * scene.sheet.acceleration_scale)
-    figures = draw(replace(scene, sheet=finer), figures=("sheet",)).figures
+    finer = replace(scene.question.sheet, acceleration_scale=0.8 * scene.question.sheet.acceleration_scale)
+    figures = draw(scene.asking(sheet=finer), figures=("sheet",)).figures
     assert (297.0, 420.0) == (figures["sheet"].width, figures["sheet"].height)
     assert (210.0, 297.0) == (figures["sheet-2"].width, figures["sheet-2"].height)
 

@@ -96,7 +96,7 @@ def _too_large(lesson):
 
 def _on(name, **wishes):
     scene = mechanism_of(name)
-    return dataclasses.replace(scene, sheet=dataclasses.replace(scene.sheet, **wishes))
+    return scene.asking(sheet=dataclasses.replace(scene.question.sheet, **wishes))
 
 
 PAPERS = [("A5", "portrait"), ("A4", "landscape"), ("A3", "portrait"), ("A3", "landscape"), ("A0", "portrait")]

@@ -322,7 +322,7 @@ def test_a_killed_set_goes_on(tmp_path):
 def test_a_set_asks_what_is_asked(tmp_path):
     made = problem_set(FOUR_BAR, variants=2, seed=1, out=tmp_path, find=["omega_3"])
     assert {("omega_3",)} == {tuple(a.symbol for a in answers) for answers in made.made.answers.values()}
-    assert all([str(s) for s in scene.find] == ["omega_3"] for scene in scenes(made))
+    assert all([str(s) for s in scene.question.find] == ["omega_3"] for scene in scenes(made))
 
 
 def test_an_answer_that_a_pencil_cannot_give_within_15_percent_is_not_asked_for(made):
@@ -330,11 +330,11 @@ def test_an_answer_that_a_pencil_cannot_give_within_15_percent_is_not_asked_for(
 
 
 def test_where_a_variant_comes_from_is_not_said_of_other_numbers(made):
-    assert not any(scene.source for scene in scenes(made))
+    assert not any(scene.question.source for scene in scenes(made))
 
 
 def test_the_title_of_a_variant_names_no_scheme_and_position_of_other_numbers(made):
-    assert "Shaper with a swinging guide bar (no. 01)" == scenes(made)[0].title
+    assert "Shaper with a swinging guide bar (no. 01)" == scenes(made)[0].question.title
 
 
 def test_of_discs_and_geared_bars_what_they_move_is_asked_not_what_is_given():

@@ -37,7 +37,7 @@ def folder(tmp_path):
 
 def test_two_points_lay_the_picture_at_its_scale_and_direction(folder) -> None:
     made = mechanism_of(scene(folder))
-    under = made.background
+    under = made.question.background
     for point, (x, y) in {"A": A, "D": D}.items():
         assert pytest.approx(made.frame.points[point], abs=1e-12) == under.corner + under.step * complex(x, -y)
     assert (240, 260, "image/png") == (under.width, under.height, under.kind)
@@ -106,4 +106,4 @@ def test_the_picture_stands_beside_the_scene_file(folder, monkeypatch) -> None:
     text = path.read_text().replace(json.dumps(str(folder / "scan.png")), '"scan.png"')
     path.write_text(text)
     assert '"scan.png"' in text
-    assert "scan.png" == graphkin.read(path).mechanism.background.name
+    assert "scan.png" == graphkin.read(path).mechanism.question.background.name

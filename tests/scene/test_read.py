@@ -179,12 +179,12 @@ def test_a_pin_in_a_slot_may_be_driven() -> None:
 
 def test_find_is_read_as_symbols_each_once() -> None:
     scene = read(FOUR_BAR, ('title = "Four-bar"', 'find = ["v_C", "omega_3", "a_B@3", "v_B@3/B@2", "v_C"]'))
-    assert [str(s) for s in scene.find] == ["v_C", "omega_3", "a_B@3", "v_B@3/B@2"]
+    assert [str(s) for s in scene.question.find] == ["v_C", "omega_3", "a_B@3", "v_B@3/B@2"]
 
 
 def test_printed_velocities_are_in_metres_per_second_and_rates_as_they_are() -> None:
     scene = mechanism_of_text(FOUR_BAR + "[printed]\nv_C = 480\nomega_3 = -2.82\na_C = [1000, -2000]\n", "x")
-    assert scene.printed == {Symbol.parse("v_C"): pytest.approx(0.48), Symbol.parse("omega_3"): -2.82,
+    assert scene.question.printed == {Symbol.parse("v_C"): pytest.approx(0.48), Symbol.parse("omega_3"): -2.82,
                              Symbol.parse("a_C"): pytest.approx(1 - 2j)}
 
 
@@ -193,12 +193,13 @@ def test_a_sketch_is_in_metres() -> None:
 
 
 def test_the_sheet_keeps_the_units_of_the_file() -> None:
-    sheet = mechanism_of_text(FOUR_BAR + '[sheet]\nlength_scale = 2\nvelocity_scale = 10\nlanguage = "zh"\n', "x").sheet
+    wishes = '[sheet]\nlength_scale = 2\nvelocity_scale = 10\nlanguage = "zh"\n'
+    sheet = mechanism_of_text(FOUR_BAR + wishes, "x").question.sheet
     assert (sheet.length_scale, sheet.velocity_scale, sheet.acceleration_scale, sheet.language) == (2, 10, None, "zh")
 
 
 def test_a_scene_without_a_title_has_its_name_for_one() -> None:
-    assert read(FOUR_BAR, ('title = "Four-bar"\n', "")).title == "test"
+    assert read(FOUR_BAR, ('title = "Four-bar"\n', "")).question.title == "test"
 
 
 def test_a_redundant_link_is_marked() -> None:

@@ -108,7 +108,7 @@ def test_a_binary_file_is_one_sentence(tmp_path: Path) -> None:
 
 def test_a_file_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
     (tmp_path / "x.toml").write_bytes(b"\xef\xbb\xbf" + FOUR_BAR.encode())
-    assert mechanism_of(tmp_path / "x.toml").title == "Four-bar"
+    assert mechanism_of(tmp_path / "x.toml").question.title == "Four-bar"
 
 
 def test_an_empty_file_has_no_links(tmp_path: Path) -> None:

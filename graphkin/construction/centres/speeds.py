@@ -341,8 +341,8 @@ def _of_sliding(
 def points_asked(centres: Centres) -> tuple[Symbol, ...]:
     """The absolute velocities of points that the scene asks for; of every moving pin if it asks for nothing."""
     scene = centres.links.scene
-    if scene.find:
-        return tuple(s for s in scene.find if s.kind == "v" and s.to is None)
+    if scene.question.find:
+        return tuple(s for s in scene.question.find if s.kind == "v" and s.to is None)
     moving = {name for name in centres.links.names if name != scene.frame.name}
     pins = [p for p, names in scene.holders.items() if p not in scene.frame.points and moving & set(names)]
     return tuple(Symbol("v", PointRef(p)) for p in pins)

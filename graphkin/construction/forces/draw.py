@@ -69,7 +69,7 @@ def forces_on(sheet: Sheet, hand: Instrument = EXACT, per_mm: float = 0.0) -> Fo
 def force_scale(sheet: Sheet) -> float:
     """N for one mm of the force polygons: as the scene wishes, or the finest of the series at which every polygon fits
     its room.  Raises Unsolvable as `forces_on`."""
-    newtons, wish = sheet.scene.units.newtons, sheet.scene.sheet.force_scale
+    newtons, wish = sheet.scene.units.newtons, sheet.scene.question.sheet.force_scale
     if wish:
         return wish * newtons
     whole = _drawn(sheet, EXACT, 1.0)

@@ -57,8 +57,8 @@ ROWS = 10
 def scaled_cam(scene: Mechanism, cam: LawCam) -> CamSheet:
     """The construction of a cam at the scale of its figure: as the scene wishes, or the finest of the series at which
     the cam fits the page."""
-    if scene.sheet.length_scale:
-        return cam_sheet(cam, scene.sheet.length_scale * 1e-3)
+    if scene.question.sheet.length_scale:
+        return cam_sheet(cam, scene.question.sheet.length_scale * 1e-3)
     natural = cam_sheet(cam, cam.base / 50.0)
     far = [*natural.profile, *natural.pitch, *(d.at.point for d in natural.divisions)]
     far += [d.at.line for d in natural.divisions] if isinstance(cam.motion, SwingingFollower) else []
@@ -86,8 +86,9 @@ def cam_figure(scene: Mechanism, sheet: CamSheet, told: Sequence[Phrase], langua
     facts = {"units": {"length": scene.units.length, "paper": "mm"},
              "scales": {"length": sheet.scale / scene.units.metres}, "instrument": "exact"}  # fmt: skip
     return worked_page(
-        (scene.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts, told,
-        _scale(scene, sheet), title="cam figure", said=spoken, language=language, metadata=_facts(scene, sheet) | facts,
+        (scene.question.title_in(each) or scene.name for each in every), _given(scene, sheet.cam, language), parts,
+        told, _scale(scene, sheet), title="cam figure", said=spoken, language=language,
+        metadata=_facts(scene, sheet) | facts,
     )  # fmt: skip
 
 
@@ -330,7 +331,7 @@ def cams_figure(
     language : "en", "zh" or "both"; the scene's own if None
     convention : says nothing here, since the letters of cams are those of all books
     """
-    pages = [cam_figure(scene, sheet, told, language or scene.sheet.language) for sheet, told in cams]
+    pages = [cam_figure(scene, sheet, told, language or scene.question.sheet.language) for sheet, told in cams]
     return replace(pages[0], further=tuple(pages[1:])) if pages else None
 
 

@@ -81,7 +81,7 @@ def diagram_figure(
         else:
             insets = Box(room.left, around.bottom, room.right, room.bottom)
             whole, _ = polygon_with_insets(sheet, diagram, letters, spoken, around, origin, insets)
-        return joined((scan_piece(sheet, diagram, origin, around), whole)) if sheet.scene.scans else whole
+        return joined((scan_piece(sheet, diagram, origin, around), whole)) if sheet.scene.question.scans else whole
 
     notes = [note for each in languages(spoken) for note in remarks(sheet, each, letters)]
     told = prose(notes, page.width, 2.5, classes=("remark",))
@@ -121,8 +121,8 @@ def figure_in_motion(
 ) -> Drawing:
     """The mechanism or one of its polygons, every name beside what it names wherever that is; parameters as for
     `graphkin.drawing.figures.diagrams.diagram_figure`."""
-    spoken = language or sheet.scene.sheet.language
-    letters = letters_of(sheet, convention or sheet.scene.sheet.convention)  # type: ignore[arg-type]
+    spoken = language or sheet.scene.question.sheet.language
+    letters = letters_of(sheet, convention or sheet.scene.question.sheet.convention)  # type: ignore[arg-type]
     if diagram == "mechanism":
         piece = bare_mechanism(sheet, letters)
         content = ink_box(piece.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
@@ -218,12 +218,12 @@ def _position(
         return renamed(drawn, f"-at-{_plain(name)}")
 
     said = once(say(Phrase("position named", (name,)), each) for each in languages(page.language))
-    named = sheet.scene.positions is not None and name in sheet.scene.positions.names
+    named = sheet.scene.question.positions is not None and name in sheet.scene.question.positions.names
     head = (said + punctuation("colon", page.language)) * named + drivers(sheet, letters)
     found = [
         f"${letters.vector(r.symbol)}$ = {written(measured(r, sheet.scales, units))} {r.symbol.unit(units).written}"
-        for r in read_off(sheet, [s for s in sheet.scene.find if s.scope == "motion" and not s.at])
-    ] if sheet.scene.find else []  # fmt: skip
+        for r in read_off(sheet, [s for s in sheet.scene.question.find if s.scope == "motion" and not s.at])
+    ] if sheet.scene.question.find else []  # fmt: skip
     panels = (framed(panel(*size, partial(polygon, diagram))) for diagram in shown)
     return column(line(head, size[0], 3.2), column(*panels, prose((";  ".join(found),), size[0]), gap=GUTTER))
 

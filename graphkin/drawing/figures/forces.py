@@ -72,7 +72,7 @@ def forces_figure(
     """
     sheet = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
     page = FigurePage.of(sheet, "forces", language, convention)
-    width, height = sheet.scene.sheet.size
+    width, height = sheet.scene.question.sheet.size
     boxes = [
         extent_of((*vectors, *inside)).grown(AROUND)
         for state in forces.states for group in state.groups for _, vectors, inside in polygons_of(group)

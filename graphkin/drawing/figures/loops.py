@@ -149,7 +149,7 @@ def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primi
     if gap is None:
         return [], []
     at, corners = 0j, [0j]
-    for vector in stated_arrows(sheet, loop.loop, sheet.scene.printed):
+    for vector in stated_arrows(sheet, loop.loop, sheet.scene.question.printed):
         at += vector / scale
         corners.append(on_page(at))
     drawn = Group((Polyline(tuple(corners), strokes.DIRECTION),), classes=("printed",))
@@ -167,7 +167,7 @@ def _gap(sheet: Sheet, loop: LoopValue) -> float | None:
     printed."""
     if any(abs(sheet.drivers[d.key] - d.values[0]) > 1e-9 for d in sheet.scene.drivers):
         return None
-    vectors = stated_arrows(sheet, loop.loop, sheet.scene.printed)
+    vectors = stated_arrows(sheet, loop.loop, sheet.scene.question.printed)
     gap = abs(added_up(vectors, 0j))
     return gap if gap > CLOSES * added_up(map(abs, vectors)) else None
 
@@ -254,4 +254,4 @@ def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     return ". ".join(said)
 
 
-FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.loops), of_all=True, place=12),)
+FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.question.loops), of_all=True, place=12),)

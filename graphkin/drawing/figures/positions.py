@@ -302,5 +302,6 @@ def _measured_lines(shown: Shown, page_: FigurePage) -> list[str]:
 
 
 FIGURES = (
-    Figure("positions", positions_figure, "positions", lambda scene: scene.positions is not None, of_all=True, place=7),
+    Figure("positions", positions_figure, "positions", lambda scene: scene.question.positions is not None,
+           of_all=True, place=7),
 )

@@ -106,7 +106,7 @@ def sheet_page(
         _step_number(page, plan.page), title_block(page, [row.compared for row in rows if row.compared], plan.block),
     ]  # fmt: skip
     further = overleaf(page, rest, plan.page)
-    for kind in ("plan", "loops") if sheet.scene.sheet.loops else ("plan",):
+    for kind in ("plan", "loops") if sheet.scene.question.sheet.loops else ("plan",):
         figure = figure_kinds()[kind].draw(sheet, language=page.language, convention=page.convention)
         for one in (figure, *figure.further) if figure is not None else ():
             further += (_as_page(sheet, one, plan, len(further) + 2),)

@@ -438,7 +438,7 @@ OFF = Stroke(0.8, (1.6, 0.8), "#c2006b")
 
 def background_piece(sheet: Sheet, origin: complex, panel: Box) -> Piece:
     """The scene's picture, cut to a panel (mm, y down) in which the world's origin lies at ``origin``."""
-    under = sheet.scene.background
+    under = sheet.scene.question.background
     if under is None:
         return Piece()
     mm = 1 / sheet.scales.length

@@ -154,7 +154,7 @@ def _link(here: MechanismOnPaper, shape: LinkShape) -> Group:
     stroke = (strokes.REDUNDANT if shape.redundant else strokes.LINK).coloured(colour)
     if shape.corners:
         corners = tuple(map(on_page, shape.corners))
-        clear = shape.redundant or here.scene.background is not None  # what a scan shows is seen through it
+        clear = shape.redundant or here.scene.question.background is not None  # what a scan shows is seen through it
         parts.append(Polygon(corners, "" if clear else strokes.tint(colour), stroke))
     parts += [*outlines_of(here, shape.link), *wheels_of(here, shape.link)]
     hidden = {b.slide.b for b in here.sliders if b.slide.key in here.cylinders}
