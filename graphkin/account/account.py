@@ -15,8 +15,7 @@ from graphkin.account.in_polygon import alike, measured, rate_name
 from graphkin.account.notation import Letters
 from graphkin.account.voice import Voice
 from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.sizes import Term
-from graphkin.construction.steps import Aid, Reason, Step, Vector
+from graphkin.construction.steps import Aid, Reason, Step, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Pair
 from graphkin.words import Phrase, languages, word

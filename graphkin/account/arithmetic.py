@@ -16,8 +16,7 @@ from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet, either_way
-from graphkin.construction.sizes import Direction, RateTimes, RollingCurves, Size
-from graphkin.construction.steps import Aid, DiagramName, RateTrial, Step, Superposed, Vector
+from graphkin.construction.steps import Aid, DiagramName, Direction, RateTrial, Size, Step, Superposed, Vector
 from graphkin.plane import added_up
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Units
@@ -93,7 +92,7 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str
         sizes = [step.size]
         if step.reason == "before its turn":
             sizes = [t.size for e in sheet.equations for side in e.sides for t in side if t.symbol == step.symbol]
-        used = (s.factor for s in sizes if isinstance(s, RateTimes) and not isinstance(s.factor, Symbol))
+        used = (s.factor for s in sizes if s and s.rule == "rate" and not isinstance(s.factor, Symbol))
         bar = (step.points[0], step.points[1]) if step.reason == "rate" else next(used, None)
         if bar is not None and not is_given(sheet, bar):
             bars.setdefault(frozenset(bar), bar)
@@ -224,10 +223,12 @@ def _carried(sheet: Sheet, diagram: DiagramName, mm: float, carried: int, most: 
 def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, ...]:
     """The numbers whose product a size is, as they are written to so many figures, those that a hand has measured as
     they stand on the sheet; none where no such rule is known."""
-    if isinstance(rule, RollingCurves):
-        turning = amount(abs(_turning(sheet, "omega", rule.turning)), most)
+    if rule is None:
+        return ()
+    if rule.rule == "rolling curves":
+        turning = amount(abs(_turning(sheet, "omega", rule.links)), most)
         return turning, turning, amount(rule.radius / sheet.scene.units.metres, most)
-    if not isinstance(rule, RateTimes):
+    if rule.rule != "rate":
         return ()
     by = rule.factor
     factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
@@ -240,7 +241,7 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
 
 def carried_by(sheet: Sheet, rule: Size | None) -> int:
     """How many figures a product carries: as many as the poorest of what a hand has measured for it."""
-    if sheet.instrument == EXACT.name or not isinstance(rule, RateTimes):
+    if sheet.instrument == EXACT.name or rule is None or rule.rule != "rate":
         return MOST
     read = [_rate_read(sheet, rule)]
     if isinstance(rule.factor, Symbol):
@@ -250,7 +251,7 @@ def carried_by(sheet: Sheet, rule: Size | None) -> int:
     return min((figures(one) for one in read if one and one != "0"), default=MOST)
 
 
-def _rate_read(sheet: Sheet, rule: RateTimes) -> str:
+def _rate_read(sheet: Sheet, rule: Size) -> str:
     """The rate of one link as a hand has measured it, the quotient that stands on the sheet; "" for any other."""
     if sheet.instrument == EXACT.name or len(rule.links) > 1:
         return ""
@@ -272,7 +273,7 @@ def _turning(sheet: Sheet, rate: Literal["omega", "alpha"], links: Sequence[str]
 def substituted(rule: Size | None, factors: tuple[str, ...]) -> str:
     """A rule of a size with numbers in place of its symbols: ``2 × 2.819 × 575.4`` for 2ω v."""
     shown = [written(factor) for factor in factors]
-    if isinstance(rule, RollingCurves) or (isinstance(rule, RateTimes) and rule.square):
+    if rule is not None and (rule.square or rule.rule == "rolling curves"):
         del shown[-2]
         shown[-2] = f"({shown[-2]})²" if "$" in shown[-2] else f"{shown[-2]}²"
     return " × ".join(shown)
@@ -331,7 +332,7 @@ class RatePart:
     """A part of the way from one end point of a link to another that its rates give: its ``span`` on paper (mm)."""
 
     symbol: Symbol
-    rule: RateTimes
+    rule: Size
     direction: Direction
     span: complex
 
@@ -346,12 +347,12 @@ def parts_by_rates(sheet: Sheet, step: Step) -> list[RatePart]:
         return []
     arm, ends = (places[1] - places[0]) * sheet.scales.length, (point.point, start.point)
     way: Literal["square", "towards"] = "square"
-    rules = [("v", RateTimes("omega", links, ends), way)]
+    rules = [("v", Size("rate", links, ends), way)]
     if step.diagram == "acceleration":
         if not all(name in sheet.alpha for name in links):
             return []
-        inwards = RateTimes("omega", links, ends, square=True)
-        rules = [("an", inwards, "towards"), ("at", RateTimes("alpha", links, ends), way)]
+        inwards = Size("rate", links, ends, square=True)
+        rules = [("an", inwards, "towards"), ("at", Size("rate", links, ends, "alpha"), way)]
     found = []
     for kind, rule, relation in rules:
         rate = _turning(sheet, rule.rate, links)

@@ -23,7 +23,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentEquation,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.sizes import Term
+from graphkin.construction.steps import Term
 from graphkin.plane import added_up
 from graphkin.scene.loads import LoadOn, Phase, SpringOn
 from graphkin.scene.model import Mechanism

@@ -13,8 +13,7 @@ from functools import reduce
 
 from graphkin.account.notation import Letters
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.sizes import Direction, plain_in
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.steps import DiagramName, Direction, plain_in
 from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol

@@ -25,8 +25,22 @@ from graphkin.account.headings import number, term, written
 from graphkin.account.in_mechanism import numeral
 from graphkin.account.voice import SAME, Voice
 from graphkin.construction.sheet import Rate, Sheet
-from graphkin.construction.sizes import Direction, Given, RateTimes, Role, Size, Term
-from graphkin.construction.steps import Aid, Bar, RateTrial, Ray, Reason, Step, Superposed, Vector, end_of
+from graphkin.construction.steps import (
+    GIVEN,
+    Aid,
+    Bar,
+    Direction,
+    RateTrial,
+    Ray,
+    Reason,
+    Role,
+    Size,
+    Step,
+    Superposed,
+    Term,
+    Vector,
+    end_of,
+)
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, languages, listed
@@ -130,7 +144,7 @@ def _carried_over(sheet: Sheet, step: Step) -> Phrase | None:
     if kind == "v" or to is None or not against:
         return Phrase("written carried over", (step.symbol, told))
     slip = next(s.symbol for s in before if s.verb == "lay off" and s.symbol.of == of and s.symbol.kind == "v")
-    size = RateTimes("omega", (seen.to.link, to.link), slip, twice=True)
+    size = Size("rate", (seen.to.link, to.link), slip, twice=True)
     turning = sheet.omega[seen.to.link].value - sheet.omega[to.link].value
     key = "written carried over coriolis cw" if turning < 0.0 else "written carried over coriolis ccw"
     rule = Phrase("rule of size", (size, bound(rule_sum(sheet, size, "acceleration"))))
@@ -507,7 +521,7 @@ def _assumed(sheet: Sheet, found: Sequence[tuple[Symbol, float]]) -> object:
 
 def _rule(symbol: Symbol, size: Size | None) -> Symbol | Phrase:
     """A vector with the rule of its size, where that is not just given."""
-    return symbol if size is None or isinstance(size, Given) else Phrase("rule of size", (symbol, size))
+    return symbol if size is None or size == GIVEN else Phrase("rule of size", (symbol, size))
 
 
 def _sum(before: Symbol | Phrase | None, symbol: Symbol) -> Symbol | Phrase:

@@ -15,8 +15,7 @@ from functools import lru_cache
 from typing import Literal
 
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.sizes import Direction, OffCurves, RateTimes, Size, SquareOverRadius, Term
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.steps import DiagramName, Direction, Size, Term
 from graphkin.scene.sheet import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import true_minus
@@ -181,16 +180,8 @@ class Letters:
 
     def size(self, rule: Size) -> str:
         """The rule that gives a size: ``ω_{1}^{2} l_{AB}``."""
-        if isinstance(rule, SquareOverRadius):
-            return f"({self.vector(rule.velocity)})^{{2}} / ρ"
-        if isinstance(rule, OffCurves):
-            return rule.written(self.vector(rule.velocity)).replace("²", "^{2}").replace("·", " ")
-        if not isinstance(rule, RateTimes):
-            return str(rule).replace("²", "^{2}").replace("·", " ")
-        letter = "ω" if rule.rate == "omega" else "α"
-        name = f"{'2' * rule.twice}{letter}_{{{''.join(rule.links)}}}{'^{2}' * rule.square}"
-        factor = rule.factor
-        return f"{name} {self.vector(factor) if isinstance(factor, Symbol) else self.length(factor)}"
+        factor = self.vector(rule.factor) if isinstance(rule.factor, Symbol) else self.length(rule.factor)
+        return rule.written(factor).replace("²", "^{2}").replace("·", " ").replace("/ρ", " / ρ")
 
     def length(self, names: Sequence[str]) -> str:
         """The length of a bar: ``l_{AB}``."""

@@ -15,8 +15,7 @@ from functools import cached_property
 
 from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.sizes import Direction, Given, OffCurves, RateTimes, RollingCurves, SquareOverRadius
-from graphkin.construction.steps import Aid, Bar, DiagramName, Mark, Step, Vector
+from graphkin.construction.steps import GIVEN, Aid, Bar, DiagramName, Direction, Mark, Size, Step, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Neutral, Phrase, word
 from graphkin.words.rich_text import Markup, as_markup, rich_text
@@ -242,10 +241,8 @@ class Voice:
             return Markup(self.point(thing))
         if isinstance(thing, Direction):
             return Markup(self.letters.direction(thing, self.sheet.scene.frame.name))
-        if isinstance(thing, Given):
-            return word("given", language).lower()
-        if isinstance(thing, RateTimes | SquareOverRadius | OffCurves | RollingCurves):
-            return Markup(self.letters.size(thing))
+        if isinstance(thing, Size):
+            return word("given", language).lower() if thing == GIVEN else Markup(self.letters.size(thing))
         names = names_in_letters(self.letters, str(thing))
         if names is None:
             return in_markup(str(thing))

@@ -13,7 +13,7 @@ from graphkin.api.arguments import passed_words
 from graphkin.api.checked import Checked
 from graphkin.checking.report import deviation, exact, measured, paper
 from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.sizes import Term, plain_in
+from graphkin.construction.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase, about, say, word

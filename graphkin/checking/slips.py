@@ -19,7 +19,8 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
 from graphkin.construction import GoneOn, Plan, Sheet, Slip, execute
-from graphkin.construction.sizes import Component, Order
+from graphkin.construction.polygons import Component
+from graphkin.construction.steps import Order
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
 from graphkin.scene.contacts import PlacedGear

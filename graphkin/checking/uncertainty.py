@@ -27,8 +27,7 @@ from numpy.typing import NDArray
 from graphkin.checking.readings import Reading, read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
 from graphkin.construction.instruments import ErringInstrument
-from graphkin.construction.sizes import Order
-from graphkin.construction.steps import Cause, phrase_of
+from graphkin.construction.steps import Cause, Order, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
 from graphkin.scene.sheet import Tools

@@ -6,9 +6,9 @@ analytic solver.
 
 from graphkin.construction.instruments import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
 from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
+from graphkin.construction.polygons import NO_SLIP, Slip
 from graphkin.construction.room import Room, drawn_sizes
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.sizes import NO_SLIP, Slip
 
 __all__ = [
     "EXACT",

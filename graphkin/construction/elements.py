@@ -46,8 +46,19 @@ from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
 from graphkin.construction.sheet import DrawnGroup, Rate, Remark
-from graphkin.construction.sizes import Direction, Order
-from graphkin.construction.steps import Aid, Bar, FarPoint, Mark, RateTrial, Step, Superposed, TakenOff, Vector
+from graphkin.construction.steps import (
+    Aid,
+    Bar,
+    Direction,
+    FarPoint,
+    Mark,
+    Order,
+    RateTrial,
+    Step,
+    Superposed,
+    TakenOff,
+    Vector,
+)
 from graphkin.construction.touching import Touching
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit

@@ -20,22 +20,9 @@ from graphkin.construction.net import (
     joined_at_contacts,
     node,
 )
-from graphkin.construction.polygons import RATE, Polygons, letter
+from graphkin.construction.polygons import RATE, Component, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate, Remark
-from graphkin.construction.sizes import (
-    Component,
-    Direction,
-    Given,
-    OffCurves,
-    Order,
-    RateTimes,
-    Role,
-    RollingCurves,
-    Size,
-    SquareOverRadius,
-    Term,
-)
-from graphkin.construction.steps import Aid, Bar, Mark, Ray, Step, Vector
+from graphkin.construction.steps import GIVEN, Aid, Bar, Direction, Mark, Order, Ray, Role, Size, Step, Term, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
@@ -447,7 +434,7 @@ def _term(
 
 def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Component:
     """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
-    size = RateTimes("omega", (link,), symbol_of(plot, "v", edge), twice=True)
+    size = Size("rate", (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 
 
@@ -458,12 +445,12 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.scales.of(order), edge.bar
     square = 1j * unit(arm)
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
-    rule = None if rate is None else RateTimes(RATE[order], (edge.link,), bar)
+    rule = None if rate is None else Size("rate", (edge.link,), bar, RATE[order])
     if order == "velocity":
         mm = None if rate is None else rate.value * plot.length(arm, bar) / per
         return [_term(plot, edge, "v", square, mm, edge.direction, rule)]
     omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
-    squared = RateTimes("omega", (edge.link,), bar, square=True)
+    squared = Size("rate", (edge.link,), bar, square=True)
     normal = _term(plot, edge, "an", -unit(arm), omega**2 * length / per, Direction("towards", bar[::-1]), squared)
     if rate is not None and rate.value == 0.0:
         return [normal]
@@ -480,13 +467,13 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJ
     name, both = (hinge, edge.end.point), (joint.b, joint.a)
     length, square = plot.length(arm, name), 1j * unit(arm)
     if order == "velocity":
-        return [_term(plot, edge, "v", square, omega * length / per, edge.direction, RateTimes("omega", both, name))]
+        return [_term(plot, edge, "v", square, omega * length / per, edge.direction, Size("rate", both, name))]
     base = joint.a if edge.forward else joint.b
     turn, inward = plot.rates["velocity"][base].value, -unit(arm)
-    squared = RateTimes("omega", both, name, square=True)
+    squared = Size("rate", both, name, square=True)
     return [
         _term(plot, edge, "an", inward, omega**2 * length / per, Direction("towards", name[::-1]), squared),
-        _term(plot, edge, "at", square, alpha * length / per, edge.direction, RateTimes("alpha", both, name)),
+        _term(plot, edge, "at", square, alpha * length / per, edge.direction, Size("rate", both, name, "alpha")),
         _coriolis(plot, edge, base, inward, 2 * turn * omega * length / per, Direction("along", name)),
     ]
 
@@ -523,7 +510,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
     square of the sliding velocity over the radius of curvature, towards its centre."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
     given, per = _given(plot, slide.key, order), plot.scales.of(order)
-    mm, size = (None, None) if given is None else (given / per, Given())
+    mm, size = (None, None) if given is None else (given / per, GIVEN)
     if order == "velocity":
         return [_term(plot, edge, "v", sense, mm, edge.direction, size)]
     bends = slide.guide.curvature
@@ -534,7 +521,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
     omega = plot.rates["velocity"][slide.b].value
     parts = [_coriolis(plot, edge, slide.b, 1j * sense, 2 * omega * signed / per, turned)]
     if bends:  # against the guide's motion it is turned round
-        rule = SquareOverRadius(symbol_of(plot, "v", edge), 1.0 / abs(bends))
+        rule = Size("over radius", factor=symbol_of(plot, "v", edge), radius=1.0 / abs(bends))
         inward = 1j * sense * (1 if bends > 0.0 else -1)
         parts.append(_term(plot, edge, "an", inward, speed**2 * abs(bends) / per, turned, rule))
         plot.board.notice("acceleration", Remark("at pitch curve", (edge.start.point,)))
@@ -559,9 +546,10 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     turning = other - omega
     off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
     if one in centres:
-        size: Size = OffCurves(symbol_of(plot, "v", edge), (two, one), two in centres)
+        curves = (one, two) if two in centres else (one,)
+        size = Size("slip on curves", (two, one), symbol_of(plot, "v", edge), curves=curves)
     else:
-        size = RateTimes("omega", (two, one), (contact.round[0].centre, contact.name), square=True)
+        size = Size("rate", (two, one), (contact.round[0].centre, contact.name), square=True)
     turned = Direction("turned", edge.direction.names)
     parts = [
         _coriolis(plot, edge, one, normal, 2 * omega * speed / per, turned),
@@ -587,12 +575,13 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     if len(centres) == 1:
         ((link, centre),) = centres.items()
         names = plot.centre_letter(edge.rolling, link), edge.start.point
-        size: Size = RateTimes("omega", links, names, square=True)
+        size = Size("rate", links, names, square=True)
         way = Direction("towards", names if off * dot(normal, place - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0
         pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)
-        size, way = RollingCurves(links, pair, inside, abs(1.0 / (bends[1] - bends[0]))), edge.direction
+        radius = abs(1.0 / (bends[1] - bends[0]))
+        size, way = Size("rolling curves", links, curves=pair, hollow=inside, radius=radius), edge.direction
     return [_term(plot, edge, "a" if plot.fixed(edge.start) else "an", along, abs(off), way, size)]
 
 

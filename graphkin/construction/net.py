@@ -20,7 +20,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from graphkin.construction.sizes import Direction
+from graphkin.construction.steps import Direction
 from graphkin.scene.contacts import PlacedContact
 from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import PointRef

@@ -16,14 +16,13 @@ from graphkin.construction.assembly import Known, assembly_at
 from graphkin.construction.elements import draw_element, drawn_group
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.net import TwoUnknowns, contacts_of
-from graphkin.construction.polygons import RATE, Polygons, draw_asked
+from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
 from graphkin.construction.scales import Extent
 from graphkin.construction.seen_from import seen
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Scales, Sheet, either_way
-from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
-from graphkin.construction.steps import DiagramName, Step
+from graphkin.construction.steps import ORDERS, DiagramName, Order, Step
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.construction.triangles import (
     Inversion,

@@ -10,8 +10,8 @@ Images after Mehmke: the end points of a link's points form a figure similar to 
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal, TypeVar
 
 from graphkin.construction.group_plan import GroupPlan
@@ -19,8 +19,7 @@ from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
 from graphkin.construction.sheet import Board, Rate, Scales
-from graphkin.construction.sizes import NO_SLIP, ORDERS, Order, Slip
-from graphkin.construction.steps import Aid, Bar, Image, Mark, Step, Vector
+from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Role, Size, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.trains import Wheels
 from graphkin.errors import CallError, Problem, Unsolvable
@@ -31,10 +30,41 @@ from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["RATE", "Polygons", "draw_asked", "letter"]
+__all__ = ["NO_SLIP", "RATE", "Component", "Polygons", "Slip", "draw_asked", "letter"]
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
 SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
+
+
+@dataclass(frozen=True)
+class Component:
+    """One term of a relative motion in an equation: its vector on paper (mm) if known, else only its direction."""
+
+    symbol: Symbol
+    role: Role
+    along: complex
+    span: complex | None
+    written: Direction
+    size: Size | None = None
+
+
+@dataclass(frozen=True)
+class Slip:
+    """Four places where somebody may take another value than the drawn one: a component left out, a value of their own.
+
+    A drawing with a slip shows what follows from it; nothing else of the construction changes.  ``term`` gets each term
+    of an equation before it is laid off; ``found`` each vector found (end points by image included) by tail and tip, mm
+    on paper, and returns its tip; ``rate`` each angular rate measured (rad/s, rad/s2), and returns None where it stays;
+    ``line`` the direction of each line along which a vector of unknown size is drawn.
+    """
+
+    term: Callable[[Component], Component] = lambda part: part
+    found: Callable[[Symbol, complex, complex], complex] = lambda _, tail, tip: tip
+    rate: Callable[[Symbol, float], float | None] = lambda _, value: None
+    line: Callable[[Symbol, complex], complex] = lambda _, along: along
+
+
+NO_SLIP = Slip()
 
 
 class Polygons:

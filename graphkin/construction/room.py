@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.sizes import ORDERS, Order
-from graphkin.construction.steps import DIAGRAMS, Aid, DiagramName, Vector
+from graphkin.construction.steps import DIAGRAMS, ORDERS, Aid, DiagramName, Order, Vector
 from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.scene.model import Mechanism
 

@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from graphkin.construction.polygons import Polygons, letter
+from graphkin.construction.polygons import Polygons, Slip, letter
 from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.sizes import OffCurves, Order, RateTimes, Size, Slip, SquareOverRadius, Term
-from graphkin.construction.steps import Aid, Bar, DiagramName, Ray, Step, Stroke, Vector
+from graphkin.construction.steps import Aid, Bar, DiagramName, Order, Ray, Size, Step, Stroke, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import LargerGroup
 
@@ -152,10 +151,11 @@ def _term(term: Term, held: str) -> Term:
 
 
 def _size(size: Size | None, held: str) -> Size | None:
-    if isinstance(size, RateTimes):
-        factor = seen(size.factor, held) if isinstance(size.factor, Symbol) else size.factor
-        return replace(size, links=(*size.links, held) if len(size.links) == 1 else size.links, factor=factor)
-    return replace(size, velocity=seen(size.velocity, held)) if isinstance(size, SquareOverRadius | OffCurves) else size
+    if size is None:
+        return None
+    factor = seen(size.factor, held) if isinstance(size.factor, Symbol) else size.factor
+    links = (*size.links, held) if size.rule == "rate" and len(size.links) == 1 else size.links
+    return replace(size, links=links, factor=factor)
 
 
 def _strokes(step: Step, held: str) -> Iterator[Stroke]:

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 from graphkin.construction.instruments import EXACT_NAME, Exact, Instrument
 from graphkin.construction.links_on_paper import Pose
-from graphkin.construction.sizes import Term
-from graphkin.construction.steps import DIAGRAMS, Aid, Cause, DiagramName, Mark, Step, Vector
+from graphkin.construction.steps import DIAGRAMS, Aid, Cause, DiagramName, Mark, Step, Term, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Mechanism

@@ -1,4 +1,5 @@
-"""A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on paper, in mm.
+"""A step of a construction: one verb of the hand with its arguments, and the strokes that it leaves on paper, in mm;
+and the terms of vector equations, with what is known of a vector before it is drawn.
 
 Ten verbs draw mechanisms, polygons and groups alike; the ``reason`` says which of the things is done that the verb
 stands for, and with it how the step is told (`SENTENCES`) and which arguments it has.
@@ -7,20 +8,148 @@ stands for, and with it how the step is told (`SENTENCES`) and which arguments i
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
-from graphkin.construction.sizes import Direction, Role, Size
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, listed
+from graphkin.words import Phrase, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "LENGTHS", "SENTENCES", "Aid", "Bar", "Cause", "CompassArc", "DiagramName", "FarPoint",
-    "Image", "Mark", "Missed", "Moved", "PlanTrial", "RateTrial", "Ray", "Reason", "Step", "Stroke", "Superposed",
-    "TakenOff", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
+    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "ORDERS", "SENTENCES", "Aid", "Bar", "Cause", "CompassArc",
+    "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved", "Order", "Part", "PlanTrial",
+    "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff", "Term", "TrialCurve",
+    "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of", "plain_in",
 ]  # fmt: skip
+
+Order = Literal["velocity", "acceleration"]
+Role = Literal["resultant", "relative", "normal", "tangential", "coriolis", "sliding"]
+ORDERS: tuple[Order, ...] = ("velocity", "acceleration")
+
+
+# -- terms of vector equations -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Direction:
+    """A direction as it is written in an equation row: square to or along what is named.
+
+    ``names`` are the letters of a bar (``("B", "C")``) or the name of a guide (``("h",)``); ``relation`` is "square",
+    "along", "towards" (from the first to the second), "turned" (the relative velocity turned by 90 degrees in the
+    sense of the guide's rotation) or "found" (as a polygon of its own gave it).
+    """
+
+    relation: Literal["square", "along", "towards", "turned", "found"]
+    names: tuple[str, ...]
+
+    def __str__(self) -> str:
+        if self.relation == "towards":
+            return "→".join(self.names)
+        sign = {"along": "∥", "found": ""}.get(self.relation, "⊥")
+        return sign + "".join(self.names)
+
+
+@dataclass(frozen=True)
+class Size:
+    """The rule of a size.
+
+    Parameters
+    ----------
+    rule : "given": by the problem.  "rate": a rate, or its square, times ``factor``, the letters of a bar or a vector.
+        "over radius": the square of the vector ``factor`` over the radius of curvature (m).  "slip on curves": what the
+        curvatures of two outlines give along their normal, by the slip ``factor`` and the relative rate.  "rolling
+        curves": what they give where both are round and roll on each other, the square of the rate times ``radius``
+    rate, links : whose, of one link or of the first from the second
+    curves : the links whose outlines touch; "slip on curves": those that are round; "rolling curves": where one is
+        hollow it is the second
+    hollow : whether one is
+    radius : of curvature, or what follows from those of two outlines (m)
+
+    >>> str(Size("rate", ("3",), ("B", "C"), square=True))
+    'ω_{3}²·BC'
+    >>> str(Size("over radius", factor=Symbol.parse("v_B@2/B@1"), radius=0.05))
+    '(v_B@2/B@1)²/ρ'
+    >>> str(Size("slip on curves", ("2", "1"), Symbol.parse("v_K@2/K@1"), curves=("1",)))
+    '2ω_{21}·v_K@2/K@1 − ω_{21}²ρ_{1}'
+    >>> str(Size("rolling curves", ("3",), curves=("2", "3"), radius=0.01))
+    'ω_{3}²·ρ_{2}ρ_{3}/(ρ_{2} + ρ_{3})'
+    """
+
+    rule: Literal["given", "rate", "over radius", "slip on curves", "rolling curves"]
+    links: tuple[str, ...] = ()
+    factor: tuple[str, str] | Symbol = ("", "")
+    rate: Literal["omega", "alpha"] = "omega"
+    square: bool = False
+    twice: bool = False
+    curves: tuple[str, ...] = ()
+    hollow: bool = False
+    radius: float = 0.0
+
+    def __str__(self) -> str:
+        return self.written("".join(self.factor) if isinstance(self.factor, tuple) else str(self.factor))
+
+    def written(self, factor: str) -> str:
+        """With the bar or the vector as it is written somewhere."""
+        turning = f"{'ω' if self.rate == 'omega' else 'α'}_{{{''.join(self.links)}}}"
+        rho = [f"ρ_{{{link}}}" for link in self.curves]
+        match self.rule:
+            case "rate":
+                return f"{'2' * self.twice}{turning}{'²' * self.square}·{factor}"
+            case "over radius":
+                return f"({factor})²/ρ"
+            case "slip on curves" if len(rho) == 1:
+                return f"2{turning}·{factor} − {turning}²{rho[0]}"
+            case "slip on curves":
+                parts = "".join(f"({turning}{radius} − {factor})" for radius in rho)
+                return f"{turning}·{factor} − {parts}/({rho[1]} − {rho[0]})"
+            case "rolling curves":
+                below = f"{rho[1]} − {rho[0]}" if self.hollow else f"{rho[0]} + {rho[1]}"
+                return f"{turning}²·{rho[0]}{rho[1]}/({below})"
+        return "given"
+
+
+GIVEN = Size("given")
+
+
+_SEEN = re.compile(r" seen from (\w+)")
+
+
+def plain_in(language: str) -> Callable[[object], str]:
+    """What writes symbols, points, sizes and directions as plain text of a language: ``v_B@3/B@2``, ``⊥BC``."""
+
+    def written(thing: object) -> str:
+        text = str(thing).replace("{", "").replace("}", "")
+        if text == str(GIVEN):
+            return word("given size", language)
+        return _SEEN.sub(lambda found: word("symbol seen", language).format(found[1]), text)
+
+    return written
+
+
+Part = Literal["", "t", "n"]
+"""All of a force, or its part that moments give (t) or its part along the bar or guide (n)."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """A term of a vector equation: is its size known, is its direction known, and as what.
+
+    ``size`` is the rule that gives the size (None where it was drawn before or is unknown); of a force it may be a
+    ``part``, and be ``turned`` where it is the opposite of its symbol's.
+    """
+
+    symbol: Symbol
+    size_known: bool
+    direction_known: bool
+    size: Size | None = None
+    direction: Direction | None = None
+    part: Part = ""
+    turned: bool = False
+
+
+# -- steps -------------------------------------------------------------------------------------------------------------
 
 DiagramName = Literal["mechanism", "velocity", "acceleration", "force"]
 DIAGRAMS: tuple[DiagramName, ...] = ("mechanism", "velocity", "acceleration")

@@ -22,8 +22,7 @@ import numpy as np
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.sizes import Order
-from graphkin.construction.steps import PlanTrial, Step
+from graphkin.construction.steps import Order, PlanTrial, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import PlacedLink

@@ -19,8 +19,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, readi
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.sheet import Board, Scales
-from graphkin.construction.sizes import ORDERS
-from graphkin.construction.steps import DIAGRAMS, Cause, Step
+from graphkin.construction.steps import DIAGRAMS, ORDERS, Cause, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Driver, Mechanism

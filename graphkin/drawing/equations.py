@@ -11,7 +11,7 @@ from graphkin.account.arithmetic import bound, carried_by, factors_of, substitut
 from graphkin.account.headings import number, term, written
 from graphkin.account.notation import Letters, rows_of
 from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.sizes import Given, Term
+from graphkin.construction.steps import GIVEN, Term
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text, moved
 from graphkin.drawing.text import rich, run_box, runs_width, symbol, wrapped
@@ -173,7 +173,7 @@ def _short(sheet: Sheet, equation: Equation, letters: Letters) -> str | None:
     vector = sheet.vectors(equation.diagram)[only.symbol]
     parts = [f"${letters.vector(side[0].symbol)}$" for side in equation.sides]
     said = ""  # the product of what is written
-    if only.size and not isinstance(only.size, Given):
+    if only.size and only.size != GIVEN:
         parts.append(f"${letters.size(only.size)}$")
         factors = factors_of(sheet, only.size)
         if factors:
@@ -215,7 +215,7 @@ def _cell(sheet: Sheet, one: Term, letters: Letters, size: float) -> _Cell:
     rows = rows_of(letters.convention)
     small = _row_size(size)
     whole = symbol(letters.term(one), size)
-    rule = letters.size(one.size) if one.size and not isinstance(one.size, Given) else ""
+    rule = letters.size(one.size) if one.size and one.size != GIVEN else ""
     way = letters.direction(one.direction, sheet.scene.frame.name)
     told = symbol(rule, small) if rule else (), symbol(way, small) if way else ()
     if rows == "over":

@@ -32,8 +32,7 @@ from graphkin.checking.report import measured
 from graphkin.construction import draft, pencil
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.sheet import Board
-from graphkin.construction.sizes import Direction, RateTimes, RollingCurves
-from graphkin.construction.steps import Aid, RateTrial, Step, Superposed
+from graphkin.construction.steps import Aid, Direction, RateTrial, Size, Step, Superposed
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of
@@ -172,7 +171,7 @@ def test_with_a_pencil_given_lengths_stay_given_in_every_sum(name):
     }
     arms = [(step.points, rate_sum(sheet, step, units=False).split(" = ")[0].split(" / ")[-1])
             for step in sheet.steps if step.reason == "rate" and not step.held]  # fmt: skip
-    sizes = [step.size for step in sheet.steps if isinstance(step.size, RateTimes)]
+    sizes = [step.size for step in sheet.steps if step.size and step.size.rule == "rate"]
     arms += [(size.factor, factors_of(sheet, size)[-1]) for size in sizes if not isinstance(size.factor, Symbol)]
     told = [(given[frozenset(bar)], float(arm)) for bar, arm in arms if frozenset(bar) in given]
     assert len(told) >= 5
@@ -236,7 +235,7 @@ def test_with_a_pencil_products_take_measured_rates_as_they_stand_on_the_sheet(n
     sheet = draft(mechanism_of(name), instrument=pencil(Tools(), 3))
     said = {step.link: rate_sum(sheet, step).rsplit(" = ", 1)[-1].split()[0] for step in sheet.steps
             if step.reason == "rate" and step.kind == "omega"}  # fmt: skip
-    sizes = [step.size for step in sheet.steps if isinstance(step.size, RateTimes)]
+    sizes = [step.size for step in sheet.steps if step.size and step.size.rule == "rate"]
     used = [(said[sheet.omega[size.links[0]].same_as or size.links[0]], factors_of(sheet, size)[size.twice])
             for size in sizes if size.rate == "omega" and sheet.omega[size.links[0]].vector]  # fmt: skip
     assert used
@@ -372,9 +371,9 @@ def test_two_links_turn_on_each_other_by_the_difference_of_their_rates(more, tol
     sheet, _ = drawn("sixbar-guide-40deg")
     one, other = (link.name for link in sheet.scene.links[:2])
     seen = turning(sheet, **{one: 7.0, other: 7.0 * (1.0 + more)})
-    rate, *_ = factors_of(seen, RateTimes("omega", (one, other), sheet.scene.links[0].bar))
+    rate, *_ = factors_of(seen, Size("rate", (one, other), sheet.scene.links[0].bar))
     assert told == pytest.approx(float(rate), rel=1e-4, abs=1e-20)
-    once, again, radius = factors_of(seen, RollingCurves((one, other), (one, other), False, 0.025))
+    once, again, radius = factors_of(seen, Size("rolling curves", (one, other), curves=(one, other), radius=0.025))
     assert (once, 25.0) == (again, float(radius))
     assert told == pytest.approx(float(once), rel=1e-4, abs=1e-20)
 

@@ -8,8 +8,7 @@ from typing import get_args
 import pytest
 
 from graphkin.construction import draft
-from graphkin.construction.sizes import Direction
-from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Ray, Reason, Step, Stroke, TrialCurve
+from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Direction, Ray, Reason, Step, Stroke, TrialCurve
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
 

@@ -19,7 +19,7 @@ from graphkin.construction.forces.force_sheet import (
 )
 from graphkin.construction.forces.joints import Images, JointNames, opposite
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.sizes import Direction, Part
+from graphkin.construction.steps import Direction, Part
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol

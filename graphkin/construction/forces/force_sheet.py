@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from graphkin.construction.sizes import Part, Term
+from graphkin.construction.steps import Part, Term
 from graphkin.scene.symbol import Symbol
 
 __all__ = [

@@ -28,7 +28,7 @@ from graphkin.construction.forces.force_sheet import (
     Way,
 )
 from graphkin.construction.forces.joints import BalanceForm, opposite
-from graphkin.construction.sizes import Direction, Part, Term
+from graphkin.construction.steps import Direction, Part, Term
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Body, Driven, DrivenJoint, Dyad, LargerGroup, Pair

@@ -21,8 +21,7 @@ from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.sizes import RateTimes, Size
-from graphkin.construction.steps import DiagramName, Vector
+from graphkin.construction.steps import DiagramName, Size, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import (
@@ -384,7 +383,7 @@ def coriolis_inset(sheet: Sheet, term: CoriolisTerm, letters: Letters, box: Box)
     )  # fmt: skip
     frame = Polygon(box.corners, "", strokes.DIMENSION)
     id = vector.symbol.id
-    links = "".join(rule.links) if isinstance(rule, RateTimes) and rule.rate == "omega" else ""
+    links = "".join(rule.links) if rule and rule.rule == "rate" and rule.rate == "omega" else ""
     names = [
         _label(letters.arrow(velocity.symbol), f"label-inset-v-{id}", tips[0], phase(slip)),
         _label(letters.arrow(vector.symbol), f"label-inset-{id}", tips[1], phase(turned)),
