@@ -25,12 +25,14 @@ from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, from_others
 
 if TYPE_CHECKING:
+    from graphkin.construction import Instrument
     from graphkin.study.quantities import Quantity
 
 __all__ = [
-    "CHART_FORMATS", "FORMATS", "INSTRUMENTS", "MOST_SEED", "ON_SHEETS", "At", "SceneLike", "as_scene", "asked_symbols",
-    "driver_values", "for_paper", "known_words", "known_workers", "own_folder", "passed_words", "placed",
-    "quantity_shown", "require_callable", "unknown_words", "value_at", "whole_number", "write_files",
+    "CHART_FORMATS", "FORMATS", "INSTRUMENTS", "MOST_SEED", "ON_SHEETS", "At", "SceneLike", "as_scene", "asked_here",
+    "asked_symbols", "drawn_symbols", "driver_values", "for_paper", "hand_of", "known_words", "known_workers",
+    "own_folder", "passed_words", "placed", "quantity_shown", "require_callable", "unknown_words", "value_at",
+    "whole_number", "write_files",
 ]  # fmt: skip
 
 FORMATS = ("svg", "pdf", "png", "dxf")
@@ -294,6 +296,38 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
     if problems:
         raise CallError(*problems)
     return tuple(found)
+
+
+def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
+    """What is asked, or is the scene's own wish; of a scene with masses and loads forces are drawn then too."""
+    asked = asked_symbols(scene, find)
+    if find is not None or not asked or not scene.loading or any(s.scope == "force" for s in asked):
+        return asked
+    loading = scene.loading
+    forces = [Symbol("Fi", link=mass.link) for mass in loading.masses]
+    forces += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
+    forces += [Symbol("P", name=spring.name) for spring in loading.springs]
+    return (*asked, *forces)
+
+
+def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
+    """What is asked of the position itself; where all is asked of others, the same quantities here."""
+    return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
+
+
+def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
+    """The instrument of a name.  Raises CallError for another name."""
+    from graphkin.construction import EXACT, Cad, pencil
+
+    if not isinstance(name, str):
+        raise unfit("instrument", name, Phrase("known here", names=", ".join(INSTRUMENTS)))
+    if name == "exact":
+        return EXACT
+    if name == "cad":
+        return Cad()
+    if name == "pencil":
+        return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
+    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))
 
 
 def quantity_shown(scene: Mechanism, name: str) -> Quantity:

@@ -18,7 +18,6 @@ from graphkin import solver
 from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, placed
 from graphkin.api.checked import solved_here
-from graphkin.api.reading_rows import JudgedValue
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.audit import (
     Judged,
@@ -30,6 +29,7 @@ from graphkin.checking.audit import (
     judged_by_digits,
     with_gaps,
 )
+from graphkin.checking.report import Known
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
 from graphkin.checking.uncertainty import predict
@@ -58,6 +58,44 @@ FULL = ("right", "within drafting accuracy", "right from own values")
 PARTS = ("equations", "drawing", "values")
 COUNTED = (*FULL, "wrong", "missing", "not readable")
 Person = tuple[Answers, tuple[Judged, ...]]
+
+
+@dataclass(frozen=True, repr=False)
+class JudgedValue(Known):
+    """A stated value with its verdict, in the file's units.
+
+    exact : what it is held against: signed where it has a sense, a complex number against two components, else the size
+        of the vector
+    deviation : the relative one; None where the exact value is 0
+    bound : what a pencil drawing keeps within
+    looks_like : the slip that explains a wrong value, in words; "" where none is known
+    follows_from : earlier wrong values of the same person from which it follows
+    """
+
+    printed: Value
+    exact: Value
+    deviation: float | None
+    verdict: str
+    bound: float
+    looks_like: str
+    follows_from: tuple[Symbol, ...]
+
+    @classmethod
+    def of(cls, scene: Mechanism, judged: Judged, language: str) -> JudgedValue:
+        """A judged value (SI) in the units of its scene."""
+        symbol = judged.printed.symbol
+        unit = symbol.unit(scene.units)
+        return cls(
+            symbol, unit.text, unit.of(judged.printed.value), unit.of(judged.exact), judged.deviation, judged.verdict,
+            unit.of(judged.bound), "" if judged.looks_like is None else say(judged.looks_like, language),
+            judged.follows_from,
+        )  # fmt: skip
+
+    def _values(self) -> tuple[tuple[str, Value | None], ...]:
+        return ("printed", self.printed), ("exact", self.exact)
+
+    def _words(self) -> tuple[str, ...]:
+        return self.verdict, self.looks_like
 
 
 @dataclass(frozen=True, repr=False, eq=False)

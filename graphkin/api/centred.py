@@ -22,8 +22,8 @@ from graphkin.api.arguments import (
     write_files,
 )
 from graphkin.api.checked import solved_here
-from graphkin.api.reading_rows import Known, in_unit
 from graphkin.api.results import OfScene, Result
+from graphkin.checking.report import Known, in_unit
 from graphkin.construction.centres import (
     Centre,
     Centres,

@@ -8,23 +8,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.api.arguments import (
-    INSTRUMENTS,
-    MOST_SEED,
-    At,
-    SceneLike,
-    as_scene,
-    asked_symbols,
-    placed,
-    value_at,
-    whole_number,
-)
-from graphkin.api.reading_rows import ReadValue, reading_row, without_residues
+from graphkin.api.arguments import At, SceneLike, as_scene, asked_here, drawn_symbols, hand_of, placed, value_at
 from graphkin.api.results import OfScene, Result, named
 from graphkin.checking.readings import read_off
-from graphkin.checking.report import Compared, Report, compare, rounding_of
-from graphkin.construction import EXACT, Cad, Instrument, Plan, Sheet, execute, pencil, plan
-from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean, unfit
+from graphkin.checking.report import Compared, ReadValue, Report, compare, reading_row, rounding_of, without_residues
+from graphkin.construction import EXACT, Instrument, Plan, Sheet, execute, plan
+from graphkin.errors import Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -39,7 +28,7 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["Checked", "asked_here", "check", "checked", "drawn_symbols", "hand_of", "solved_here", "with_elsewhere"]
+__all__ = ["Checked", "check", "checked", "solved_here", "with_elsewhere"]
 
 _FORMS = {
     "symbol": "", "unit": "", "on_paper_mm": ".12g", "measured": ".12g", "exact": ".12g", "error": ".3g",
@@ -117,24 +106,21 @@ class Checked(OfScene, Result):
     @cached_property
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
+        scene = self.mechanism
         return {
             "instrument": self.report.instrument,
             "ok": self.ok,
             "scales": self.scales,
             "readings": [
-                {**reading_row(self.mechanism, row), **self._by_centres(row), **self._by_lever(row),
-                 **self._at_contact(row)} for row in self.report.rows
+                {**reading_row(scene, row), **self._by_other_ways(scene, row)} for row in self.report.rows
             ],
             **({"not_drawn": [str(symbol) for symbol in self.report.missing]} if self.report.missing else {}),
-            **({"computed_over_turn": {str(s): self._plain(s, v) for s, v in self.over_turn.items()}}
-               if self.over_turn else {}),
+            **({"computed_over_turn": {
+                str(s): float(s.unit(scene.units, radians=True).of(v)) for s, v in self.over_turn.items()
+            }} if self.over_turn else {}),
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
             **self._construction,
         }
-
-    def _plain(self, symbol: Symbol, value: float) -> float:
-        """A value (SI) as in JSON."""
-        return float(symbol.unit(self.mechanism.units, radians=True).of(value))
 
     @property
     def _construction(self) -> dict[str, Json]:
@@ -167,41 +153,33 @@ class Checked(OfScene, Result):
 
         return centres_on(self.sheet, self.asked)
 
-    def _by_lever(self, row: Compared) -> dict[str, float]:
-        """What balances by Zhukovsky's lever, in the scene's force unit."""
-        if self.forces is None or row.symbol.scope != "force":
-            return {}
-        levers = self.forces.levers[-1 if row.symbol.plus else 0]
-        for lever in levers:
-            if lever.balance == replace(row.symbol, plus=False, at=""):
-                found = 0.0 + (lever.value if lever.balance.kind == "M" else abs(lever.vector))
-                return {"by_lever": self._plain(row.symbol, found)}
-        return {}
-
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
         from graphkin.construction.centres import speeds
 
         return speeds(self.centres)
 
-    def _at_contact(self, row: Compared) -> dict[str, Json]:
-        """A reading of the drawing at the contacts, in scene units; of pins in straight slots it is this one."""
-        other = self if self.at_contacts is None and self.mechanism.pins else self.at_contacts
-        rows = {} if other is None else {r.symbol: r for r in other.report.rows}
-        if row.symbol not in rows:
-            return {}
-        return {"at_contact": reading_row(self.mechanism, rows[row.symbol])["measured"]}
-
-    def _by_centres(self, row: Compared) -> dict[str, float]:
-        """A velocity by centres, in scene units; nothing for accelerations."""
+    def _by_other_ways(self, scene: Mechanism, row: Compared) -> dict[str, Json]:
+        """A reading by instant centres (velocities), by Zhukovsky's lever (what balances), and of the drawing at the
+        contacts; in scene units.  Of pins in straight slots that is this drawing."""
         from graphkin.construction.centres import by_centres
 
-        known = row.symbol.kind in ("v", "omega") and not row.symbol.at
-        value = by_centres(self.centres, self._turning, row.symbol) if known else None
-        if value is None:
-            return {}
-        plain = abs(value) if row.symbol.is_vector else float(value.real) + 0.0
-        return {"by_centres": self._plain(row.symbol, plain)}
+        symbol, ways = row.symbol, dict[str, Json]()
+        unit = symbol.unit(scene.units, radians=True)
+        if symbol.kind in ("v", "omega") and not symbol.at:
+            value = by_centres(self.centres, self._turning, symbol)
+            if value is not None:
+                ways["by_centres"] = float(unit.of(abs(value) if symbol.is_vector else float(value.real) + 0.0))
+        if self.forces is not None and symbol.scope == "force":
+            balance = replace(symbol, plus=False, at="")
+            for lever in self.forces.levers[-1 if symbol.plus else 0]:
+                if lever.balance == balance:
+                    ways["by_lever"] = float(unit.of(0.0 + (lever.value if balance.kind == "M" else abs(lever.vector))))
+                    break
+        other = self if self.at_contacts is None and scene.pins else self.at_contacts
+        if other is not None and (there := next((r for r in other.report.rows if r.symbol == symbol), None)):
+            ways["at_contact"] = reading_row(scene, there)["measured"]
+        return ways
 
 
 def _plain(value: float) -> float:
@@ -292,23 +270,6 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
     return Checked(sheet, report, advice, what.asked, passed, turning, forces)
 
 
-def drawn_symbols(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Symbol, ...]:
-    """What is asked, or is the scene's own wish; of a scene with masses and loads forces are drawn then too."""
-    asked = asked_symbols(scene, find)
-    if find is not None or not asked or not scene.loading or any(s.scope == "force" for s in asked):
-        return asked
-    loading = scene.loading
-    forces = [Symbol("Fi", link=mass.link) for mass in loading.masses]
-    forces += [Symbol("P", name=load.name, turning=not load.is_force) for load in loading.loads]
-    forces += [Symbol("P", name=spring.name) for spring in loading.springs]
-    return (*asked, *forces)
-
-
-def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
-    """What is asked of the position itself; where all is asked of others, the same quantities here."""
-    return tuple(s for s in asked if not s.at) or tuple(dict.fromkeys(s.here for s in asked))
-
-
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:
     """A check with what is asked of other positions ("v_C at 10"), each drawn by the same hands at the same scales.
 
@@ -332,19 +293,6 @@ def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Che
         rows += [replace(row, reading=replace(row.reading, symbol=replace(row.symbol, at=name))) for row in kept]
         missing += [replace(s, at=name) for s in there.missing]
     return replace(made, report=replace(made.report, rows=tuple(rows), missing=tuple(missing)))
-
-
-def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
-    """The instrument of a name.  Raises CallError for another name."""
-    if not isinstance(name, str):
-        raise unfit("instrument", name, Phrase("known here", names=", ".join(INSTRUMENTS)))
-    if name == "exact":
-        return EXACT
-    if name == "cad":
-        return Cad()
-    if name == "pencil":
-        return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
-    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))
 
 
 def solved_here(

@@ -14,14 +14,17 @@ from graphkin.api.arguments import (
     At,
     SceneLike,
     as_scene,
+    asked_here,
+    drawn_symbols,
     driver_values,
     for_paper,
+    hand_of,
     known_words,
     placed,
     unknown_words,
 )
 from graphkin.api.cams import cam_table
-from graphkin.api.checked import Checked, asked_here, checked, drawn_symbols, hand_of, solved_here, with_elsewhere
+from graphkin.api.checked import Checked, checked, solved_here, with_elsewhere
 from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
@@ -41,7 +44,7 @@ from graphkin.table import Table
 from graphkin.words import Phrase, Wording, languages
 
 if TYPE_CHECKING:
-    from graphkin.api.reading_rows import ReadValue
+    from graphkin.checking.report import ReadValue
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
 

@@ -12,8 +12,8 @@ import numpy as np
 from graphkin import solver
 from graphkin.account.account import Account
 from graphkin.account.notation import Letters, letters_of
-from graphkin.api.arguments import driver_values, placed
-from graphkin.api.checked import asked_here, checked, hand_of, solved_here
+from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
+from graphkin.api.checked import checked, solved_here
 from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable

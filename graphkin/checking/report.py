@@ -13,14 +13,15 @@ import numpy as np
 
 from graphkin.checking.readings import Reading
 from graphkin.construction.sheet import Scales, Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.steps import DiagramName, phrase_of
 from graphkin.errors import CallError, Disagreement, Problem
-from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.scene.tables import Units
+from graphkin.files import Json
+from graphkin.scene.symbol import PointRef, Symbol, Value
+from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
 from graphkin.structure import by_drivers_alone, greatest_before, links_for
-from graphkin.words import Phrase
-from graphkin.words.written import MOST, amount, computed, figures, on_paper, product
+from graphkin.words import Phrase, say
+from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Uncertainty
@@ -29,18 +30,21 @@ if TYPE_CHECKING:
     from graphkin.solver.pose import Array
 
 __all__ = [
-    "JUDGED", "Compared", "Lost", "Report", "compare", "deviation", "exact", "measured", "paper", "rounding_of",
+    "JUDGED", "Compared", "Known", "Lost", "ReadValue", "Report", "compare", "deviation", "exact", "finite", "in_unit",
+    "measured", "paper", "reading_row", "rounding_of", "without_residues",
 ]  # fmt: skip
 
 EXACT_TOLERANCE = 1e-9
 ROUNDING = 1e-14
-ROUNDED = 1e-12
+CANCELLED = 1e-12  # of the largest of its sort: what is left where two values cancel
 GRAIN = 2e-15  # rounding of places, of the farthest
 JUDGED = 4.0  # deviations of a pencil: what each of a dozen readings keeps within in a thousand drawings
 FAIR = 1e-3  # of the largest of its diagram: a tolerance that is greater accepts anything (exact hands, programs)
 COARSE = 1.0  # the same for hands that err
 ON_PAPER = {"exact": 0.0, "cad": 0.1}  # mm that may be read off a figure in which nothing moves
 HAND = 5.0
+RESIDUE = 1e-6  # of what a deviation may be: what is smaller, rounding leaves
+TURNED = 1e-12  # rad, likewise
 
 Exact = Callable[[Symbol], complex | float]
 
@@ -233,7 +237,7 @@ def compare(
         if (not fair or 0.0 < abs(value) <= floor) and alone:
             # no group comes before it whose rounding it could have
             tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, grain) * most)
-            floor = min(floor, ROUNDED * led[reading.symbol.kind])
+            floor = min(floor, CANCELLED * led[reading.symbol.kind])
             fair = _fair(sheet, tolerance, most, least)
         if not lost.slight and not alone and 0.0 < abs(value) <= floor:
             fair = False  # too small to be told, and not so small that it is 0
@@ -311,7 +315,7 @@ def _forces(
         expected = (predicted or {}).get(symbol)
         tolerance = max(_allowed(sheet, predicted, expected), max(EXACT_TOLERANCE, 4.0 * relative) * whole)
         hand = HAND * largest / 100.0 if sheet.instrument not in ON_PAPER and symbol.measure == "force" else 0.0
-        floor = max(relative, ROUNDED) * whole
+        floor = max(relative, CANCELLED) * whole
         fair = _fair(sheet, tolerance, whole, hand) and not (relative > SLIGHT and 0.0 < abs(exact) <= floor)
         turned = _turned(reading, exact, whole)
         return Compared(reading, exact, error, tolerance, turned, expected, floor, fair)
@@ -433,3 +437,121 @@ def deviation(compared: Compared, units: Units) -> str:
             return "0"
         return f"± {amount(compared.symbol.unit(units).of(max(compared.bound, compared.error)), 2)}"
     return f"{100 * compared.relative:.2g} %"
+
+
+# -- readings in the units of files ------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Known:
+    """What a result knows of a quantity, in the file's units: degrees for angles, complex numbers for vectors."""
+
+    symbol: Symbol
+    unit: str
+
+    def __repr__(self) -> str:
+        told = (f"{what} {self.shown(value)}" for what, value in self._values() if value is not None)
+        return f"<{self.symbol}: {', '.join(filter(None, (*told, *self._words())))}>"
+
+    def _values(self) -> tuple[tuple[str, Value | None], ...]:
+        """Its values by what they are."""
+        return ()
+
+    def _words(self) -> tuple[str, ...]:
+        """What else is to be said of it."""
+        return ()
+
+    def shown(self, value: Value) -> str:
+        """A value with its unit beside it; of a vector size and direction."""
+        size, way = abs(value) if isinstance(value, complex) else value, ""
+        if isinstance(value, complex) and size:
+            way = f" at {math.degrees(cmath.phase(value)):.6g}°"
+        unit = {"deg": "°", "": ""}.get(self.unit, f" {self.unit}")
+        return f"{size:.6g}{unit}{way}"
+
+
+def in_unit(unit: Unit, value: Value, floor: float) -> Value:
+    """A value (SI) in a unit; what of it is not above ``floor`` is 0."""
+    parts = (part if abs(part) > floor else 0.0 for part in (value.real, value.imag))
+    re, im = (float(unit.of(part)) for part in parts)
+    return complex(re, im) if isinstance(value, complex) else re
+
+
+@dataclass(frozen=True, repr=False)
+class ReadValue(Known):
+    """A reading of a drawing beside the exact value, both 0 where they are nothing but rounding.
+
+    on_paper : the length it was read from (mm); None for an angle and for what is given
+    error, tolerance : how far the two are apart, as vectors where they are vectors, and what that may be
+    direction_error : from the exact direction to the drawn one (degrees)
+    ok : whether they agree; None where agreement would mean nothing
+    uncertainty : the predicted standard deviation; None for exact hands
+    """
+
+    on_paper: float | None
+    measured: Value
+    exact: Value
+    error: float
+    tolerance: float
+    direction_error: float
+    ok: bool | None
+    uncertainty: float | None
+
+    @classmethod
+    def of(cls, scene: Mechanism, row: Compared) -> ReadValue:
+        """A compared reading (SI) in the units of its scene."""
+        unit = row.symbol.unit(scene.units)
+        measured, exact = (complex(v) if row.symbol.is_vector else float(v.real) for v in (row.measured, row.true))
+        return cls(
+            row.symbol, unit.text, row.on_paper, in_unit(unit, measured, row.bound), in_unit(unit, exact, row.floor),
+            unit.of(row.error), unit.of(row.tolerance), math.degrees(row.direction_error), row.ok,
+            None if row.uncertainty is None else unit.of(row.uncertainty.deviation),
+        )  # fmt: skip
+
+    def _values(self) -> tuple[tuple[str, Value | None], ...]:
+        return ("measured", self.measured), ("exact", self.exact)
+
+    def _words(self) -> tuple[str, ...]:
+        read = "" if self.on_paper is None else f"read from {self.on_paper:.6g} mm on paper"
+        return read, {True: "ok", False: "out of tolerance", None: "not determined here"}[self.ok]
+
+
+def reading_row(scene: Mechanism, row: Compared, degrees: bool = False) -> dict[str, Json]:
+    """One reading as in the JSON: vectors by size, others with sign; ``degrees`` for tables that people read."""
+    unit = row.symbol.unit(scene.units, radians=not degrees)
+
+    def size(value: Value) -> float:
+        return float(unit.of(abs(value) if row.symbol.is_vector else float(value.real)))
+
+    return {
+        "symbol": str(row.symbol),
+        "on_paper_mm": 0.0 if row.on_paper is not None and abs(row.on_paper) < ROUNDED else row.on_paper,
+        "measured": size(row.measured),
+        "exact": size(row.true),
+        "error": unit.of(row.error),
+        "tolerance": finite(unit.of(row.tolerance)),
+        "direction_error_rad": row.direction_error,
+        "ok": row.ok,
+        **({"why": say(Phrase("not determined", (str(row.symbol),)))} if row.ok is None else {}),
+        **(_predicted(finite(unit.of(row.uncertainty.deviation)), row.uncertainty) if row.uncertainty else {}),
+    }
+
+
+def without_residues(row: Compared) -> Compared:
+    """A reading whose deviations are 0 where they are nothing but rounding, for tables that people read."""
+    error = 0.0 if row.error <= RESIDUE * row.tolerance else row.error
+    return replace(row, error=error, direction_error=0.0 if abs(row.direction_error) <= TURNED else row.direction_error)
+
+
+def finite(value: float) -> float | None:
+    """A number as JSON has it: none where there is no bound."""
+    return value if math.isfinite(value) else None
+
+
+def _predicted(deviation: float | None, uncertainty: Uncertainty) -> dict[str, Json]:
+    """Standard deviation of a reading in its unit, and the step that adds most to it."""
+    return {
+        "uncertainty": deviation,
+        "cause": say(phrase_of(uncertainty.cause)),
+        "cause_share": uncertainty.share,
+    }
