@@ -11,10 +11,10 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up
 from graphkin.search import last_true
+from graphkin.solver.constraints import Constraints, solve_all
 from graphkin.solver.drivers import own_values
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import Array, Drive, Pose
 from graphkin.solver.quantities import Posed
 from graphkin.solver.sentences import driver_text
@@ -33,7 +33,7 @@ from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, Wording
 
 if TYPE_CHECKING:
-    from graphkin.solver.larger_groups import GroupSolved, System
+    from graphkin.solver.larger_groups import GroupSolved
 
 __all__ = ["choose_forms", "new_places", "reading"]
 
@@ -214,8 +214,6 @@ def new_places(structure: Structure, i: int, links: Sequence[str], poses: Mappin
 
 def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
     """All assemblies of a larger group by Newton's method from many starts, and the one that is meant."""
-    from graphkin.solver.larger_groups import System
-
     drive = drive.followed(structure)
     found = _assemblies(structure, group, drive, known)
     if not len(found):
@@ -225,17 +223,17 @@ def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive
                 Phrase("links", links=', '.join(group.links)), Phrase("no assembly of this group was found in")
             ),
         )
-    placed = [{**known, **System(structure, group, known, drive).poses(place[None])} for place in found]
+    placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in found]
     candidates = [new_places(structure, i, group.links, poses) for poses in placed]
     return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])
 
 
 def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: Mapping[str, Pose]) -> Array:
-    from graphkin.solver.larger_groups import System, solve_group
+    from graphkin.solver.larger_groups import solve_group
 
     place = _starts(structure, group, known)
     many = Drive(*(np.repeat(x, len(place), axis=0) for x in (drive.value, drive.rate, drive.second)))
-    residual = _descended(System(structure, group, known, many), place)
+    residual = _descended(Constraints(structure, group, known, many), place)
     near = np.flatnonzero(residual < NEAR)
     if not len(near):
         return np.zeros((0, len(group.members), 3))
@@ -244,7 +242,7 @@ def _assemblies(structure: Structure, group: LargerGroup, drive: Drive, known: M
     return _distinct(structure, group, solved)
 
 
-def _descended(system: System, place: Array) -> Array:
+def _descended(system: Constraints, place: Array) -> Array:
     """Move places down to where the constraints are least open, each until it is there; how far the most is open then.
 
     Levenberg and Marquardt's method: singular starts need no care (Nocedal and Wright, Numerical Optimization, 10.3).

@@ -10,16 +10,15 @@ They are made when they are asked for: a motion is found without them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from graphkin.scene.cams import LawCam
 from graphkin.solver.cams import follower_inputs, greatest_jerk
+from graphkin.solver.constraints import Constraints, Jet, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.decimals import conversion_error, meant, meant_angle
-from graphkin.solver.larger_groups import Ends, Layout, System, led_relation
-from graphkin.solver.linear_blocks import solve_all
 from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.structure import Structure
 
@@ -65,25 +64,23 @@ def error_bounds(
         rounding leave
     """
     drive = drive.followed(structure)
-    system, n = System.whole(structure, drive), len(drive)
+    system, n = Constraints.whole(structure, drive), len(drive)
     names, size = system.group.members, structure.scene.size
     with np.errstate(all="ignore"):
         all_ = system.of(poses)
-        cams = _Cams(system, all_)
-        matrix = cams.onto(system.matrix(all_))
-        inverse = solve_all(matrix, np.broadcast_to(np.eye(matrix.shape[1]), matrix.shape))
-        inverse = np.where(_reached(structure, system.layout), inverse, 0.0)
-        sizes = _sizes(system, cams, all_, matrix, inverse)
-        residuals = np.abs(cams.without(system.constraints(all_)))
+        parts = system.parts(all_, 2)
+        matrices, residuals = system.matrices(parts), system.constraints(all_, 2, parts)
+        rows = _row_errors(system, all_, parts, refined, _driver_errors(structure, drive, refined, value_error))
+        _follow(system, all_, slack, matrices, residuals, rows)
         residuals[:, refined] = 0.0
-        given = _driver_errors(structure, drive, refined, value_error)
-        rows = residuals + _row_errors(system, all_, refined, given) + cams.errors(slack)
+        rows += np.abs(residuals)
+        sizes = _sizes(matrices, _reached(structure, system.layout))
         found: list[Array] = []
         for order in range(3):
             terms = [w * np.einsum("nij,nj->ni", sizes[k], rows[order - k]) for k, w in enumerate(_BINOMIAL[order])]
             error = np.sum(terms, axis=0)
             if order == 0:
-                wild, grown = _growth(sizes[0], _changes(system, all_, error), error)
+                wild, grown = _growth(sizes[0], _changes(system, parts, error), error)
                 grown *= _hanging(structure, names)
             # each order has the inverse twice more
             for _ in range(2 * order + 1 if wild.any() else 0):
@@ -180,82 +177,57 @@ def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
     return place, speed, push, 1.0, spin, turning
 
 
-class _Cams:
-    """The followers of cams and what rolls among the constraints of all links.
+def _follow(
+    system: Constraints, all_: Pose, slack: Array, matrices: Sequence[Array], residuals: Array, errors: Array
+) -> None:
+    """Put what cams and rolling move among the constraints of all links: the row of a cam's follower has in the matrix
+    the slope of the lift at the turning of its cam.
 
-    A follower's row of the matrix has the slope of the lift at the turning of its cam.
+    Parameters
+    ----------
+    slack : see ``error_bounds``
+    matrices, residuals, errors : the matrix, the constraints and how far these may be off, each with its first and
+        second rate; they are changed
     """
-
-    def __init__(self, system: System, all_: Pose) -> None:
-        layout, n = system.layout, len(system.drive)
-        self.layout = layout
-        relations = system.group.rolling
-        self.scale = np.ones(len(relations))
-        rows, columns, lifts = [], [], []
-        for element in (e for e in system.structure.driven if not e.drivers):
-            own, lead = led_relation(element), element.driver
-            k = relations.index(own)
-            self.scale[k] = next(iter(own.weights(layout.size).values()))
-            if isinstance(lead, LawCam):
-                cam = layout.link[lead.link]
-                inputs, jerk = follower_inputs(lead, all_.u[:, cam]), greatest_jerk(lead.law)
-                lifts.append(self.scale[k] * np.stack([inputs["slope"], inputs["bend"], np.full(n, jerk)]))
-                rows.append(int(layout.rolling_rows[k]))
-                columns.append(cam)
-        self.rows, self.columns = np.array(rows, dtype=int), np.array(columns, dtype=int)
-        every: Array = np.stack(lifts, axis=-1) if lifts else np.zeros((3, n, 0))
-        slope, bend, jerk = every
-        omega, alpha = all_.omega[:, self.columns], all_.alpha[:, self.columns]
-        # the entries of the matrix, and their rates
-        self.entries = slope, bend * omega, np.abs(jerk) * omega**2 + np.abs(bend * alpha)
-        # rates of the lift
-        self.rates = slope * omega, bend * omega**2 + slope * alpha
-
-    def onto(self, matrix: Array, t: Array | None = None) -> Array:
-        """The matrix with the slopes of the lifts, as they are, or at a time from here, shape (n, 1) (s)."""
-        slope, first, second = self.entries
-        matrix[:, self.rows, 3 * self.columns + 2] -= slope if t is None else slope + t * first + t * t / 2 * second
-        return matrix
-
-    def without(self, constraints: Array) -> Array:
-        """The constraints and their rates, less what the lifts have done."""
-        for order, rate in enumerate(self.rates, start=1):
-            constraints[order][:, self.rows] -= rate
-        return constraints
-
-    def errors(self, slack: Array) -> Array:
-        """How far lifts and relations may be off with their rates, shape (3, n, rows)."""
-        found = np.zeros((3, len(slack), self.layout.rows))
-        found[0][:, self.layout.rolling_rows] = slack * self.scale
-        for order, rate in enumerate(self.rates, start=1):
-            found[order][:, self.rows] += LOOKED_UP * np.abs(rate)
-        found[2][:, self.rows] += LOOKED_UP * np.abs(self.entries[1] * self.rates[0])
-        return found
+    layout, relations = system.layout, system.group.rolling
+    scales = np.ones(len(relations))
+    for element in (e for e in system.structure.driven if not e.drivers):
+        relation = led_relation(element)
+        k = relations.index(relation)
+        row, scale = layout.rolling_rows[k], next(iter(relation.weights(layout.size).values()))
+        scales[k] = scale
+        if not isinstance(element.driver, LawCam):
+            continue
+        cam = layout.link[element.driver.link]
+        inputs = follower_inputs(element.driver, all_.u[:, cam])
+        slope, bend, jerk = scale * inputs["slope"], scale * inputs["bend"], scale * greatest_jerk(element.driver.law)
+        omega, alpha = all_.omega[:, cam], all_.alpha[:, cam]
+        changes = slope, bend * omega, abs(jerk) * omega**2 + np.abs(bend * alpha)
+        for matrix, change in zip(matrices, changes, strict=True):
+            matrix[:, row, 3 * cam + 2] -= change
+        for order, rate in enumerate((slope * omega, bend * omega**2 + slope * alpha), start=1):
+            residuals[order][:, row] -= rate
+            errors[order][:, row] += LOOKED_UP * np.abs(rate)
+        errors[2][:, row] += LOOKED_UP * np.abs(bend * omega * slope * omega)
+    errors[0][:, layout.rolling_rows] += slack * scales
 
 
-def _sizes(system: System, cams: _Cams, all_: Pose, here: Array, inverse: Array) -> tuple[Array, Array, Array]:
+def _sizes(matrices: Sequence[Array], reached: Array) -> list[Array]:
     """Sizes of the entries of the inverse of a matrix, and of its first and second rate along the motion.
 
-    With G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S; G and A by differences, which is
-    enough for a bound.
+    With S the inverse, G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S.
+
+    Parameters
+    ----------
+    matrices : the matrix and its rates, shape (n, rows, columns) each
+    reached : entries of the inverse that may differ from zero, shape (columns, rows)
     """
-    size, p = system.structure.scene.size, all_
-    quick = np.sqrt(np.fmax(np.abs(p.alpha), np.abs(p.a) / size))
-    fast = np.fmax(np.fmax(np.abs(p.omega), np.abs(p.v) / size), quick).max(axis=1)
-    step = 1e-4 / np.where(fast > 0, fast, 1.0)
-
-    def at(t: Array) -> Array:
-        half = t * t / 2
-        turn = np.exp(1j * (t * p.omega + half * p.alpha))
-        return cams.onto(system.matrix(replace(p, z=p.z + t * p.v + half * p.a, u=p.u * turn)), t)
-
-    wide = step[:, None, None]
-    ahead, behind = at(step[:, None]), at(-step[:, None])
-    first, second = (ahead - behind) / (2 * wide), (ahead - 2 * here + behind) / wide**2
+    here, first, second = matrices
+    inverse = solve_all(here, np.broadcast_to(np.eye(here.shape[1]), here.shape))
+    inverse = np.where(reached, inverse, 0.0)
     bent = inverse @ first @ inverse
     rates = inverse, bent, 2 * bent @ first @ inverse - inverse @ second @ inverse
-    one, two, three = (np.nan_to_num(np.abs(x), nan=VAST, posinf=VAST) for x in rates)
-    return one, two, three
+    return [np.nan_to_num(np.abs(x), nan=VAST, posinf=VAST) for x in rates]
 
 
 def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
@@ -277,11 +249,9 @@ def _reached(structure: Structure, layout: Layout) -> Array:
     that it hangs on alone, shape (columns, rows)."""
     if "reached" not in structure.kept:
         before, names = _before(structure), layout.names[: layout.members]
-        taking = (layout.same != 0).reshape(layout.rows, -1, 3).any(axis=2)
-        for _, row, column, _ in (*layout.turn_entries, *layout.line_entries):
-            taking[row, column // 3] = True
-        for _, row, column, _ in layout.turn_entries:
-            taking[row + 1, column // 3] = True
+        taking = layout.same != 0
+        taking.flat[layout.entries.entries] = True
+        taking = taking.reshape(layout.rows, -1, 3).any(axis=2)
         away = np.array([[other not in before[name] for other in names] for name in names])
         structure.kept["reached"] = np.repeat(~(away.astype(int) @ taking.T.astype(int)).astype(bool), 3, axis=0)
     reached: Array = structure.kept["reached"]
@@ -295,26 +265,24 @@ def _hanging(structure: Structure, names: Sequence[str]) -> Array:
     return np.repeat(np.repeat(links, 3, axis=0), 3, axis=1)
 
 
-def _changes(system: System, all_: Pose, error: Array) -> Array:
+def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
     """By how much each entry of the matrix may change within the error of place, shape (n, rows, columns)."""
-    layout = system.layout
-    spread = np.zeros((len(error), len(layout.names), 3))
-    spread[:, : layout.members] = error.reshape(len(error), -1, 3)
+    layout, n = system.layout, len(error)
+    spread = np.zeros((n, len(layout.names), 3))
+    spread[:, : layout.members] = error.reshape(n, -1, 3)
     turn, moved = spread[:, :, 2], np.hypot(spread[:, :, 0], spread[:, :, 1])
-    found = np.zeros((len(error), layout.rows, 3 * layout.members))
-    for ends, (joint, row, column, _) in zip(layout.turns, layout.turn_entries, strict=True):
-        swept = np.abs(ends.place[joint]) / layout.size * turn[:, ends.link[joint]]
-        found[:, row, column + 2] = found[:, row + 1, column + 2] = swept
-    if len(layout.line_rows):
-        (one, two), at = layout.lines, layout.lines[0].of(all_, 0).z
-        turned, arm = turn[:, two.link], np.abs(one.place) / layout.size
-        swept = arm * turn[:, one.link]
-        off = swept, swept + moved[:, one.link] + moved[:, two.link]
-        for ends, own, (joint, row, column, _) in zip(layout.lines, off, layout.line_entries, strict=True):
-            part, far = np.abs(layout.part[joint]), np.abs(at[:, joint] - all_.z[:, ends.link[joint]]) / layout.size
-            found[:, row, column] = found[:, row, column + 1] = part * turned[:, joint]
-            found[:, row, column + 2] += part * (far * turned[:, joint] + own[:, joint])
-    return found
+    ends, part = layout.joints[:, layout.joint], np.abs(layout.along)
+    arms = np.abs(layout.places[:, layout.joint]) / layout.size
+    turned, gap = turn[:, layout.axis], np.abs(parts.gap[0][:, layout.joint]) / layout.size
+    across = part * turned
+    # a place of the link with which the axis turns is the same along it
+    one, two = (part * arm * np.where(end == layout.axis, 0.0, turn[:, end] + turned)
+                for end, arm in zip(ends, arms, strict=True))  # fmt: skip
+    off = sum(moved[:, end] + arm * turn[:, end] for end, arm in zip(ends, arms, strict=True))
+    entries = np.concatenate((across, across, one, across, across, two, part * (gap * turned + off)), axis=1)
+    found = np.zeros((n, layout.rows * 3 * layout.members))
+    found[:, layout.entries.entries] = layout.entries.of(entries)
+    return found.reshape(n, layout.rows, -1)
 
 
 def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]:
@@ -337,7 +305,7 @@ def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]
     return wild, grown
 
 
-def _of_points(system: System, all_: Pose, error: Errors) -> Errors:
+def _of_points(system: Constraints, all_: Pose, error: Errors) -> Errors:
     """The most of any point of each link, and of its turning, fields of shape (n, links)."""
     structure, layout = system.structure, system.layout
     names, count = layout.names[: layout.members], layout.members
@@ -372,91 +340,52 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
 
 
 def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
-    """How far the numbers of the file may be off in each joint, by place and by direction on either side of turning
-    pairs and of guides; each of shape (2, joints): in 16 digits, and in 50."""
+    """How far the numbers of the file may be off, each of shape (2, numbers), in 16 digits and in 50: of both places of
+    each joint, of the direction of each line, and of each turn."""
     def errors(numbers: Iterable[tuple[complex, bool]]) -> Array:
         return np.array([conversion_error(*number) for number in numbers]).reshape(-1, 2).T
 
     key = "written", layout.names, tuple(layout.line_pairs)
     if key not in structure.kept:
-        turns, lines, links = layout.turn_pairs, layout.line_pairs, structure.links
-        structure.kept[key] = (
-            errors((links[p.a].points[p.point], False) for p in turns),
-            errors((links[p.b].points[p.point], False) for p in turns),
-            errors((s.turn, True) for s in lines),
-            errors((s.guide.through, False) for s in lines),
-            errors((s.guide.direction, True) for s in lines),
-        )
+        turning = [(0j, False) if p.turns else (p.guide.direction, True) for p in layout.line_pairs]
+        guides = errors((1 + 0j, True) if p is None else (p.guide.direction, True) for p in layout.turn_pairs)
+        blocks = errors((1 + 0j, True) if p is None else (p.turn, True) for p in layout.turn_pairs)
+        places = [errors((complex(z), False) for z in side) for side in layout.places]
+        structure.kept[key] = *places, errors(turning), guides + blocks
     written: Sequence[Array] = structure.kept[key]
     return written
 
 
-def _row_errors(system: System, all_: Pose, refined: Array, given: Sequence[Array]) -> Array:
-    """How far constraints and their rates may be off with the links just where they were found: (3, n, rows)."""
-    layout, size = system.layout, system.layout.size
+def _row_errors(
+    system: Constraints, all_: Pose, parts: Parts, refined: Array, given: Sequence[Array]
+) -> Array:
+    """How far constraints and their rates may be off with the links just where they were found: (3, n, rows).
+
+    Of each product of the lines it is the size of one factor times the error of the other, with all rates.
+    """
+    layout, which = system.layout, refined.astype(int)
     unit = np.where(refined, 0.0, UNIT)[:, None]
-    which, lean = refined.astype(int), np.abs(np.abs(all_.u) - 1) * (unit > 0)
-    found = np.zeros((3, len(refined), layout.rows))
-    place_a, place_b, turned, through, directed = (x[:, :0] if not x.size else x for x in
-                                                   _written(system.structure, layout))  # fmt: skip
-    if len(layout.turn_rows):
-        ends = [(e, e.of(all_, 2), w[which], None) for e, w in zip(layout.turns, (place_a, place_b), strict=True)]
-        one, two = (_joint(e, frame, lean, unit, written, turn) for e, frame, written, turn in ends)
-        for order in range(3):
-            gap = (one[order] + two[order]) / size
-            found[order][:, layout.turn_rows] = found[order][:, layout.turn_rows + 1] = gap
-    if len(layout.line_rows):
-        (a, b), none = layout.lines, np.zeros(1)
-        p, q = a.of(all_, 2), b.of(all_, 2)
-        one = _joint(a, p, lean, unit, none, turned[which])
-        two = _joint(b, q, lean, unit, through[which], directed[which])
-        for order, off in enumerate(_sliding(p, q, one, two, FEW * unit)):
-            np.add.at(found[order].T, layout.line_rows, (off * np.abs(layout.part) / size).T)
-        pairs = slice(layout.slides)
-        found[0][:, layout.slide_rows] = (one[3] + two[3] + FEW * unit)[:, pairs]
-        for order, (x, y) in enumerate(((p.omega, q.omega), (p.alpha, q.alpha)), start=1):
-            found[order][:, layout.slide_rows] = unit * (np.abs(x) + np.abs(y))[:, pairs]
-        for order in range(3):
-            for row, _, i in layout.travels:
-                found[order][:, row] += given[order][:, i] / size
+    lean = np.abs(np.abs(all_.u) - 1) * (unit > 0)
+    *places, directed, turning = (written[which] for written in _written(system.structure, layout))
     rates = np.abs(all_.omega), np.abs(all_.alpha)
-    if len(layout.angle_rows):
-        (link, base), drivers = layout.turned, layout.angle_drivers
-        found[0][:, layout.angle_rows] = lean[:, link] + lean[:, base] + FEW * unit + given[0][:, drivers]
-        for order, rate in enumerate(rates, start=1):
-            found[order][:, layout.angle_rows] = unit * (rate[:, link] + rate[:, base]) + given[order][:, drivers]
-    weights = np.abs(layout.rolled).T
+    spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
+    off: Jet = [np.zeros(1)] * 3
+    for links, place, written, arms in zip(layout.joints, layout.places, places, parts.arms, strict=True):
+        own = np.abs(place) * (lean[:, links] + FEW * unit) + 1.5 * written
+        ends = ((x[:, links] + arm) for x, arm in zip((all_.z, all_.v, all_.a), arms, strict=True))
+        off = [x + spin[:, links] * own + unit * np.abs(end) for x, spin, end in zip(off, spins, ends, strict=True)]
+    axis = [np.abs(layout.along) * spin[:, layout.axis] for spin in spins]
+    bent = lean[:, layout.axis] + 1.5 * directed + FEW * unit
+    moved = product(axis, [x[:, layout.joint] for x in off])
+    leant = product([x * bent for x in axis], [np.abs(x[:, layout.joint]) for x in parts.gap])
+    found, weights = np.zeros((3, len(refined), layout.rows)), np.abs(layout.rolled).T
+    one, two = layout.one, layout.two
+    for order in range(3):
+        found[order][:, layout.line_rows.entries] = layout.line_rows.of(moved[order] + leant[order]) / layout.size
+        found[order][:, layout.driven] += given[order][:, layout.drivers] * layout.scales[1]
+    found[0][:, layout.turn_rows] += lean[:, one] + lean[:, two] + FEW * unit + 1.5 * turning
     found[0][:, layout.rolling_rows] += (lean + FEW * unit) @ weights
     for order, rate in enumerate(rates, start=1):
+        found[order][:, layout.turn_rows] += unit * (rate[:, one] + rate[:, two])
         found[order][:, layout.rolling_rows] += (FEW + 1) * unit * (rate @ weights)
     return found
-
-
-_Joint = tuple[Array, Array, Array, Array]
-"""How far the joints of links that are just where they were found may be off, shape (n, joints): place, velocity,
-acceleration, direction."""
-
-
-def _joint(ends: Ends, frame: Pose, lean: Array, unit: Array, written: Array, turned: Array | None) -> _Joint:
-    """Of frames on their links: by what is written, by rounding, by directions that are not just of length 1."""
-    own = lean[:, ends.link]
-    off = np.abs(ends.place) * (own + FEW * unit) + 1.5 * written
-    spin, bend = np.abs(frame.omega), np.abs(frame.alpha) + frame.omega**2
-    turn = own if turned is None else own + 1.5 * turned + np.where(ends.direction == 1, 0.0, FEW * unit)
-    place, fast, pushed = (unit * np.abs(x) for x in (frame.z, frame.v, frame.a))
-    return off + place, spin * off + fast, bend * off + pushed, turn
-
-
-def _sliding(p: Pose, q: Pose, one: _Joint, two: _Joint, few: Array) -> tuple[Array, Array, Array]:
-    """Of joints' places in the axes of others, and their rates there."""
-    gap, slip = np.abs(p.z - q.z), np.abs(p.v - q.v)
-    near, quick, turn = one[0] + two[0], one[1] + two[1], two[3]
-    spin, bend = np.abs(q.omega), np.abs(q.alpha) + q.omega**2
-    far, fast = np.abs(p.z) + np.abs(q.z), np.abs(p.v) + np.abs(q.v)
-    pushed = np.abs(p.a - q.a) + 2 * spin * slip + bend * gap
-    return (
-        gap * turn + near + few * far,
-        (slip + spin * gap) * turn + quick + spin * near + few * (fast + spin * far),
-        pushed * turn + one[2] + two[2] + 2 * spin * quick + bend * near
-        + few * (np.abs(p.a) + np.abs(q.a) + 2 * spin * fast + bend * far),
-    )  # fmt: skip

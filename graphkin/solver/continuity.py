@@ -360,7 +360,7 @@ def _follow_group(path: Path, i: int, place: Array) -> Path:
     def solved(t: float, start: Array) -> tuple[GroupSolved, Array]:
         t_ = _off_flips(path.flips, np.array([t]))
         found = group_at(path.structure, path.drive(t_), {**path.form(t_), i: start[None]}, i)
-        return found, found.system.slope({**found.system.known, **found.poses})
+        return found, found.slope
 
     steps = _steps(path.structure, np.abs(path.end - path.start))
     most = min(0.125, CLUSTER_STEP / TURN_STEP / steps)

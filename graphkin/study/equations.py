@@ -17,7 +17,7 @@ import numpy as np
 
 from graphkin.plane import Values
 from graphkin.solver import Motion
-from graphkin.solver.linear_blocks import solve_all
+from graphkin.solver.constraints import solve_all
 from graphkin.solver.pose import Array
 from graphkin.structure import Driven, Dyad, LargerGroup, Pair, Structure
 
