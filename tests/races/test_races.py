@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib.util
 import subprocess
 import sys
-import tomllib
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -17,8 +16,7 @@ import pytest
 import graphkin
 import graphkin.races
 from graphkin.api.studied import SpeedAccuracy
-from graphkin.races import Race, _peer, lessons, peers, race, race_page, race_table, to_json, work
-from graphkin.races.peers import pylinkage
+from graphkin.races import PEERS_FILE, Race, _peer, lessons, race, race_page, race_table, to_json, work
 from graphkin.races.work import Skipped
 from graphkin.scene import mechanism_of
 from graphkin.words import say
@@ -120,16 +118,14 @@ def test_pylinkage_agrees_with_the_reference_where_it_is_installed() -> None:
 def test_a_peer_that_is_not_installed_is_left_out_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     with pytest.raises(Skipped, match="not installed"):
-        next(pylinkage(None, 1))
+        next(_peer("pylinkage", None, 1))
 
 
-def test_what_runs_other_programs_is_not_in_the_wheel_and_the_race_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["hatch"]["build"]["targets"]["wheel"]
-    assert [Path(peers.__file__)] == [ROOT / path for path in wheel["exclude"]]
-    monkeypatch.setitem(sys.modules, "graphkin.races.peers", None)
-    monkeypatch.delattr(graphkin.races, "peers")
+def test_what_runs_other_programs_is_not_installed_and_the_race_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert Path(graphkin.__file__).parent not in PEERS_FILE.parents
+    monkeypatch.setattr(graphkin.races, "PEERS_FILE", Path("no", "peers.py"))
     with pytest.raises(Skipped) as error:
-        _peer("scipy", None, 1)
+        next(_peer("scipy", None, 1))
     assert "is raced from the repository alone" == say(error.value.why, "en")
 
 

@@ -1,6 +1,6 @@
 """Other programs on the same work, where they are installed and can do it; one that cannot is named with the reason.
 
-This module is not in the wheel: whoever races other programs does so from the repository."""
+``graphkin study speed-accuracy`` finds it here: whoever races other programs does so from the repository."""
 
 from __future__ import annotations
 
