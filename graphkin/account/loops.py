@@ -23,7 +23,8 @@ from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.sheet import Convention
-from graphkin.structure.loops import ArrowValue, LoopBlock, LoopValue, Root, Unknown, loops_in_numbers
+from graphkin.structure.loops import Arrow, Loop, LoopBlock, Root, loops_in_numbers
+from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -40,37 +41,37 @@ ROUNDED = 1e-11  # of the longest arrow: a sum of arrows that is less is nothing
 MORE = 9  # figures of what a root of 7 is worked out from
 
 
-def size_name(arrow: ArrowValue) -> str:
+def size_name(arrow: Arrow) -> str:
     """The size of an arrow: ``l_{AB}``, or ``s_{34}`` of a travel."""
-    if arrow.arrow.slide:
-        return f"s_{{{arrow.arrow.slide.replace('/', '')}}}"
-    return f"l_{{{''.join(arrow.arrow.names)}}}" if all(arrow.arrow.names) else f"l_{{{arrow.arrow.link}}}"
+    if arrow.slide:
+        return f"s_{{{arrow.slide.replace('/', '')}}}"
+    return f"l_{{{''.join(arrow.names)}}}" if all(arrow.names) else f"l_{{{arrow.link}}}"
 
 
-def equation(loop: LoopValue, convention: Convention) -> str:
+def equation(loop: Loop, convention: Convention) -> str:
     """The vector equation: ``AB + BC + CD + DA = 0``."""
     terms = " + ".join(f"${as_vector(convention, size_name(a))}$" for a in loop.arrows)
     return f"{terms} = 0"
 
 
-def projections(loop: LoopValue, block: LoopBlock, scene: Mechanism) -> tuple[str, str]:
+def projections(loop: Loop, block: LoopBlock, scene: Mechanism) -> tuple[str, str]:
     """The sums of the arrows' components along x and y, in numbers and unknowns (scene units)."""
     return _projection(loop, block, scene, "cos"), _projection(loop, block, scene, "sin")
 
 
-def _projection(loop: LoopValue, block: LoopBlock, scene: Mechanism, function: str) -> str:
+def _projection(loop: Loop, block: LoopBlock, scene: Mechanism, function: str) -> str:
     terms, known = [], 0.0
-    open_slides = {u.of for u in block.unknowns if u.kind == "s"}
-    open_angles = {u.of for u in block.unknowns if u.kind == "theta"}
+    open_slides = {name for kind, name in block.unknowns if kind == "travel"}
+    open_angles = {name for kind, name in block.unknowns if kind == "angle"}
     metres = scene.units.metres
     for arrow in loop.arrows:
-        first = loop.loop.ties[arrow.arrow.link]
-        turns, slides = first in open_angles, arrow.arrow.slide in open_slides
+        first = loop.ties[arrow.link]
+        turns, slides = first in open_angles, arrow.slide in open_slides
         part = arrow.vector.real if function == "cos" else arrow.vector.imag
         if not turns and not slides:
             known += part / metres
             continue
-        size = "" if slides else f"{number(abs(arrow.arrow.vector) * (arrow.travel or 1.0) / metres, 5)} "
+        size = "" if slides else f"{number(abs(arrow.coefficient) * arrow.travel / metres, 5)} "
         name = f"${size_name(arrow)}$ " if slides else ""
         if turns:
             sign, angle = _angle(arrow, first)
@@ -86,12 +87,12 @@ def _projection(loop: LoopValue, block: LoopBlock, scene: Mechanism, function: s
     return ("" if text.startswith("+") else "−") + text[2:] + " = 0"
 
 
-def _angle(arrow: ArrowValue, first: str) -> tuple[str, str]:
+def _angle(arrow: Arrow, first: str) -> tuple[str, str]:
     """The angle of an arrow by that of the link that it turns with, and the sign of its size."""
-    own = arrow.arrow.vector
-    offset = cmath.phase(own) if arrow.arrow.link == first else cmath.phase(arrow.vector)
-    name = f"$θ_{{{arrow.arrow.link}}}$"
-    if abs(math.remainder(offset, math.tau)) < STRAIGHT and arrow.arrow.link == first:
+    own = arrow.coefficient
+    offset = cmath.phase(own) if arrow.link == first else cmath.phase(arrow.vector)
+    name = f"$θ_{{{arrow.link}}}$"
+    if abs(math.remainder(offset, math.tau)) < STRAIGHT and arrow.link == first:
         return "+", name
     offset = cmath.phase(own)
     if abs(math.remainder(offset, math.tau)) < STRAIGHT:
@@ -102,11 +103,12 @@ def _angle(arrow: ArrowValue, first: str) -> tuple[str, str]:
     return "+", f"({name} {'−' if degrees < 0 else '+'} {number(abs(degrees), 6)}°)"
 
 
-def root(found: Root, loop: LoopValue, scene: Mechanism, language: str) -> str:
+def root(found: Root, loop: Loop, scene: Mechanism, language: str) -> str:
     """The closed-form root with the sign of its assembly."""
     metres = scene.units.metres
     sign = "+" if found.sign >= 0 else "−"
-    name = _unknown(found.unknown)
+    kind, of = found.unknown
+    name = f"$θ_{{{of}}}$" if kind == "angle" else f"$s_{{{of.replace('/', '')}}}$"
 
     def shown(value: float, power: int) -> str:
         return number(value / metres**power if abs(value) > ROUNDING * scene.size**power else 0.0, MORE)
@@ -121,8 +123,8 @@ def root(found: Root, loop: LoopValue, scene: Mechanism, language: str) -> str:
     return say(Phrase(found.key, (name, middle, sign, rest, value, scene.units.length)), language)
 
 
-def _unknown(unknown: Unknown) -> str:
-    return f"$θ_{{{unknown.of}}}$" if unknown.kind == "theta" else f"$s_{{{unknown.of.replace('/', '')}}}$"
+def _plain_name(unknown: Coordinate) -> str:
+    return f"{'theta' if unknown[0] == 'angle' else 's'}_{unknown[1]}"
 
 
 @dataclass(frozen=True)
@@ -144,17 +146,17 @@ def matrices(block: LoopBlock, scene: Mechanism) -> Iterator[MatrixEquation]:
         ("loop accelerations", block.acceleration, block.second_rates, ("α", "a"), ("rad/s²", f"{length}/s²")),
     ):
         rows = tuple(
-            tuple(number(float(x) / (metres if u.kind == "theta" else 1.0), 6)
+            tuple(number(float(x) / (metres if u[0] == "angle" else 1.0), 6)
                   for x, u in zip(row, block.unknowns, strict=True))
             for row in _clean(block.matrix.tolist())
         )  # fmt: skip
-        names = tuple(f"{letters[u.kind == 's']}_{{{u.of.replace('/', '')}}}" for u in block.unknowns)
+        names = tuple(f"{letters[u[0] == 'travel']}_{{{u[1].replace('/', '')}}}" for u in block.unknowns)
         column = tuple(number(x / metres, 6) for x in _clean([right.tolist()])[0])
-        weights = [1.0 if u.kind == "s" else scene.size for u in block.unknowns]
+        weights = [1.0 if u[0] == "travel" else scene.size for u in block.unknowns]
         most = max((abs(x) for x in (*right, *(w * x for w, x in zip(weights, found, strict=True)))), default=0.0)
         kept = [x if w * abs(x) > ROUNDING * most else 0.0 for w, x in zip(weights, found, strict=True)]
         solution = tuple(
-            f"${name}$ = {number(x / (metres if u.kind == 's' else 1.0), 7)} {after[u.kind == 's']}"
+            f"${name}$ = {number(x / (metres if u[0] == 'travel' else 1.0), 7)} {after[u[0] == 'travel']}"
             for name, u, x in zip(names, block.unknowns, kept, strict=True)
         )
         yield MatrixEquation(key, rows, names, column, solution)
@@ -229,31 +231,31 @@ class LoopText:
     def _block(self, block: LoopBlock) -> dict[str, Json]:
         metres, fast = self.scene.units.metres, self.scene.units.rates.metres
 
-        def plain(unknown: Unknown, value: float, per: float) -> float:
-            return value / per if unknown.kind == "s" else value
+        def plain(unknown: Coordinate, value: float, per: float) -> float:
+            return value / per if unknown[0] == "travel" else value
 
         loops = [
             {
-                "name": one.loop.name, "links": list(one.loop.links), "points": list(one.loop.points),
+                "name": one.name, "links": list(one.links), "points": list(one.points),
                 "arrows": [
-                    {"link": a.arrow.link, "from": a.arrow.names[0], "to": a.arrow.names[1],
+                    {"link": a.link, "from": a.names[0], "to": a.names[1],
                      "vector": [a.vector.real / metres, a.vector.imag / metres],
-                     **({"slide": a.arrow.slide, "travel": a.travel / metres} if a.arrow.slide else {})}
+                     **({"slide": a.slide, "travel": a.travel / metres} if a.slide else {})}
                     for a in one.arrows
                 ],
                 "gap": abs(one.gap) / metres,
-                **({"root": {"of": str(one.root.unknown), "sign": one.root.sign,
+                **({"root": {"of": _plain_name(one.root.unknown), "sign": one.root.sign,
                              "value": plain(one.root.unknown, one.root.value, metres)}} if one.root else {}),
             }
             for one in block.loops
         ]  # fmt: skip
         matrix = [
-            [float(x) / (fast if u.kind == "theta" else 1.0) for x, u in zip(row, block.unknowns, strict=True)]
+            [float(x) / (fast if u[0] == "angle" else 1.0) for x, u in zip(row, block.unknowns, strict=True)]
             for row in block.matrix
         ]
         return {
             "loops": loops,
-            "unknowns": [str(u) for u in block.unknowns],
+            "unknowns": [*map(_plain_name, block.unknowns)],
             "values": [plain(u, v, metres) for u, v in zip(block.unknowns, block.values, strict=True)],
             "matrix": matrix,
             "velocity": (block.velocity / fast).tolist(),
@@ -270,7 +272,7 @@ class LoopText:
         lines = [say(told, self.language), ""] if self.blocks else []
         for block in self.blocks:
             for one in block.loops:
-                head = Phrase("loop heading", (one.loop.name, ", ".join(one.loop.links), equation(one, letters)))
+                head = Phrase("loop heading", (one.name, ", ".join(one.links), equation(one, letters)))
                 x, y = projections(one, block, self.scene)
                 lines += [as_plain(say(head, self.language)), f"  x: {as_plain(x)}", f"  y: {as_plain(y)}"]
                 if one.root is not None:

@@ -8,7 +8,8 @@ from collections.abc import Mapping
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up, dot
 from graphkin.scene.symbol import Symbol
-from graphkin.structure.loops import Loop, Unknown, loops_of
+from graphkin.structure.loops import Loop, loops_of
+from graphkin.structure.model import Coordinate
 
 __all__ = ["loop_gaps", "places_of_loops", "stated_arrows"]
 
@@ -29,12 +30,12 @@ def places_of_loops(sheet: Sheet) -> tuple[dict[str, complex], dict[str, float]]
 def loop_gaps(sheet: Sheet, stated: Mapping[Symbol, complex | float]) -> dict[Symbol, tuple[str, float]]:
     """For each stated angle of a link or travel of a sliding pair the loop that gives it, by its name, and how far that
     stays open (m) with everything that is stated in place of what is drawn."""
-    own = [symbol for symbol in stated if _of_loop(symbol) is not None]
+    own = {symbol: coordinate for symbol in stated if (coordinate := _of_loop(symbol)) is not None}
     found: dict[Symbol, tuple[str, float]] = {}
     for loop in loops_of(sheet.structure) if own else ():
         vectors = stated_arrows(sheet, loop, stated)
-        for symbol in own:
-            if vectors and _gives(loop, symbol):
+        for symbol, coordinate in own.items():
+            if vectors and _gives(loop, coordinate):
                 found.setdefault(symbol, (loop.name, abs(added_up(vectors, 0j))))
     return found
 
@@ -47,31 +48,26 @@ def stated_arrows(sheet: Sheet, loop: Loop, stated: Mapping[Symbol, complex | fl
         return ()
     turned, moved = {}, {}  # of all links that turn with a stated one
     for symbol, value in stated.items():
-        one = _of_loop(symbol)
-        if one is None or (one.kind == "s" and one.of not in travels):
-            continue
-        if one.kind == "s":
-            moved[one.of] = float(value.real)
-        elif one.of in axes and one.of in loop.ties:
-            turned[loop.ties[one.of]] = cmath.rect(1.0, float(value.real)) / axes[one.of]
+        kind, name = _of_loop(symbol) or ("", "")
+        if kind == "travel" and name in travels:
+            moved[name] = float(value.real)
+        elif kind == "angle" and name in axes and name in loop.ties:
+            turned[loop.ties[name]] = cmath.rect(1.0, float(value.real)) / axes[name]
     if not any(loop.ties[a.link] in turned or a.slide in moved for a in loop.arrows):
         return ()
     return tuple(
-        arrow.vector * axes[arrow.link] * turned.get(loop.ties[arrow.link], 1.0)
+        arrow.coefficient * axes[arrow.link] * turned.get(loop.ties[arrow.link], 1.0)
         * (moved.get(arrow.slide, travels[arrow.slide]) if arrow.slide else 1.0)
         for arrow in loop.arrows
     )  # fmt: skip
 
 
-def _of_loop(symbol: Symbol) -> Unknown | None:
+def _of_loop(symbol: Symbol) -> Coordinate | None:
     if symbol.kind == "theta" and not symbol.other and not symbol.at:
-        return Unknown("theta", symbol.link)
-    return Unknown("s", symbol.pair) if symbol.kind == "s" and not symbol.at else None
+        return "angle", symbol.link
+    return ("travel", symbol.pair) if symbol.kind == "s" and not symbol.at else None
 
 
-def _gives(loop: Loop, symbol: Symbol) -> bool:
-    one = _of_loop(symbol)
-    assert one is not None
-    if one.kind == "theta":
-        one = Unknown("theta", loop.ties.get(one.of, one.of))
-    return one in loop.unknowns
+def _gives(loop: Loop, coordinate: Coordinate) -> bool:
+    kind, name = coordinate
+    return (kind, loop.ties.get(name, name) if kind == "angle" else name) in loop.unknowns

@@ -26,7 +26,7 @@ from graphkin.drawing.place.piece import Piece, moved_piece
 from graphkin.drawing.text import rich, runs_width, symbol
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
-from graphkin.structure.loops import LoopBlock, LoopValue, loops_in_numbers
+from graphkin.structure.loops import Loop, LoopBlock, loops_in_numbers
 from graphkin.words import Neutral, Phrase, in_all, languages, say
 
 __all__ = ["FIGURES", "loop_blocks", "loops_figure"]
@@ -67,7 +67,7 @@ def loops_figure(sheet: Sheet, *, language: str | None = None, convention: str |
     )  # fmt: skip
 
 
-def _loop(page: FigurePage, block: LoopBlock, loop: LoopValue, scale: float) -> Block:
+def _loop(page: FigurePage, block: LoopBlock, loop: Loop, scale: float) -> Block:
     """The polygon of a loop; beside it its equations, with the last loop of a block the matrices of all."""
     piece, box = _polygon(page.sheet, loop, block, scale)
     height = max(PANEL[1] if len(block.loops) == 1 else 30.0, box.height + 2 * ROOM)
@@ -91,7 +91,7 @@ def _scale(blocks: Iterable[LoopBlock]) -> float:
     return next_of_series(least)
 
 
-def _corners(loop: LoopValue, scale: float) -> list[complex]:
+def _corners(loop: Loop, scale: float) -> list[complex]:
     """Page points (mm, y down) of a polygon that begins at the page's origin; the last is the first again."""
     at, corners = 0j, [0j]
     for arrow in loop.arrows:
@@ -101,38 +101,37 @@ def _corners(loop: LoopValue, scale: float) -> list[complex]:
     return corners
 
 
-def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> tuple[Piece, Box]:
+def _polygon(sheet: Sheet, loop: Loop, block: LoopBlock, scale: float) -> tuple[Piece, Box]:
     corners = _corners(loop, scale)
-    open_ = {(u.kind, u.of) for u in block.unknowns}
     drawn: list[Primitive] = []
     thin: list[Primitive] = []
     labels: list[Label] = []
-    name = loop.loop.name
+    name = loop.name
     for k, arrow in enumerate(loop.arrows):
         tail, tip = corners[k], corners[k + 1]
-        colour = colour_of_link(sheet.scene, arrow.arrow.link)
-        ends = "".join(arrow.arrow.names) or str(k + 1)
+        colour = colour_of_link(sheet.scene, arrow.link)
+        ends = "".join(arrow.names) or str(k + 1)
         group = symbols.vector_group(f"loop-{name}-{k + 1}-{ends}", None, tail, tip, symbols.RESULTANT, colour,
                                      f"{name}: {ends}", ("loop",))  # fmt: skip
         drawn.append(group)
         if abs(tip - tail) < 1e-6:
             continue
-        unknown = ("s", arrow.arrow.slide) in open_
+        unknown = ("travel", arrow.slide) in block.unknowns
         written = rich(f"${size_name(arrow)}$ ?") if unknown else symbol(size_name(arrow))
         labels.append(Label.of(written, (tail, tip), colour=colour))
-        along = (sheet.poses[arrow.arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
-        if arrow.arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
+        along = (sheet.poses[arrow.link].axis.conjugate() * arrow.vector) / abs(arrow.vector)
+        if arrow.link != sheet.scene.frame.name and abs(along.imag) < 1e-9:
             # the angle of the vector: the link's own, and half a turn more where the loop runs against it
             thin += _angle(tail, arrow.vector)
             turned = "" if along.real > 0 else " + 180°"
-            mark = " ?" if ("theta", loop.loop.ties[arrow.arrow.link]) in open_ else ""
+            mark = " ?" if ("angle", loop.ties[arrow.link]) in block.unknowns else ""
             middle = on_page(cmath.rect(ARC + 0.5, cmath.phase(arrow.vector) % math.tau / 2))
-            angle = rich(f"$θ_{{{arrow.arrow.link}}}${turned}{mark}", 3.0)
+            angle = rich(f"$θ_{{{arrow.link}}}${turned}{mark}", 3.0)
             labels.append(Label.of(angle, tail + middle, colour=colour, rank=1))
     for k, arrow in enumerate(loop.arrows):
-        if arrow.arrow.names[0]:
+        if arrow.names[0]:
             drawn.append(Circle(corners[k], 0.55, fill=strokes.BLACK))
-            labels.append(Label.of(symbol(letters_of(sheet, "chinese").point(arrow.arrow.names[0])), corners[k],
+            labels.append(Label.of(symbol(letters_of(sheet, "chinese").point(arrow.names[0])), corners[k],
                                    rank=1))
     opened, more = _as_printed(sheet, loop, scale)
     thin += opened
@@ -143,13 +142,13 @@ def _polygon(sheet: Sheet, loop: LoopValue, block: LoopBlock, scale: float) -> t
     return piece, Box.around(corners)
 
 
-def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primitive], list[Label]]:
+def _as_printed(sheet: Sheet, loop: Loop, scale: float) -> tuple[list[Primitive], list[Label]]:
     """The loop with the printed angles and travels, dashed, where these leave it open, and its gap."""
     gap = _gap(sheet, loop)
     if gap is None:
         return [], []
     at, corners = 0j, [0j]
-    for vector in stated_arrows(sheet, loop.loop, sheet.scene.question.printed):
+    for vector in stated_arrows(sheet, loop, sheet.scene.question.printed):
         at += vector / scale
         corners.append(on_page(at))
     drawn = Group((Polyline(tuple(corners), strokes.DIRECTION),), classes=("printed",))
@@ -159,15 +158,15 @@ def _as_printed(sheet: Sheet, loop: LoopValue, scale: float) -> tuple[list[Primi
     metres, unit = sheet.scene.units.metres, sheet.scene.units.length
     words = rich(f"{number(gap / metres, 4)} {unit}", 2.8)
     name = Label.of(words, (ends.start, ends.end), colour=OPEN.colour)
-    return [drawn, Group((ends,), id=f"gap-{loop.loop.name}", classes=("gap",))], [name]
+    return [drawn, Group((ends,), id=f"gap-{loop.name}", classes=("gap",))], [name]
 
 
-def _gap(sheet: Sheet, loop: LoopValue) -> float | None:
+def _gap(sheet: Sheet, loop: Loop) -> float | None:
     """How far the values printed for this position leave a loop open (m); None where it closes as well as they are
     printed."""
     if any(abs(sheet.drivers[d.key] - d.values[0]) > 1e-9 for d in sheet.scene.drivers):
         return None
-    vectors = stated_arrows(sheet, loop.loop, sheet.scene.question.printed)
+    vectors = stated_arrows(sheet, loop, sheet.scene.question.printed)
     gap = abs(added_up(vectors, 0j))
     return gap if gap > CLOSES * added_up(map(abs, vectors)) else None
 
@@ -185,18 +184,18 @@ def _angle(tail: complex, vector: complex) -> list[Primitive]:
     return parts
 
 
-def _lines(page: FigurePage, loop: LoopValue, block: LoopBlock) -> Iterator[tuple[str, bool]]:
+def _lines(page: FigurePage, loop: Loop, block: LoopBlock) -> Iterator[tuple[str, bool]]:
     """What is written of a loop, and whether it is bold."""
     scene = page.sheet.scene
     sum_ = Neutral(equation(loop, page.convention))
-    head = Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), sum_))
+    head = Phrase("loop heading", (loop.name, ", ".join(loop.links), sum_))
     yield from ((text, True) for text in in_all(head, page.language))
     x, y = projections(loop, block, scene)
     yield from ((f"x:  {x}", False), (f"y:  {y}", False))
     gap = _gap(page.sheet, loop)
     if gap is not None:
         size = Neutral(f"{number(gap / scene.units.metres, 4)} {scene.units.length}")
-        told = Phrase("loop open", (loop.loop.name, size))
+        told = Phrase("loop open", (loop.name, size))
         yield from ((text, False) for text in in_all(told, page.language))
     if loop.root is not None:
         yield root(loop.root, loop, scene, languages(page.language)[0]), False
@@ -249,9 +248,9 @@ def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     said = []
     for each in languages(page.language):
         for loop in (one for block in blocks for one in block.loops):
-            points = ", ".join(loop.loop.points)
-            said.append(say(Phrase("loop heading", (loop.loop.name, ", ".join(loop.loop.links), points)), each))
+            points = ", ".join(loop.points)
+            said.append(say(Phrase("loop heading", (loop.name, ", ".join(loop.links), points)), each))
     return ". ".join(said)
 
 
-FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.question.loops), of_all=True, place=12),)
+FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.loops), of_all=True, place=12),)
