@@ -306,12 +306,12 @@ def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Speci
     if not move.base:
         ref = PointRef(name)
         turns = link in plot.rates[order]
-        right, left = ((*leg, *_to_special(plot, group, leg, leg[-1].end, ref, link, turns)) for leg in move.legs)
+        right, left = ((*leg, *_to_special(plot, group, leg, leg[-1].end, ref, link, turns)) for leg in move.sides)
         draw_equation(plot, order, group, TwoUnknowns(ref, left, right))
         return
     base, ref = PointRef(name, move.base), PointRef(name, link)
     paths = []
-    for leg in move.legs:
+    for leg in move.sides:
         # what both links turn by lies along the line that the leg leaves free: its size is not asked
         before = _to_special(plot, group, leg, leg[0].start, base, move.base)
         after = _to_special(plot, group, leg, leg[-1].end, ref, link)
@@ -334,7 +334,7 @@ def _to_special(
 
 def _mark_special(plot: Polygons, move: Special) -> None:
     """The special point on the mechanism: where the lines of two legs cross."""
-    (p, d), (q, e) = (_leg_line(plot, leg) for leg in move.legs)
+    (p, d), (q, e) = (_leg_line(plot, leg) for leg in move.sides)
     d = plot.slip.line(Symbol("v", PointRef(move.letter)), d)
     at = plot.board.cross("mechanism", p, d, q, e, move.letter)
     plot.special.add(move.letter)
@@ -343,8 +343,8 @@ def _mark_special(plot: Polygons, move: Special) -> None:
         pose = plot.paper.poses[move.link]
         points = {**plot.links[move.link].points, move.letter: (at - pose.origin) / pose.axis / plot.paper.mm}
         plot.links[move.link] = replace(plot.links[move.link], points=points)
-    joints = tuple(leg[-1].end.point for leg in move.legs)
-    driven = any(not e.unknown and (e.slide or e.joint) for leg in move.legs for e in leg)
+    joints = tuple(leg[-1].end.point for leg in move.sides)
+    driven = any(not e.unknown and (e.slide or e.joint) for leg in move.sides for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
     step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
     plot.board.do(replace(step, base=move.base, kind="driven" if driven else ""))
@@ -366,7 +366,7 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
 def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
     """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Joined`."""
     net = _net_of(plot, group, wide)
-    return plan_group(net, same_turn(plot, group), partial(_direction, plot), _free_letters(plot))
+    return plan_group(net, partial(_direction, plot), _free_letters(plot))
 
 
 def _net_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> Net:

@@ -42,12 +42,8 @@ class Special:
 
     link: str
     letter: str
-    legs: tuple[Path, Path]
+    sides: tuple[Path, Path]
     base: str = ""
-
-    @property
-    def sides(self) -> tuple[Path, Path]:
-        return self.legs
 
 
 Move = TwoUnknowns | ClosingVector | Special | ParallelLegs
@@ -80,27 +76,22 @@ class GroupPlan:
 
 @dataclass
 class _Search:
-    """What is known so far, and how it came to be known."""
+    """What is known so far, and how it came to be known.
+
+    along : direction of the relative motion of an edge
+    far : special points of two moving links met with that are no use, of all searches
+    """
 
     net: Net
-    turn: Mapping[str, str]
     along: Callable[[Edge, Mapping[str, complex]], complex]
     letters: Iterator[str]
     nodes: set[PointRef]
     known: set[Unknown]
+    far: list[FarPoint]
     moves: list[Move] = field(default_factory=list)
     parallel: list[tuple[str, str, str]] = field(default_factory=list)
-    ties: list[tuple[str, str]] = field(default_factory=list)  # links with a special point of both
-    far: list[FarPoint] = field(default_factory=list)  # special points of two links met with that are no use
-
-    def copy(self, tried: Sequence[Unknown]) -> _Search:
-        known = {*self.known, *tried}
-        return _Search(self.net.copy(), self.turn, self.along, self.letters, set(self.nodes), known, far=self.far)
 
     # -- what is known -------------------------------------------------------------------------------------------------
-
-    def open(self, edge: Edge) -> Unknown | None:
-        return None if edge.unknown in self.known else edge.unknown
 
     def seen(self, edge: Edge) -> Edge:
         """An edge with what is unknown of it now."""
@@ -111,8 +102,13 @@ class _Search:
 
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
-        one = self.turn.get(link, link)
+        one = self.net.shares.get(link, link)
         return one not in self.net.inside or Turning(one) in self.known
+
+    @property
+    def size(self) -> float:
+        """How far the farthest point lies from the origin."""
+        return max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
 
     def settle(self) -> None:
         """All points of a link that turns at a known rate about a known point."""
@@ -140,7 +136,7 @@ class _Search:
         while stack:
             path = stack.pop()
             at = path[-1].end
-            open_ = [unknown for e in path if (unknown := self.open(e))]
+            open_ = [e.unknown for e in path if e.unknown and e.unknown not in self.known]
             if len(open_) > most or len(set(open_)) < len(open_):
                 continue
             if stop(at):
@@ -168,16 +164,15 @@ class _Search:
             ]  # fmt: skip
             if pairs:
                 # from what was known before to what was found: from the frame where it can be
+                places = self.net.places
                 best = max(pairs, key=lambda e: (
-                    -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start), abs(self.arm(e)), e.forward
+                    -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
+                    abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
                 self.moves.append(ClosingVector((self.seen(best),)))
                 self.learn((best,))
                 return True
         return False
-
-    def arm(self, edge: Edge) -> complex:
-        return self.net.places[edge.end.point] - self.net.places[edge.start.point]
 
     def way(self, edge: Edge) -> complex:
         """Direction of the relative motion of an edge."""
@@ -226,7 +221,7 @@ class _Search:
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
-        own = Turning(self.turn.get(link, link))
+        own = Turning(self.net.shares.get(link, link))
         mine = set(self.of(link))
         best: dict[Unknown, Path] = {}
         for start in sorted(self.nodes, key=self.net.order.__getitem__):
@@ -242,37 +237,33 @@ class _Search:
     def special(self, left_out: Collection[tuple[str, str]]) -> bool:
         """The special point that gives the best crossings, of any link that has one, but of these."""
         best: tuple[float, str, tuple[Path, Path], complex] | None = None
-        flat: tuple[str, tuple[Path, Path]] | None = None
-        found: list[tuple[str, str, str]] = []
-        size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
+        flat: tuple[str, Path, Path] | None = None
         for link in self.net.inside:
             if ("", link) in left_out or self.turns(link) or self.nodes.intersection(self.of(link)):
                 continue
             legs = self.legs(link)
             for one, two in combinations(legs, 2):
-                (p, d), (q, e) = self.line(one), self.line(two)
-                at = cross_lines(p, d, q, e)
-                if at is None or abs(cross(d, e)) < FLAT:
-                    flat = flat or (link, (one, two))
-                    if _named(one) != _named(two):
-                        found.append((link, _named(one), _named(two)))
+                at, sine, away = self.crossing(one, two)
+                if at is None or sine < FLAT:
+                    flat = flat or (link, one, two)
+                    names = link, one[-1].end.point, two[-1].end.point
+                    if names[1] != names[2] and names not in self.parallel:
+                        self.parallel.append(names)
                     continue
-                quality = abs(cross(d, e)) / (1.0 + abs(at - (p + q) / 2) / size)
                 third = [self._third(leg, at) for leg in legs if leg not in (one, two)]
-                quality *= max(third, default=0.5)
+                quality = sine / (1.0 + away / self.size) * max(third, default=0.5)
                 if best is None or quality > best[0]:
                     best = quality, link, (one, two), at
-        self.parallel += [f for f in found if f not in self.parallel]
         if best is not None:
-            _, link, legs2, at = best
+            _, link, sides, at = best
             letter = next(self.letters)
             self.nodes.add(self.net.add(link, letter, at))
-            self.moves.append(Special(link, letter, legs2))
+            self.moves.append(Special(link, letter, sides))
             self.settle()
             return True
         if flat is None:
             return False
-        link, (one, two) = flat
+        link, one, two = flat
         bar = next((self.seen(e) for e in self.net.edges[one[-1].end] if e.link == link and e.end == two[-1].end), None)
         if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
             return False
@@ -287,24 +278,77 @@ class _Search:
         free = next(e for e in leg if e.unknown)
         return self.net.places[leg[-1].end.point], 1j * self.way(free)
 
+    def crossing(self, one: Path, two: Path) -> tuple[complex | None, float, float]:
+        """Where the lines of two legs cross, the sine of their angle, and how far it is from between their joints."""
+        (p, d), (q, e) = self.line(one), self.line(two)
+        at = cross_lines(p, d, q, e)
+        return at, abs(cross(d, e)), 0.0 if at is None else abs(at - (p + q) / 2)
+
     def _third(self, leg: Path, at: complex) -> float:
         p, d = self.line(leg)
         return abs(cross(unit(p - at), d)) if abs(p - at) > self.net.tiny else 0.0
 
+    # -- the special point of two links that both move -----------------------------------------------------------------
+
     def tie(self, left_out: Collection[tuple[str, str]]) -> bool:
-        """The special point of two links that both move, which are drawn as if hinged there from now on."""
-        without = {*left_out, *self.ties}
-        point, far = _RelativePoints(self.net, self.known, self.nodes, self.along, self.turn).best(without)
-        self.far += far
-        if point is None:
+        """The special point of two moving links that gives the best crossing: they are drawn as if hinged there from
+        now on."""
+        best: tuple[float, tuple[str, str], tuple[Path, Path], complex] | None = None
+        for links, legs in self._legs_between({*left_out, *self.points}).items():
+            for one, two in combinations(legs, 2):
+                at, sine, away = self.crossing(one, two)
+                if at is None or sine < OFF:  # parallel: nothing lies there
+                    continue
+                quality = sine / (1.0 + away / self.size)
+                if quality <= WORST:
+                    self.far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
+                elif best is None or quality > best[0]:
+                    best = quality, links, (one, two), at
+        if best is None:
             return False
+        _, links, sides, at = best
         letter = next(self.letters)
-        self.net.tie(point.links, letter, point.at)
-        base, link = point.links
-        self.moves.append(Special(link, letter, point.legs, base))
-        self.ties.append(point.links)
+        self.net.tie(links, letter, at)
+        self.moves.append(Special(links[1], letter, sides, links[0]))
         self.settle()
         return True
+
+    def _legs_between(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
+        """For each two links, but of these, the shortest way by each unknown that joins them."""
+        owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
+        turning = {name: Turning(self.net.shares.get(name, name)) for name in names}
+        found: dict[tuple[str, str], dict[Unknown, Path]] = {}
+        for i, one in enumerate(names):
+            others = {n: [two for two in names[i + 1 :] if two in owners[n]] for n in self.net.nodes}
+            for path in self._ways_off(one):
+                unknown = next((e.unknown for e in path if e.unknown), None)
+                for two in others[path[-1].end] if unknown else ():
+                    if unknown is None or (one, two) in left_out or unknown in (turning[one], turning[two]):
+                        continue
+                    legs = found.setdefault((one, two), {})
+                    if (unknown not in legs or len(path) < len(legs[unknown])) and self._straight(path):
+                        legs[unknown] = path
+        return {links: list(legs.values()) for links, legs in found.items()}
+
+    def _ways_off(self, link: str) -> Iterator[Path]:
+        """Ways that leave a link, with one unknown at most."""
+        stack: list[Path] = [()]
+        while stack:
+            path = stack.pop()
+            for start in (path[-1].end,) if path else self.of(link):
+                for edge in map(self.seen, self.net.edges[start]):
+                    if edge.link == link or edge.end in self.nodes or (
+                            edge.unknown and any(e.unknown for e in path)):
+                        continue
+                    yield (*path, edge)
+                    if len(path) + 1 < LONGEST_LEG:
+                        stack.append((*path, edge))
+
+    def _straight(self, leg: Path) -> bool:
+        """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
+        end, way = self.line(leg)
+        arm = end - self.net.places[leg[0].start.point]
+        return abs(arm) <= self.net.tiny or abs(cross(unit(arm), way)) < OFF
 
     # -- the whole -----------------------------------------------------------------------------------------------------
 
@@ -334,30 +378,24 @@ class _Search:
 
     def unknowns(self) -> list[Unknown]:
         """What can be assumed: rates of links, those next to known links first; then those of sliding pairs."""
-        edges = [e for n in self.net.nodes for e in self.net.edges[n] if self.open(e)]
+        edges = [e for n in self.net.nodes for e in self.net.edges[n] if e.unknown and e.unknown not in self.known]
         near = [e for e in edges if e.link and (e.start in self.nodes or e.end in self.nodes)]
         turning = [e for e in edges if e.link]
         sliding = [e for e in edges if e.slide is not None]
         return list(dict.fromkeys(e.unknown for e in (*near, *turning, *sliding) if e.unknown))
 
 
-def _named(leg: Path) -> str:
-    return leg[-1].end.point
-
-
 def plan_group(
-    net: Net, turn: Mapping[str, str], along: Callable[[Edge, Mapping[str, complex]], complex], letters: Sequence[str]
+    net: Net, along: Callable[[Edge, Mapping[str, complex]], complex], letters: Sequence[str]
 ) -> Iterator[GroupPlan]:
     """The ways in which a group can be drawn, those with the fewest trials first.
 
     Parameters
     ----------
-    turn : for each link of the group the one link whose angular velocity it shares
     along : direction of the relative motion of an edge
     letters : free letters for special points
     """
-    known = {n for n in net.nodes if net.known(n)}
-    start = _Search(net, turn, along, iter(letters), known, set())
+    start = _Search(net, along, iter(letters), {n for n in net.nodes if net.known(n)}, set(), [])
     for trials in range(MOST_TRIALS + 1):
         for relative in (False, True):  # a special point of two moving links is looked for where no other serves
             served = False
@@ -374,128 +412,21 @@ def plan_group(
 def _searched(start: _Search, tried: Sequence[Unknown], letters: Sequence[str], relative: bool) -> _Search | None:
     """A search that found all; with points of two moving links, of those met with where one point after the other is
     left out that can be spared, the first with the fewest."""
+
+    def found(left_out: Collection[tuple[str, str]]) -> _Search | None:
+        known = {*start.known, *tried}
+        search = _Search(start.net.copy(), start.along, iter(letters), set(start.nodes), known, start.far)
+        return search if search.run(relative, left_out) else None
+
     left_out: tuple[tuple[str, str], ...] = ()
-    best = search = _run(start, tried, letters, relative, left_out)
+    best = search = found(left_out)
     while relative and search is not None and best is not None:
         if len(search.points) < len(best.points):
             best = search
         points, search = search.points, None
         for point in points if len(points) > 1 else ():
-            search = _run(start, tried, letters, relative, (*left_out, point))
+            search = found((*left_out, point))
             if search is not None:
                 left_out = (*left_out, point)
                 break
     return best
-
-
-def _run(
-    start: _Search, tried: Sequence[Unknown], letters: Sequence[str], relative: bool,
-    left_out: Collection[tuple[str, str]],
-) -> _Search | None:  # fmt: skip
-    search = start.copy(tried)
-    search.letters = iter(letters)
-    return search if search.run(relative, left_out) else None
-
-
-# -- special points of two moving links --------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class _RelativePoint:
-    """Where the special point of the second link relative to the first lies, and the legs from the one to the other."""
-
-    links: tuple[str, str]
-    at: complex
-    legs: tuple[Path, Path]
-
-
-@dataclass(frozen=True)
-class _RelativePoints:
-    """The special points of two moving links of a group, as far as its motion is known.
-
-    known : what is no longer unknown
-    settled : nodes whose motion is known
-    along : direction of the relative motion of an edge
-    turn : for each link of the group the one link whose angular velocity it shares
-    """
-
-    net: Net
-    known: Collection[Unknown]
-    settled: Collection[PointRef]
-    along: Callable[[Edge, Mapping[str, complex]], complex]
-    turn: Mapping[str, str]
-
-    def best(self, left_out: Collection[tuple[str, str]]) -> tuple[_RelativePoint | None, list[FarPoint]]:
-        """The special point that gives the best crossing, None where there is none; and those that are no use.
-
-        Parameters
-        ----------
-        left_out : pairs of links that are not looked at
-        """
-        size = max((abs(z) for z in self.net.places.values()), default=1.0) or 1.0
-        best: tuple[float, _RelativePoint] | None = None
-        far: list[FarPoint] = []
-        for links, legs in self._legs(left_out).items():
-            for one, two in combinations(legs, 2):
-                (p, d), (q, e) = (self._line(leg) for leg in (one, two))
-                at = cross_lines(p, d, q, e)
-                if at is None:
-                    continue
-                sine, away = abs(cross(d, e)), abs(at - (p + q) / 2)
-                quality = sine / (1.0 + away / size)
-                if sine < OFF:  # parallel: nothing lies there
-                    continue
-                if quality <= WORST:
-                    far.append(FarPoint(links, away, math.asin(min(1.0, sine))))
-                elif best is None or quality > best[0]:
-                    best = quality, _RelativePoint(links, at, (one, two))
-        return best[1] if best else None, far
-
-    def _legs(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
-        """For each two links the shortest way by each unknown that joins them."""
-        owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
-        of = {name: [n for n in self.net.nodes if name in owners[n]] for name in names}
-        found: dict[tuple[str, str], dict[Unknown, Path]] = {}
-        for i, one in enumerate(names):
-            others = {n: [two for two in names[i + 1 :] if two in self.net.owners[n]] for n in self.net.nodes}
-            own = Turning(self.turn.get(one, one))
-            for path in self._ways(of[one], one):
-                names_of = [e.unknown for e in path if e.unknown]
-                for two in others[path[-1].end]:
-                    if (one, two) in left_out or len(names_of) != 1:
-                        continue
-                    (unknown,) = names_of
-                    turned = (own, Turning(self.turn.get(two, two)))
-                    if unknown in turned:
-                        continue
-                    old = found.setdefault((one, two), {}).get(unknown)
-                    if (old is None or len(path) < len(old)) and self._straight(path):
-                        found[one, two][unknown] = path
-        return {links: list(legs.values()) for links, legs in found.items()}
-
-    def _ways(self, starts: Sequence[PointRef], link: str) -> Iterator[Path]:
-        """Ways that leave a link, with one unknown at most."""
-        stack: list[Path] = [()]
-        while stack:
-            path = stack.pop()
-            for start in (path[-1].end,) if path else starts:
-                for edge in self.net.edges[start]:
-                    if edge.link == link or edge.end in self.settled:
-                        continue
-                    seen = replace(edge, unknown=None) if edge.unknown in self.known else edge
-                    if seen.unknown and any(e.unknown for e in path):
-                        continue
-                    longer = (*path, seen)
-                    yield longer
-                    if len(longer) < LONGEST_LEG:
-                        stack.append(longer)
-
-    def _line(self, leg: Path) -> tuple[complex, complex]:
-        free = next(e for e in leg if e.unknown)
-        return self.net.places[leg[-1].end.point], 1j * self.along(free, self.net.places)
-
-    def _straight(self, leg: Path) -> bool:
-        """Whether a leg's joints on both links lie on its line, so that neither's turning moves it along that."""
-        end, way = self._line(leg)
-        arm = end - self.net.places[leg[0].start.point]
-        return abs(arm) <= self.net.tiny or abs(cross(unit(arm), way)) < OFF
