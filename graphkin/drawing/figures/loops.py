@@ -253,4 +253,4 @@ def _described(page: FigurePage, blocks: Sequence[LoopBlock]) -> str:
     return ". ".join(said)
 
 
-FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.loops), of_all=True, place=12),)
+FIGURES = (Figure("loops", loops_figure, by_itself=lambda scene: bool(scene.question.loops), of_all=True, place=12),)
