@@ -15,13 +15,12 @@ from typing import ClassVar, Literal, NamedTuple
 
 from graphkin.plane import Values, cross, dot
 from graphkin.scene.bodies import Reading
-from graphkin.scene.laws import FollowerLaw, LawPiece, Lift, follower_law, stated_pieces
-from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, file_table, in_si, key, tidy
+from graphkin.scene.laws import FollowerLaw, LawPiece, Lift, follower_law
+from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, file_table, in_si, key
 from graphkin.words import Phrase
 
 __all__ = [
     "AllowedPressure", "BaseCircle", "Cam", "Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of",
-    "stated_cam",
 ]  # fmt: skip
 
 AGREES = 1e-6
@@ -374,12 +373,3 @@ def _swinging(
     left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
     return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)
 
-
-def stated_cam(cam: LawCam, metres: float) -> Cam:
-    """The table of a cam, in SI but for its law, whose lifts are in lengths of so many metres or in degrees."""
-    unit = math.radians(1.0) if isinstance(cam.motion, SwingingFollower) else metres
-    law = [LawPiece(to=tidy(math.degrees(end)), **moved) for end, moved in stated_pieces(cam.law.pieces, unit)]
-    rise, fall = cam.allowed
-    allow = None if rise is None and fall is None else AllowedPressure(rise, fall)
-    return Cam(cam.follower, law, BaseCircle(cam.base, "pitch"), 1 if cam.sense > 0 else -1, None, cam.roller or None,
-               cam.flat, allow)  # fmt: skip

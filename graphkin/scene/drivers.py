@@ -19,7 +19,7 @@ from pydantic import Discriminator, Tag
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
 from graphkin.scene.bodies import Reading
-from graphkin.scene.laws import DriverLaw, MotionLaw, motion_law, stated_motion
+from graphkin.scene.laws import DriverLaw, MotionLaw, motion_law
 from graphkin.scene.model import FromDeadPoint, Mechanism, PinInSlot, SlidingPair
 from graphkin.scene.tables import (
     SMALLEST,
@@ -35,6 +35,7 @@ from graphkin.scene.tables import (
     form_of_driver,
     form_of_list,
     in_si,
+    in_units,
     key,
 )
 from graphkin.words import Phrase, alternatives
@@ -364,21 +365,19 @@ def placed_driver(
     return driver.moving(law)
 
 
-def stated_driver(driver: model.Driver, frame: str, units: Units) -> Driver | DrivenSlide:
-    """The table of a driver, in SI but for its law."""
-    law, time = None, None
-    if driver.law is not None:
-        law, time = stated_motion(driver.law, units.of(driver.measure).si), driver.law.time
-    if driver.turns:
-        base = None if driver.relative_to == frame else driver.relative_to
-        if law is not None:
-            return Driver(driver.link, relative_to=base, law=law, time=time)
-        of, speed = driver.given_speed or (None, None)
-        omega = driver.rate if driver.given_speed is None else None
-        return Driver(driver.link, driver.value, omega, speed=speed, of=of, alpha=driver.second, relative_to=base)
-    if law is not None:
-        return DrivenSlide(driver.key, law=law, time=time)
-    return DrivenSlide(driver.key, driver.value, driver.rate, driver.second)
+def stated_driver(table: Driver | DrivenSlide, driver: model.Driver, units: Units) -> Driver | DrivenSlide:
+    """The table of a driver with its value and rates as they are; of one that moves by a law, with its moment."""
+    value, rate, second = (None, None, 0.0) if driver.law is not None else driver.values
+    time = None if driver.law is None else driver.law.time
+    made: Driver | DrivenSlide
+    if isinstance(table, Driver):
+        speed = None if driver.given_speed is None else driver.given_speed[1]
+        rate = rate if speed is None else None
+        made = replace(table, angle=value, omega=rate, rpm=None, speed=speed, alpha=second, sense=None, origin=None,
+                       near=None, position=None, time=time)  # fmt: skip
+    else:
+        made = replace(table, travel=value, velocity=rate, acceleration=second, origin=None, near=None, time=time)
+    return in_units(made, units)
 
 
 # -- over the time -----------------------------------------------------------------------------------------------------

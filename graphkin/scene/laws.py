@@ -11,18 +11,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import Field as Rule
 
 from graphkin.errors import Problem
 from graphkin.plane import Values
-from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, file_table, key, tidy
+from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, file_table, key
 from graphkin.words import Phrase, Wording
 
 __all__ = [
     "LAWS", "SEAM", "TURN", "CubicPart", "DriverLaw", "FollowerLaw", "LawPiece", "Lift", "LiftPiece", "MotionLaw",
-    "SmoothPart", "TimePiece", "follower_law", "form_of", "motion_law", "stated_motion", "stated_pieces",
+    "SmoothPart", "TimePiece", "follower_law", "form_of", "motion_law",
 ]  # fmt: skip
 
 ROUNDING = 1e-12
@@ -362,7 +362,7 @@ class DriverLaw(FileTable):
     )
 
 
-# -- reading and stating -----------------------------------------------------------------------------------------------
+# -- reading ---------------------------------------------------------------------------------------------------------
 
 
 def _say(problems: list[Problem], where: str, found: Wording, wanted: Wording) -> None:
@@ -513,21 +513,3 @@ def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
         rates.insert(0, right[k] - before[k] * rates[0])
     return rates
 
-
-def stated_pieces(pieces: Sequence[LiftPiece], unit: float) -> list[tuple[float, dict[str, Any]]]:
-    """Where each piece of a law ends (rad, s), and its rise or fall in a unit of a file, with its law."""
-    stated = []
-    for piece in pieces:
-        way = tidy((piece.high - piece.low) / unit)
-        stated.append((piece.end, {"rise" if way > 0 else "fall": abs(way), "by": piece.by} if piece.by else {}))
-    return stated
-
-
-def stated_motion(law: MotionLaw, unit: float) -> DriverLaw:
-    """How a driver moves over the time, as a file says it whose unit of the driver's value is so large in SI."""
-    smooth = [piece for piece in law.pieces if isinstance(piece, LiftPiece)]
-    if len(smooth) < len(law.pieces):
-        rows = [[piece.start, tidy(piece.low / unit)] for piece in law.pieces]
-        return DriverLaw(table=[*rows, [law.duration, tidy(law.pieces[-1].high / unit)]])
-    pieces = [TimePiece(to=end, **moved) for end, moved in stated_pieces(smooth, unit)]
-    return DriverLaw(origin=tidy(law.pieces[0].low / unit), pieces=pieces)

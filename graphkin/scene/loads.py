@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 from graphkin.errors import did_you_mean
-from graphkin.plane import degrees, direction
+from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
 from graphkin.scene.tables import (
     FileTable,
@@ -29,14 +29,12 @@ from graphkin.scene.tables import (
     file_table,
     in_si,
     key,
-    tidy,
-    xy,
 )
 from graphkin.words import Phrase
 
 __all__ = [
     "Balance", "BalanceAt", "Flywheel", "Gravity", "LinkMass", "Load", "LoadOn", "LoadPhase", "Loading", "Mass",
-    "Phase", "Spring", "SpringOn", "loading_of", "stated_loading",
+    "Phase", "Spring", "SpringOn", "loading_of",
 ]  # fmt: skip
 
 STANDARD_GRAVITY = 9.80665
@@ -438,38 +436,3 @@ class _Acting:
         turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
         return BalanceAt(table.on, "force", at, turn, square)
 
-
-# -- stating -----------------------------------------------------------------------------------------------------------
-
-
-def stated_loading(loading: Loading, driver_unit: float) -> dict[str, Any]:
-    """The tables of a file that say what acts, in SI but for values of the first driver, of whose unit ``driver_unit``
-    is one in SI."""
-
-    def phase(when: Phase) -> LoadPhase:
-        if when.stroke:
-            return LoadPhase(stroke=when.stroke, sense=when.sense, start=when.start, end=when.end)
-        return LoadPhase(driver=[tidy(when.start / driver_unit), tidy(when.end / driver_unit)])
-
-    def load(acting: LoadOn) -> Load:
-        when = None if acting.phase is None else phase(acting.phase)
-        if not acting.is_force:
-            return Load(on=acting.link, moment=acting.size, when=when)
-        angle = None if acting.against else tidy(degrees(acting.turn))
-        return Load(on=acting.link, at=xy(acting.at), force=acting.size, angle=angle, follows=acting.follows or None,
-                    against=acting.against or None, when=when)
-
-    down, balance = loading.gravity, loading.balance
-    made: dict[str, Any] = {
-        "gravity": Gravity(g=tidy(abs(down)), angle=tidy(degrees(down))) if down else None,
-        "masses": {mass.link: Mass(at=xy(mass.at), mass=mass.mass, inertia=mass.inertia) for mass in loading.masses},
-        "loads": {acting.name: load(acting) for acting in loading.loads},
-        "springs": {s.name: Spring(s.points, s.rate, s.free, s.preload, s.links) for s in loading.springs},
-        "flywheel": loading.flywheel,
-    }
-    if balance is not None and balance.kind == "force":
-        angle: float | Literal["square"] = "square" if balance.square else tidy(degrees(balance.turn))
-        made["balance"] = Balance(on=balance.link, at=xy(balance.at), angle=angle)
-    elif balance is not None:
-        made["balance"] = Balance(on=balance.link)
-    return made

@@ -90,14 +90,13 @@ class Scene(SceneTables):
 
     @classmethod
     def saying(cls, mechanism: Mechanism) -> Scene:
-        """The scene that says a mechanism: what it was read from, or else, and where links or drivers were replaced
-        since, everything placed in the links' own axes."""
-        if mechanism.question.written is not None:
-            scene = cls.of(plain(mechanism.question.written), mechanism.name)
-            read = scene.mechanism
-            if (read.drivers, read.links, read.frame) == (mechanism.drivers, mechanism.links, mechanism.frame):
-                return scene
-        return cls.of(as_mapping(mechanism), mechanism.name)
+        """The scene that says a mechanism: what it was read from, or where links or drivers were replaced since,
+        everything placed in the links' own axes."""
+        scene = cls.of(plain(mechanism.question.written or {}), mechanism.name)
+        read, bodies = scene.mechanism, (mechanism.frame, *mechanism.links)
+        kept = all(driver in read.drivers for driver in mechanism.drivers)
+        kept = kept and all(read.by_name.get(body.name) == body for body in bodies)
+        return scene if kept else cls.of(as_mapping(mechanism), mechanism.name)
 
     @property
     def mechanism(self) -> Mechanism:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import dataclasses
 import unicodedata
-from collections.abc import Mapping
-from typing import Annotated
+from collections.abc import Iterable, Mapping
+from typing import Annotated, TypeVar
 
 from pydantic import Field as Rule
 
@@ -26,14 +26,14 @@ from graphkin.scene.asked import (
     positions_named,
     stated_values,
 )
-from graphkin.scene.bodies import Disc, Flaws, Frame, Guide, Link, Pin, Reading
-from graphkin.scene.cams import Cam, LawCam, cams_of, stated_cam
+from graphkin.scene.bodies import Flaws, Frame, Guide, Link, Pin, Reading
+from graphkin.scene.cams import Cam, LawCam, cams_of
 from graphkin.scene.contacts import PlacedDisc
 from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_driver, stated_driver
 from graphkin.scene.force_names import no_force
 from graphkin.scene.form import Form, path_name, plain
-from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of, stated_loading
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink, Question
+from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of
+from graphkin.scene.model import Mechanism, PlacedLink, Question
 from graphkin.scene.pairs import (
     check_own_points,
     check_references,
@@ -58,10 +58,8 @@ from graphkin.scene.tables import (
     Text,
     Units,
     file_table_by_name,
-    in_units,
     key,
     tidy,
-    xy,
 )
 from graphkin.scene.touching import (
     Contact,
@@ -69,8 +67,6 @@ from graphkin.scene.touching import (
     contacts_of,
     discs_of,
     gears_of,
-    stated_contact,
-    stated_gear,
     wrong_distances,
 )
 from graphkin.words import Phrase
@@ -79,6 +75,7 @@ __all__ = ["SCENE", "SceneTables", "as_mapping", "mechanism_said"]
 
 MOST_LINKS = 200
 MOST_POINTS = 100
+AnyBody = TypeVar("AnyBody", Link, Frame)
 
 
 @file_table_by_name
@@ -308,79 +305,52 @@ def _placed(
 
 
 def as_mapping(scene: Mechanism) -> OwnTables:
-    """The mapping of a scene file that reads as this scene, everything placed in the links' own axes.
+    """The mapping of a scene file that reads as this mechanism: the file that it was read from, with its drivers as
+    they are now and everything placed in the links' own axes.
 
     What was given by drawn points, arcs or polar entries stands there as lengths and places.
     """
-    bars = {slot.bar for slot in scene.slots if not slot.block}
-    rolling = bool(scene.gears) or any(c.rolling for c in scene.contacts)
-    held = {c.round[0].centre for c in scene.contacts if c.rolling and c.flat}
-    pins: dict[str, tuple[str, list[str]]] = {}
-    for pin in scene.pins:
-        pins.setdefault(pin.point, (pin.of, []))[1].append(_guide_name(pin.on, pin.guide))
-    for slot in (s for s in scene.slots if not s.block):
-        of = next(n for n in scene.holders[slot.point] if n not in (slot.bar, slot.on))
-        pins.setdefault(slot.point, (of, []))[1].append(f"{slot.on}.{slot.name}")
-    driver_unit = scene.units.of(scene.drivers[0].measure).si if scene.drivers else 1.0
-    units, asks = scene.units, scene.question
-    if not scene.loading:
-        units = Units(length=units.length, speed=units.speed)
-    said = SceneTables(
-        title=asks.title, title_zh=asks.title_zh, source=asks.source, source_zh=asks.source_zh, units=units,
-        frame=Frame(scene.frame.name, {**_points(scene.frame)}, _guides(scene, scene.frame), _discs(scene.frame)),
-        links={link.name: _link(scene, link, rolling) for link in scene.links if link.name not in bars},
-        pins={point: Pin(of, slots) for point, (of, slots) in pins.items()},
-        cams={cam.link: stated_cam(cam, scene.units.metres) for cam in scene.cams},
-        contacts={c.name: stated_contact(c) for c in scene.contacts},
-        gears={g.name: stated_gear(g) for g in scene.gears},
-        driver=[stated_driver(d, scene.frame.name, scene.units) for d in scene.drivers],
-        sketch={p: xy(z) for p, z in {**scene.drawn, **scene.sketch}.items() if p not in scene.frame.points},
-        drawn={p: xy(z) for p, z in scene.drawn.items() if p in held},
-        find=[str(symbol) for symbol in scene.question.find] or None,
-        **stated_loading(scene.loading, driver_unit),
-    )  # fmt: skip
-    made = plain(in_units(said, scene.units))
-    own_units = {"length": scene.units.length, **made.pop("units", {})}
-    head: OwnTables = {text: made.pop(text) for text in ("title", "title_zh", "source", "source_zh", "find")
-                       if text in made}  # fmt: skip
-    return head | {"units": own_units} | made
+    file = scene.question.written
+    assert isinstance(file, SceneTables)  # a mechanism is made by reading
+    held = {contact.round[0].centre for contact in scene.contacts if contact.rolling and contact.flat}
+    sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
+    drivers = [stated_driver(*pair, scene.units) for pair in zip(file.drivers.values(), scene.drivers, strict=False)]
+    made = plain(dataclasses.replace(
+        file, driver=drivers, frame=_body(scene, scene.frame, file.frame, file.frame.points, "points"),
+        links={name: _link(scene, scene.by_name[name], table) for name, table in file.links.items()
+               if name in scene.by_name},
+        sketch={point: _place(scene, z) for point, z in sketch.items()},
+        drawn={point: place for point, place in file.drawn.items() if point in held},
+    ))  # fmt: skip
+    head: OwnTables = {}
+    for key in ("title", "title_zh", "source", "source_zh", "find"):
+        if key in made:
+            head[key] = made.pop(key)
+    return {**head, "units": {"length": scene.units.length, **made.pop("units", {})}, **made}  # always with its unit
 
 
-def _link(scene: Mechanism, link: PlacedLink, rolling: bool) -> Link:
-    """The table of a link, in SI but for angles; ``rolling`` where it is said where what rolls stands."""
-    blocks = [slot for slot in scene.slots if slot.bar == link.name]
-    pairs = [s for s in scene.slidings if s.link == link.name]
-    on = [*(_guide_name(s.on, s.guide) for s in pairs), *(f"{s.on}.{s.name}" for s in blocks)]
-    sides = [1j / link.points[s.centre] * abs(link.points[s.centre]) for s in blocks]
-    turned = [tidy(degrees(turn)) for turn in (*(s.turn for s in pairs), *sides)]
-    start = None
-    if rolling:
-        slide = pairs[0].key if pairs else link.name
-        unit = scene.units.of("length" if pairs else "angle")
-        start = tidy(unit.of(scene.starts[slide])) if slide in scene.starts else None
-    elsewhere = {*link.bar, *(slot.centre for slot in blocks)}
-    return Link(
-        points=list(link.bar), length=link.length, on=on or None, angle_on=turned or None,
-        at={p: place for p, place in _points(link).items() if p not in elsewhere}, guides=_guides(scene, link),
-        discs=_discs(link), start=start, redundant=link.redundant,
-    )  # fmt: skip
+def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
+    """The table of a link with all its places in its own axes; where it rolls, with where it stands."""
+    pairs = [pair for pair in scene.slidings if pair.link == link.name]
+    start, angle_on = table.start, table.angle_on
+    if scene.gears or any(contact.rolling for contact in scene.contacts):
+        begun = scene.starts.get(pairs[0].key if pairs else link.name)
+        start = None if begun is None else tidy(scene.units.of("length" if pairs else "angle").of(begun))
+    if angle_on is None and len(pairs) == 1 and pairs[0].turn != 1.0:  # as it was drawn
+        angle_on = tidy(degrees(pairs[0].turn))
+    length = None if link.length is None else tidy(link.length / scene.units.metres)
+    made = dataclasses.replace(table, points=list(link.bar), length=length, angle_on=angle_on, start=start)
+    return _body(scene, link, made, [point for point in (*table.points, *table.at) if point not in link.bar], "at")
 
 
-def _points(link: PlacedLink) -> dict[str, list[float]]:
-    return {p: xy(z) for p, z in link.points.items()}
+def _body(scene: Mechanism, link: PlacedLink, table: AnyBody, points: Iterable[str], key: str) -> AnyBody:
+    """The table of a link or the frame with these points, under a key, and its straight guides placed."""
+    guides = {name: guide for name, guide in link.guides.items() if name}
+    straight = {name: Guide(_place(scene, g.through), tidy(degrees(g.direction))) for name, g in guides.items()}
+    placed = {point: _place(scene, link.points[point]) for point in points}
+    return dataclasses.replace(table, guides={**table.guides, **straight}, **{key: placed})  # type: ignore[arg-type]
 
 
-def _guides(scene: Mechanism, link: PlacedLink) -> dict[str, Guide]:
-    """The guides of a link, circular slots too."""
-    straight: dict[str, PlacedGuide] = {name: guide for name, guide in link.guides.items() if name}
-    made = {n: Guide(through=xy(g.through), angle=tidy(degrees(g.direction))) for n, g in straight.items()}
-    circular = (slot for slot in scene.slots if slot.on == link.name)
-    return made | {slot.name: Guide(centre=slot.centre, r=slot.radius, ends=slot.ends) for slot in circular}
-
-
-def _discs(link: PlacedLink) -> dict[str, Disc]:
-    return {disc.name: Disc(disc.centre, disc.radius) for disc in link.discs}
-
-
-def _guide_name(link: str, guide: str) -> str:
-    return f"{link}.{guide}" if guide else link
+def _place(scene: Mechanism, z: complex) -> list[float]:
+    """A place in the scene's unit of length."""
+    return [tidy(part / scene.units.metres) for part in (z.real, z.imag)]

@@ -19,8 +19,7 @@ from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, S
 from graphkin.words import Phrase
 
 __all__ = [
-    "Contact", "Gear", "contacts_of", "discs_of", "gears_of", "rack_place", "stated_contact", "stated_gear",
-    "wrong_distances",
+    "Contact", "Gear", "contacts_of", "discs_of", "gears_of", "rack_place", "wrong_distances",
 ]  # fmt: skip
 
 AGREE = 1e-6
@@ -192,20 +191,6 @@ def _contact(name: str, contact: Contact, one: _Side, two: _Side, reading: Readi
     left = contact.side != "right"
     return PlacedContact(name, one.link, two.link, (first, second), guide, left, contact.rolling, carrier)
 
-def stated_contact(contact: PlacedContact) -> Contact:
-    """The table of a contact."""
-    between = [f"{d.link}.{d.name}" if d else _guide_name(contact.face, contact.guide) for d in contact.discs]
-    side: Literal["left", "right", "outside", "inside"]
-    if contact.flat:
-        side = "left" if contact.left else "right"
-    else:
-        side = "inside" if min(d.radius for d in contact.round) < 0 else "outside"
-    return Contact(between, side, contact.rolling)
-
-
-def _guide_name(link: str, guide: str) -> str:
-    return f"{link}.{guide}" if guide else link
-
 
 # -- gears -------------------------------------------------------------------------------------------------------------
 
@@ -281,15 +266,6 @@ def _axis(reading: Reading, wheel: str, carrier: str) -> str:
     """The point that a wheel and its carrier share."""
     held = reading.points.get(carrier, ())
     return next((p for p in reading.points.get(wheel, ()) if p in held), "")
-
-
-def stated_gear(gear: PlacedGear) -> Gear:
-    """The table of wheels with teeth."""
-    between = [gear.wheels[0], _guide_name(gear.wheels[1], gear.guide)]
-    return Gear(between, ["rack" if z is None else z for z in gear.teeth], gear.carrier)
-
-
-# -- distances ---------------------------------------------------------------------------------------------------------
 
 
 def wrong_distances(
