@@ -323,9 +323,9 @@ def as_mapping(scene: Mechanism) -> OwnTables:
         drawn={point: place for point, place in file.drawn.items() if point in held},
     ))  # fmt: skip
     head: OwnTables = {}
-    for key in ("title", "title_zh", "source", "source_zh", "find"):
-        if key in made:
-            head[key] = made.pop(key)
+    for text in ("title", "title_zh", "source", "source_zh", "find"):
+        if text in made:
+            head[text] = made.pop(text)
     return {**head, "units": {"length": scene.units.length, **made.pop("units", {})}, **made}  # always with its unit
 
 
