@@ -17,9 +17,8 @@ import graphkin
 from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Problem
 from graphkin.scene.designs import KINDS
-from graphkin.scene.files import library_text
-from graphkin.scene.form import clause_of
-from graphkin.scene.tables import FileTable, keys_of
+from graphkin.scene.scene import library_text
+from graphkin.scene.tables import FileTable, clause_of, keys_of
 from graphkin.words import Phrase, area, from_others, say, word
 from tests.command import run
 

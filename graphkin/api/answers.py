@@ -13,9 +13,8 @@ from graphkin.errors import CallError, Problem
 from graphkin.papers.data_rows import Rows, table_of
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.printed import Printed, Unreadable
 from graphkin.scene.spelling import Way, is_blank, plain_text, read_cell, read_way, unit_factor
-from graphkin.scene.symbol import KINDS, Symbol
+from graphkin.scene.symbol import KINDS, Printed, Symbol, Unreadable
 from graphkin.words import Phrase, Wording
 
 __all__ = ["Answers", "AnswersLike", "Unread", "as_answers"]

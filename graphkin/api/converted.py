@@ -14,9 +14,8 @@ from graphkin.api.results import Result
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.exchange import FRAME, READ, Bodies, BodyDrive, BodySlide, is_address, read_bodies, write_bodies
 from graphkin.files import Json, Tables, path_of
-from graphkin.scene.files import toml_text
 from graphkin.scene.model import Mechanism, PlacedLink
-from graphkin.scene.scene import Scene, safe_name
+from graphkin.scene.scene import Scene, safe_name, toml_text
 from graphkin.table import Table
 from graphkin.words import Phrase
 

@@ -260,7 +260,7 @@ class Designed(Result):
     @property
     def files(self) -> Mapping[str, bytes]:
         """The scene with the found lengths."""
-        from graphkin.scene.files import toml_text
+        from graphkin.scene.scene import toml_text
 
         return {"scene.toml": toml_text(self.scene.to_dict()).encode()}
 

@@ -46,9 +46,8 @@ from graphkin.papers.variants import (
     jobs_of_seed,
     make,
 )
-from graphkin.scene.files import toml_text
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import safe_name, written
+from graphkin.scene.scene import safe_name, toml_text, written
 from graphkin.scene.scene_tables import as_mapping
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.api.results import Result, named
 from graphkin.files import Json
-from graphkin.scene.files import library, library_text
-from graphkin.scene.scene import mechanism_of, read
+from graphkin.scene.scene import library, library_text, mechanism_of, read
 from graphkin.structure import analyse
 from graphkin.words import Phrase
 

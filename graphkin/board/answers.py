@@ -29,10 +29,9 @@ from graphkin.construction.sheet import Scales
 from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
 from graphkin.files import Json
-from graphkin.scene.files import LARGEST_FILE, NEW, new_scene, parsed
-from graphkin.scene.form import clause_of
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import put, resolved, safe_name
+from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, resolved, safe_name
+from graphkin.scene.tables import clause_of
 from graphkin.structure import mobility_of
 from graphkin.words import LANGUAGES, Phrase, area, from_others, say
 

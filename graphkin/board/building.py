@@ -16,8 +16,8 @@ from graphkin.board.scene_text import changed
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
-from graphkin.scene.files import parsed
 from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.scene import parsed
 from graphkin.solver import Motion
 from graphkin.words import Phrase
 

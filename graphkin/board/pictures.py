@@ -26,9 +26,8 @@ from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
-from graphkin.scene.files import parsed
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene import resolved
+from graphkin.scene.scene import parsed, resolved
 from graphkin.solver import Motion
 from graphkin.solver.driver_range import DriverRange
 from graphkin.solver.solve import driver_range

@@ -9,7 +9,7 @@ from typing import Any
 
 from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
-from graphkin.scene.files import LARGEST_FILE, parsed
+from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.tables import item_of
 from graphkin.words import Phrase
 

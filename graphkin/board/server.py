@@ -19,8 +19,7 @@ from typing import TYPE_CHECKING
 
 from graphkin.board.answers import Desk, answer, language_of
 from graphkin.errors import CallError, Problem, SceneError
-from graphkin.scene.files import library, library_text, toml_text
-from graphkin.scene.scene import SceneLike, written
+from graphkin.scene.scene import SceneLike, library, library_text, toml_text, written
 from graphkin.words import LANGUAGES, Phrase, say
 
 if TYPE_CHECKING:

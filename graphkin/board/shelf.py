@@ -13,7 +13,7 @@ from pathlib import Path
 
 from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
 from graphkin.files import Json, whole_file
-from graphkin.scene.files import LARGEST_FILE, file_text, library, library_text
+from graphkin.scene.scene import LARGEST_FILE, file_text, library, library_text
 from graphkin.words import Phrase, from_others
 
 __all__ = ["Shelf", "mark_of"]

@@ -31,8 +31,7 @@ from graphkin.checking.slip_likelihood import (
     transcription_errors,
 )
 from graphkin.checking.slips import CANCELLING, NOTHING, Evidence
-from graphkin.scene.printed import Line, Printed
-from graphkin.scene.symbol import PointRef, Symbol, Value
+from graphkin.scene.symbol import Line, PointRef, Printed, Symbol, Value
 from graphkin.solver import Motion, forces_of, listed_points, senses_along, value_of
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase

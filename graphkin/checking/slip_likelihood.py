@@ -14,8 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.scene.printed import Printed, stated
-from graphkin.scene.symbol import Symbol, Value
+from graphkin.scene.symbol import Printed, Symbol, Value, stated
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 

@@ -43,7 +43,7 @@ def scenes(given: Given) -> None:
 
 def _begin(kind: str, lengths: list[str], file: Path | None) -> None:
     """A new scene: what is not given is asked for in a terminal, and the usual elsewhere."""
-    from graphkin.scene.files import NEW, new_scene
+    from graphkin.scene.scene import NEW, new_scene
 
     def wrong(text: str, number: str) -> Problem:
         return Problem(f"--set {text}", Phrase("is no number", number=number), Phrase("write set crank 150"))

@@ -21,8 +21,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from graphkin.construction.steps import Direction
-from graphkin.scene.contacts import PlacedContact
-from graphkin.scene.model import PlacedLink
+from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 

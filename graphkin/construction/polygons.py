@@ -24,7 +24,7 @@ from graphkin.construction.touching import Touching
 from graphkin.construction.trains import Wheels
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
-from graphkin.scene.contacts import PlacedContact
+from graphkin.scene.model import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase

@@ -18,9 +18,8 @@ from typing import Literal, NamedTuple
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, travel
 from graphkin.plane import dot, unit
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.contacts import PlacedContact, PlacedGear
 from graphkin.scene.laws import TURN, Lift
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear
 from graphkin.structure import Rolled, Structure
 from graphkin.structure.model import Coordinate
 

@@ -39,10 +39,9 @@ from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
 from graphkin.scene.bodies import Compass, Disc, Frame, Guide, Link, Pin, Polar
 from graphkin.scene.cams import AllowedPressure, BaseCircle, Cam
 from graphkin.scene.drivers import DrivenSlide, Driver
-from graphkin.scene.files import library, library_text
 from graphkin.scene.laws import LawPiece
 from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
-from graphkin.scene.scene import Scene, mechanism_of, mechanism_of_text, read
+from graphkin.scene.scene import Scene, library, library_text, mechanism_of, mechanism_of_text, read
 from graphkin.scene.scene_tables import SCENE
 from graphkin.scene.sheet import Background, SheetWishes, Tools, Vary
 from graphkin.scene.tables import Units

@@ -12,10 +12,8 @@ from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
-from graphkin.scene.form import path_name
 from graphkin.scene.model import Mechanism, NamedPositions, OnStroke, StatedValues
-from graphkin.scene.printed import Printed, stated
-from graphkin.scene.symbol import Symbol, missing_names
+from graphkin.scene.symbol import Printed, Symbol, missing_names, stated
 from graphkin.scene.tables import (
     Count,
     FileTable,
@@ -29,6 +27,7 @@ from graphkin.scene.tables import (
     file_table,
     forms,
     key,
+    path_name,
 )
 from graphkin.words import Phrase
 

@@ -1,16 +1,24 @@
-"""The bodies of a scene file: the frame and the moving links, their points, guides and round outlines; pins in slots;
-and the reading of a file by them: which names it has, whether what refers to them finds them, and what was found wrong.
+"""The bodies of a scene file and what joins them: the frame and the moving links, their points, guides and outlines;
+sliding pairs, pins in slots; whether what refers to them finds them, and whether every link is held.
+
+What a file says as people measure and draw it (circular slots, carriages with two pins) is written first as the
+tables that say the same by links, lengths and angles.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import cmath
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from typing import Annotated, Literal
 
 from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
+from graphkin.files import OwnTables
+from graphkin.plane import direction
 from graphkin.scene.tables import (
     FileTable,
     GuideRefs,
@@ -33,7 +41,11 @@ from graphkin.scene.tables import (
 )
 from graphkin.words import Phrase, Wording
 
-__all__ = ["Compass", "Disc", "Flaws", "Frame", "Guide", "Link", "Pin", "Polar", "Reading", "references"]
+__all__ = [
+    "CircularSlot", "Compass", "Disc", "Flaws", "Frame", "Guide", "Link", "Pin", "PinInSlot", "Polar", "Reading",
+    "SlidingPair", "check_own_points", "check_references", "islands", "not_held", "pins_in_slots", "references",
+    "sliding_pairs", "with_bars", "with_carriages",
+]  # fmt: skip
 
 
 @file_table
@@ -274,3 +286,428 @@ class Reading:
         own = self.guides.get(link, frozenset())
         hint = did_you_mean(guide, own) if own else Phrase("its own axis is the guide", link=link)
         return Problem(where, Phrase("link has no guide", link=link, guide=guide), hint)
+
+
+# -- own points and what is placed from them ---------------------------------------------------------------------------
+
+
+def check_own_points(reading: Reading) -> None:
+    """Note what is wrong with the own points of the links."""
+    frame, say = reading.frame.name, reading.say
+    if frame in reading.links:
+        say("frame.name", Phrase("the frame is named as a moving link", frame=frame),
+            Phrase("give the frame a name of its own"))
+    for name, link in reading.links.items():
+        where, own = f"links.{name}", link.points
+        if len(own) > 2:
+            say(f"{where}.points", Phrase("found names", count=len(own), name=", ".join(own[:6])),
+                Phrase("two at most place in at x y", name=own[2], other=own[2]))
+        twice = sorted({p for p in own if own.count(p) > 1})
+        if twice:
+            found = Phrase("stands there twice", name=twice[0])
+            say(f"{where}.points", found, Phrase("a bar has two different points"))
+        if link.length is not None and len(own) < 2 and name not in reading.unsure:
+            key = "found with own points" if len(own) != 1 else "found with own point"
+            say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(own)),
+                Phrase("a length needs two names in points"))
+        lost = name in reading.unsure or reading.flaws.under("links", name, "on")
+        if not own and link.on is None and not lost:
+            say(where, Phrase("has neither points nor on so nothing places"), Phrase("write points a b or on for a"))
+
+
+def check_references(reading: Reading, drawn: Mapping[str, Place]) -> None:
+    """Note points that ``at`` and ``guides`` refer to and that are nowhere placed."""
+    drawn_lost, fixed = reading.flaws.under("drawn"), reading.frame.points
+    for name, link in reading.links.items():
+        for point, entry in link.at.items():
+            where = f"links.{name}.at.{point}"
+            if isinstance(entry, Polar):
+                reading.wrong(reading.no_point_of(f"{where}.from", name, entry.origin),
+                              reading.no_point_of(f"{where}.toward", name, entry.toward) if entry.toward else None)
+            elif isinstance(entry, Compass):
+                reading.wrong(*(reading.no_point_of(f"{where}.from", name, ref) for ref in entry.origins))
+            elif entry == "drawn" and point not in drawn and point not in fixed and not drawn_lost:
+                reading.say(where, Phrase("is drawn but is not in drawn", point=point),
+                            Phrase("write x y in drawn", point=point))
+        circle = _circle_of_references(link)
+        if circle:
+            reading.say(f"links.{name}.at", Phrase("are placed from one another", points=", ".join(circle)),
+                        Phrase("place one of them by x y or"))
+    for where, name, body in reading.bodies:
+        for guide, rail in body.guides.items():
+            here, aim = f"{where}.guides.{guide}", rail.toward
+            if rail.through is None:
+                reading.say(f"{here}.through", Phrase("is missing"), Phrase("write a point of the guide a circular"))
+            if isinstance(rail.through, str):
+                reading.wrong(reading.no_point_of(f"{here}.through", name, rail.through))
+            if rail.angle is None and aim is None:
+                reading.say(here, Phrase("has no direction"), Phrase("write angle in degrees or toward a point"))
+            placed = aim is None or aim in drawn or aim in fixed or drawn_lost
+            if aim and not placed and reading.no_point_of("", name, aim):
+                reading.say(f"{here}.toward", Phrase("is no point of link nor fixed or", point=aim, name=name),
+                            Phrase("write x y in drawn or the direction", point=aim))
+
+
+def _circle_of_references(link: Link) -> list[str]:
+    """Points of ``at`` that are placed from one another in a circle, [] if there is no circle."""
+    needs = {point: set(refs) for point, entry in link.at.items()
+             if point not in link.points and (refs := references(entry))}
+    left = set(needs)
+    while free := {p for p in left if not needs[p] & left}:
+        left -= free
+    trail: list[str] = []
+    here = min(left, default="")
+    while here and here not in trail:
+        trail.append(here)
+        here = min(needs[here] & left)
+    return trail[trail.index(here) :] if trail else []
+
+
+# -- pairs -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class SlidingPair:
+    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
+
+    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
+    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
+    """
+
+    link: str
+    on: str
+    guide: str
+    turn: complex
+    pin: str | None
+
+    @property
+    def key(self) -> str:
+        """The name of the pair: SLIDING/GUIDING."""
+        return f"{self.link}/{self.on}"
+
+
+@dataclass(frozen=True)
+class PinInSlot:
+    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
+
+    point: str
+    of: str
+    on: str
+    guide: str
+
+    @property
+    def key(self) -> str:
+        return f"{self.point}/{self.on}"
+
+
+@dataclass(frozen=True)
+class CircularSlot:
+    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
+
+    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
+    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
+    """
+
+    name: str
+    on: str
+    centre: str
+    radius: float
+    bar: str
+    point: str
+    block: bool = False
+    ends: tuple[float, float] | None = None
+
+
+def sliding_pairs(reading: Reading) -> tuple[SlidingPair, ...]:
+    """The sliding pairs of the file; what is wrong with them is noted."""
+    pairs: list[SlidingPair] = []
+    for name, link in reading.links.items():
+        if link.on is None:
+            lost = name in reading.unsure or reading.flaws.under("links", name, "on")
+            if link.angle_on is not None and not lost:
+                where = f"links.{name}.angle_on"
+                reading.say(where, Phrase("stands without on"), Phrase("say what the link slides on"))
+            continue
+        refs = link.guide_refs
+        angles = _angles(link.angle_on) or [0.0] * len(refs)
+        if len(angles) != len(refs):
+            reading.say(f"links.{name}.angle_on", Phrase("found for guides", count=len(angles), guides=len(refs)),
+                        Phrase("write one number for each guide"))
+            angles = [0.0] * len(refs)
+        for ref, angle in zip(refs, angles, strict=True):
+            on, _, guide = ref.partition(".")
+            problem = reading.no_guide(f"links.{name}.on", ref) or _sliding_problem(name, on, link, reading, pairs)
+            if not reading.wrong(problem):
+                pairs.append(SlidingPair(name, on, guide, direction(angle), link.points[0] if link.points else None))
+    return tuple(pairs)
+
+
+def _angles(angles: float | Sequence[float] | None) -> list[float]:
+    return [angles] if isinstance(angles, int | float) else list(angles or [])
+
+
+def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: list[SlidingPair]) -> Problem | None:
+    where = f"links.{name}.on"
+    if on == name:
+        return Problem(where, Phrase("link slides on itself", name=name), Phrase("name the link that guides it"))
+    if any({p.link, p.on} == {name, on} for p in pairs):
+        found = Phrase("link already has a sliding pair with link", name=name, on=on)
+        return Problem(where, found, Phrase("two links have one sliding pair at most"))
+    if link.points and link.points[0] in reading.points.get(on, ()):
+        found = Phrase("is a point of link too which pins", points=link.points[0], on=on)
+        return Problem(where, found, Phrase("take away from one of them or do", points=link.points[0], name=name))
+    return None
+
+
+def pins_in_slots(
+    tables: Mapping[str, Pin], reading: Reading, slidings: tuple[SlidingPair, ...]
+) -> tuple[PinInSlot, ...]:
+    """The pins in slots of the file; what is wrong with them is noted."""
+    pins: list[PinInSlot] = []
+    for point, pin in tables.items():
+        where = f"pins.{point}"
+        unknown = reading.wrong(
+            reading.no_link(f"{where}.of", pin.of) or reading.no_point_of(f"{where}.of", pin.of, point)
+        )
+        for ref in pin.guide_refs:
+            on, _, guide = ref.partition(".")
+            problem = reading.no_guide(f"{where}.in", ref) or _pin_problem(where, point, pin, ref, reading, pins)
+            if reading.wrong(problem):
+                continue
+            if any(s.key == f"{point}/{on}" for s in slidings):
+                reading.say(where, Phrase("is also the name of a sliding pair", point=point, on=on),
+                            Phrase("rename link", point=point))
+            elif not unknown:
+                pins.append(PinInSlot(point, pin.of, on, guide))
+    return tuple(pins)
+
+
+def _pin_problem(
+    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[PinInSlot]
+) -> Problem | None:
+    on = ref.partition(".")[0]
+    found: Wording
+    if on == pin.of:
+        found, wanted = Phrase("is a guide of link itself", ref=ref, on=on), Phrase("name the guide of another link")
+    elif any(p.point == point and p.on == on for p in pins):
+        found = Phrase("runs twice in link", point=point, on=on)
+        wanted = Phrase("one slot of link or a turning pair", on=on)
+    elif point in reading.points.get(on, ()):
+        found = Phrase("is also a point of link which is", point=point, on=on)
+        wanted = Phrase("take away from link or the pin away", point=point, on=on)
+    else:
+        return None
+    return Problem(f"{where}.in", found, wanted)
+
+
+def islands(
+    reading: Reading, pins: Mapping[str, Pin], touching: Iterable[Sequence[str]]
+) -> list[tuple[str, ...]]:
+    """The sets of links that no chain of joints connects with the frame, in the order of the file.
+
+    ``touching`` are the outlines that contacts and gears join, LINK or LINK.NAME.  A link that does not exist is taken
+    for the one with the nearest name; empty where there is none near, since it may stand for the one that seems unheld.
+    """
+    slides = [(name, ref) for name, link in reading.links.items() for ref in link.guide_refs]
+    slides += [(pin.of, ref) for pin in pins.values() for ref in pin.guide_refs]
+    sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
+    known = reading.points
+    meant = {n: n if n in known else "".join(get_close_matches(n, known, n=1)) for pair in sides for n in pair}
+    if "" in meant.values():
+        return []
+    near: dict[str, set[str]] = {name: set() for name in known}
+    for a, b in sides:
+        near[meant[a]].add(meant[b])
+        near[meant[b]].add(meant[a])
+    for name, points in known.items():
+        near[name] |= {other for other, own in known.items() if other != name and not {*own}.isdisjoint(points)}
+    apart: list[tuple[str, ...]] = []
+    seen: set[str] = set()
+    for start in (reading.frame.name, *known):
+        if start in seen:
+            continue
+        reached, todo = {start}, [start]
+        while todo:
+            new = near[todo.pop()] - reached
+            reached |= new
+            todo += new
+        seen |= reached
+        if start != reading.frame.name:
+            apart.append(tuple(n for n in known if n in reached))
+    return apart
+
+
+def not_held(group: tuple[str, ...], frame: str) -> Problem:
+    """The problem of links that nothing holds."""
+    hint = Phrase("share a point with another link or slide", frame=frame)
+    if len(group) == 1:
+        return Problem(f"links.{group[0]}", Phrase("nothing holds this link"), hint)
+    return Problem(Phrase("links", links=", ".join(group)), Phrase("nothing joins these links to the frame"), hint)
+
+
+# -- carriages ---------------------------------------------------------------------------------------------------------
+
+
+def with_carriages(frame: Frame, links: Mapping[str, Link], drawn: Mapping[str, Place]) -> dict[str, Link]:
+    """The links, with each sliding one of two own points that says neither their distance nor ``angle_on``, but
+
+    - in ``at`` where the second stands from the first, as a link of one own point: its axes lie along the guide, and
+      all its places are in them; or
+    - nothing, where both are drawn and the guide is one of the frame with an angle, at the angle drawn.
+    """
+    return {name: _measured(frame, link, drawn) for name, link in links.items()}
+
+
+def _measured(frame: Frame, link: Link, drawn: Mapping[str, Place]) -> Link:
+    if len(link.points) != 2 or len(link.guide_refs) != 1 or link.angle_on is not None:
+        return link
+    first, second = link.points
+    if second in link.at and link.at[second] != "drawn" and link.length is None:
+        return replace(link, points=[first])
+    turned = _drawn_angle(frame, link, drawn)
+    return link if turned is None else replace(link, angle_on=turned)
+
+
+def _drawn_angle(frame: Frame, link: Link, drawn: Mapping[str, Place]) -> float | None:
+    """The angle (degrees) from the guide to both drawn points, if they tell it."""
+    on, _, name = link.guide_refs[0].partition(".")
+    guide = frame.guides.get(name)
+    if on != frame.name or (name and (guide is None or guide.angle is None)):
+        return None
+    if not all(point in drawn for point in link.points):
+        return None
+    one, two = (complex(*drawn[point]) for point in link.points)
+    if one == two:
+        return None
+    angle = math.degrees(cmath.phase(two - one)) - ((guide.angle or 0.0) if guide is not None else 0.0)
+    return math.remainder(angle, 360.0)
+
+
+# -- circular slots ----------------------------------------------------------------------------------------------------
+
+
+class _Slots:
+    """The circular slots of a file while bars and turning pairs take their place.
+
+    ``arcs`` are by link and name: centre, radius in the file's unit, guide; ``given`` are points that stand for places
+    of centres.
+    """
+
+    def __init__(self, frame: Frame, links: Mapping[str, Link], flaws: Flaws, problems: list[Problem]) -> None:
+        self.flaws, self.problems = flaws, problems
+        self.holders: OwnTables = {**links, frame.name: frame}
+        self.points = {n: {*getattr(h, "at", {}), *h.points} for n, h in self.holders.items()}
+        self.given: dict[str, OwnTables] = {n: {} for n in self.holders}
+        self.arcs: dict[tuple[str, str], tuple[str, float, Guide]] = {}
+        self.found: list[CircularSlot] = []
+        for name, holder in self.holders.items():
+            where = "frame" if name == frame.name and name not in links else f"links.{name}"
+            for rail, guide in holder.guides.items():
+                if guide.centre is not None or guide.r is not None or guide.ends is not None:
+                    self.arcs[name, rail] = self._arc(f"{where}.guides.{rail}", name, guide)
+
+    def say(self, where: str, found: Wording, wanted: Wording) -> None:
+        self.problems.append(Problem(where, found, wanted))
+
+    def _arc(self, where: str, name: str, guide: Guide) -> tuple[str, float, Guide]:
+        both = [k for k in ("through", "angle", "toward") if getattr(guide, k) is not None]
+        if both:
+            hint = Phrase("a straight guide has through and angle a")
+            self.say(f"{where}.{both[0]}", Phrase("stands in a slot along a circle"), hint)
+        if guide.centre is None:
+            self.say(f"{where}.centre", Phrase("is missing"), Phrase("write centre m or x y and r"))
+        elif guide.r is None:
+            self.say(f"{where}.r", Phrase("is missing"), Phrase("write the slot's radius"))
+        centre, own = guide.centre, self.points[name]
+        if isinstance(centre, str) and centre not in own and not self.flaws.under(*where.split(".")[:2]):
+            self.say(f"{where}.centre", Phrase("link has no point of name and centre", name=name, centre=centre),
+                     did_you_mean(centre, sorted(own)))
+            centre = None
+        elif centre is not None and not isinstance(centre, str):
+            point = _free("M", {p for points in self.points.values() for p in points})
+            self.given[name][point] = list(centre)
+            own.add(point)
+            centre = point
+        return str(centre or ""), guide.r or 0.0, guide
+
+    def of(self, ref: str) -> tuple[str, str] | None:
+        """The link and the name of the circular slot that a guide's name means."""
+        link, _, guide = ref.partition(".")
+        return (link, guide) if (link, guide) in self.arcs else None
+
+    def note(self, key: tuple[str, str], bar: str, point: str, metres: float, block: bool) -> None:
+        """Note what moves in a slot."""
+        centre, r, guide = self.arcs[key]
+        ends = None if guide.ends is None else (math.radians(guide.ends[0]), math.radians(guide.ends[1]))
+        self.found.append(CircularSlot(key[1], key[0], centre, r * metres, bar, point, block, ends))
+
+    def straight(self, name: str) -> dict[str, Guide]:
+        """The straight guides of a link."""
+        return {key: guide for key, guide in self.holders[name].guides.items() if (name, key) not in self.arcs}
+
+
+def _free(name: str, taken: set[str]) -> str:
+    return next(n for n in (name, *(f"{name}{k}" for k in range(1, 10_000))) if n not in taken)
+
+
+def with_bars(
+    frame: Frame, links: Mapping[str, Link], pins: Mapping[str, Pin], metres: float, flaws: Flaws,
+    problems: list[Problem],
+) -> tuple[Frame, dict[str, Link], dict[str, Pin], tuple[CircularSlot, ...]]:  # fmt: skip
+    """The frame, links and pins with bars and turning pairs in place of circular slots, and what they stand for; what
+    is wrong is added to ``problems``."""
+    slots = _Slots(frame, links, flaws, problems)
+    if not slots.arcs:
+        return frame, dict(links), dict(pins), ()
+    taken = {*slots.holders}
+    kept: dict[str, Pin] = {}
+    bars: dict[str, Link] = {}
+    for point, pin in pins.items():
+        straight = [ref for ref in pin.guide_refs if slots.of(ref) is None]
+        if straight:
+            kept[point] = replace(pin, slots=straight)
+        for slot in filter(None, map(slots.of, pin.guide_refs)):
+            where, (centre, r, _) = f"pins.{point}", slots.arcs[slot]
+            if pin.of not in slots.holders:
+                slots.say(f"{where}.of", Phrase("there is no link", name=pin.of), did_you_mean(pin.of, taken))
+            elif point not in slots.points[pin.of]:
+                slots.say(f"{where}.of", Phrase("link has no point of name and centre", name=pin.of, centre=point),
+                          did_you_mean(point, sorted(slots.points[pin.of])))
+            elif pin.of == slot[0] or point in slots.points[slot[0]]:
+                slots.say(f"{where}.in", Phrase("is a point of link itself", point=point, slot=slot[0]),
+                          Phrase("name the slot of another link"))
+            elif centre:
+                bar = _free(slot[1], taken)
+                taken.add(bar)
+                bars[bar] = Link(points=[centre, point], length=r)
+                slots.note(slot, bar, point, metres, block=False)
+    moving = {name: _on_bars(slots, name, link, metres) for name, link in links.items()}
+    points = {**frame.points, **slots.given[frame.name]}
+    frame = replace(frame, points=points, guides=slots.straight(frame.name))
+    return frame, {**moving, **bars}, kept, tuple(slots.found)
+
+
+def _on_bars(slots: _Slots, name: str, link: Link, metres: float) -> Link:
+    """A link without circular slots: of those that it runs in it has the centres, as points in its own axes."""
+    refs, at = link.guide_refs, {**link.at, **slots.given[name]}
+    keys = [slots.of(ref) for ref in refs]
+    on, angle_on = link.on, link.angle_on
+    if any(keys):
+        angles = [*_angles(angle_on), *([0.0] * len(refs))][: len(refs)]
+        straight = [k for k, key in enumerate(keys) if key is None]
+        on = [refs[k] for k in straight] or None
+        angle_on = [angles[k] for k in straight] or None
+        for key, angle in zip(keys, angles, strict=True):
+            if key is None:
+                continue
+            centre, r, _ = slots.arcs[key]
+            if key[0] == name:
+                slots.say(f"links.{name}.on", Phrase("link slides on itself", name=name), Phrase("name another link"))
+            elif not link.points:
+                slots.say(f"links.{name}.points", Phrase("is missing"), Phrase("name the point of the block that runs"))
+            elif centre:
+                # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
+                way = 1j * direction(-angle)
+                at[centre] = [r * way.real, r * way.imag]
+                slots.note(key, name, link.points[0], metres, block=True)
+    return replace(link, on=on, angle_on=angle_on, at=at, guides=slots.straight(name))

@@ -22,13 +22,12 @@ from pydantic import Field as Rule
 from graphkin.errors import Problem, SceneError, did_you_mean, unfit
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.plane import degrees, direction
-from graphkin.scene import files
-from graphkin.scene.form import Form, plain, shown
-from graphkin.scene.scene import safe_name
+from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
 from graphkin.scene.sheet import SheetWishes
 from graphkin.scene.tables import (
     SMALLEST,
     FileTable,
+    Form,
     List,
     Magnitude,
     NotNegative,
@@ -39,6 +38,8 @@ from graphkin.scene.tables import (
     file_table,
     file_table_by_name,
     key,
+    plain,
+    shown,
     xy,
 )
 from graphkin.words import Phrase, Wording
@@ -196,12 +197,12 @@ DesignLike = Design | str | os.PathLike[str] | Tables
 
 
 def _shelf() -> Traversable:
-    return files.shelf() / "designs"
+    return shelf() / "designs"
 
 
 def designs() -> tuple[str, ...]:
     """Names of the design files that come along, sorted."""
-    return files.files_named(_shelf())
+    return files_named(_shelf())
 
 
 def is_design(source: object) -> bool:
@@ -213,11 +214,11 @@ def is_design(source: object) -> bool:
     text = os.fspath(source)
     if os.path.isfile(text):
         try:
-            raw = files.parsed(files.file_text(text))
+            raw = parsed(file_text(text))
         except SceneError:
             return False
         return is_design(raw)
-    return text in designs() and text not in files.library()
+    return text in designs() and text not in library()
 
 
 def design_of(source: DesignLike) -> Design:
@@ -235,13 +236,13 @@ def design_of(source: DesignLike) -> Design:
     if isinstance(source, Design):
         return source
     if isinstance(source, str) and source in designs() and not os.path.isfile(source):
-        raw, name = files.parsed((_shelf() / f"{source}.toml").read_text(encoding="utf-8")), source
+        raw, name = parsed((_shelf() / f"{source}.toml").read_text(encoding="utf-8")), source
     elif isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):
             missing = Phrase("there is no such file and no design")
             raise SceneError(Problem(text[:200], missing, did_you_mean(text[:60], designs())))
-        raw, name = files.parsed(files.file_text(text)), Path(text).stem
+        raw, name = parsed(file_text(text)), Path(text).stem
     else:
         if not isinstance(source, Mapping):
             wanted = Phrase("give a file the name of a design")

@@ -18,9 +18,9 @@ from pydantic import Discriminator, Tag
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
-from graphkin.scene.bodies import Reading
+from graphkin.scene.bodies import PinInSlot, Reading, SlidingPair
 from graphkin.scene.laws import DriverLaw, MotionLaw, motion_law
-from graphkin.scene.model import FromDeadPoint, Mechanism, PinInSlot, SlidingPair
+from graphkin.scene.model import FromDeadPoint, Mechanism
 from graphkin.scene.tables import (
     SMALLEST,
     FileTable,

@@ -1,7 +1,11 @@
-"""The one model of a mechanism: what a scene says, resolved, in SI units.
+"""The one model of a mechanism: links, pairs, what touches, drivers, sizes; its question; and the numbers in which
+designs of one mechanism differ.
 
 Plane quantities are complex numbers (x + iy), lengths in m, angles in rad, times in s.
 A scene is a value: nothing stores results in it.
+
+A hollow outline (a ring) has a negative radius.  With the signs of the radii two discs touch, inside or outside, where
+their centres are r1 + r2 apart, and the point of contact parts the line of centres as r1 : r2.
 """
 
 from __future__ import annotations
@@ -11,29 +15,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+from graphkin.scene.bodies import CircularSlot, PinInSlot, SlidingPair
 from graphkin.scene.cams import LawCam
-from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.loads import Loading
-from graphkin.scene.printed import Printed
 from graphkin.scene.sheet import PlacedBackground, PlacedScan, SheetWishes, Vary
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 
 __all__ = [
-    "CircularSlot",
-    "Driver",
-    "FromDeadPoint",
-    "Mechanism",
-    "NamedPositions",
-    "OnStroke",
-    "PinInSlot",
-    "PlacedGuide",
-    "PlacedLink",
-    "Question",
-    "SlidingPair",
-    "StatedValues",
-]
+    "Dimension", "Driver", "FromDeadPoint", "Mechanism", "NamedPositions", "OnStroke", "PlacedContact",
+    "PlacedDisc", "PlacedGear", "PlacedGuide", "PlacedLink", "Question", "StatedValues", "changed_beside",
+    "dimensions", "same_but_for_dimensions", "with_dimensions",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -74,37 +68,88 @@ class PlacedLink:
 
 
 @dataclass(frozen=True)
-class SlidingPair:
-    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
-
-    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
-    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
-    """
+class PlacedDisc:
+    """A round outline of link ``link`` about its point ``centre``; ``radius`` (m) is negative for a hollow one."""
 
     link: str
-    on: str
-    guide: str
-    turn: complex
-    pin: str | None
-
-    @property
-    def key(self) -> str:
-        """The name of the pair: SLIDING/GUIDING."""
-        return f"{self.link}/{self.on}"
+    name: str
+    centre: str
+    radius: float
 
 
 @dataclass(frozen=True)
-class PinInSlot:
-    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
+class PlacedContact:
+    """Two outlines that touch in ``name``.
 
-    point: str
-    of: str
-    on: str
+    ``one`` and ``two`` are the links in the order of the file.  ``discs`` are their outlines, None for the side that
+    has the flat face, whose ``guide`` it is; radii bear the signs with which they meet (inside: the larger is hollow).
+    ``left`` tells on which side of the guide the disc lies.  ``carrier`` is the link that holds both centres of a
+    rolling pair, "" where no link does.  ``again`` marks a further contact of the same centre with the same link.
+    """
+
+    name: str
+    one: str
+    two: str
+    discs: tuple[PlacedDisc | None, PlacedDisc | None]
     guide: str
+    left: bool
+    rolling: bool
+    carrier: str = ""
+    again: bool = False
 
     @property
-    def key(self) -> str:
-        return f"{self.point}/{self.on}"
+    def links(self) -> tuple[str, str]:
+        """Both links, in the order of the file."""
+        return self.one, self.two
+
+    @property
+    def flat(self) -> bool:
+        """Whether one side is a flat face."""
+        return None in self.discs
+
+    @property
+    def round(self) -> tuple[PlacedDisc, ...]:
+        """The discs."""
+        return tuple(d for d in self.discs if d is not None)
+
+    @property
+    def face(self) -> str:
+        """The link with the flat face, "" where there is none."""
+        return (self.one if self.discs[0] is None else self.two) if self.flat else ""
+
+    @property
+    def block(self) -> str:
+        """The name of the block (of a face) or the bar (of two discs) that replaces it."""
+        if not self.flat:
+            return "".join(d.centre for d in self.round)
+        return f"{self.name if self.again else self.round[0].centre}/{self.face}"
+
+    @property
+    def normal_to_face(self) -> complex:
+        """The direction from the face to the disc, counted from the guide's sense."""
+        return 1j if self.left else -1j
+
+
+@dataclass(frozen=True)
+class PlacedGear:
+    """Two wheels with teeth: pitch circles that roll on each other, their axes held by ``carrier``.
+
+    ``teeth`` are numbers with signs (negative: internal), None for a rack; ``axes`` the points of the wheels' axes on
+    the carrier (and on the wheels), "" for a rack, whose pitch line is ``guide`` of the second link and whose sliding
+    pair with the carrier is ``slide``.
+    """
+
+    name: str
+    wheels: tuple[str, str]
+    teeth: tuple[float, float | None]
+    carrier: str
+    axes: tuple[str, str]
+    guide: str = ""
+    slide: str = ""
+
+    @property
+    def is_rack(self) -> bool:
+        return self.teeth[1] is None
 
 
 @dataclass(frozen=True)
@@ -198,24 +243,6 @@ class Driver:
         """The same driver with the rates of a law at the moment that it asks."""
         now = law.at(law.time)
         return replace(self, rate=now.slope, second=now.bend, law=law)
-
-
-@dataclass(frozen=True)
-class CircularSlot:
-    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
-
-    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
-    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
-    """
-
-    name: str
-    on: str
-    centre: str
-    radius: float
-    bar: str
-    point: str
-    block: bool = False
-    ends: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -389,3 +416,74 @@ class Mechanism:
         spans += [cam.base for cam in self.cams]
         spans += [abs(disc.radius) for c in self.contacts for disc in c.round]
         return max(spans, default=0.0) or self.units.metres
+
+
+# -- the numbers in which the designs of one mechanism differ ----------------------------------------------------------
+
+Dimension = tuple[str | int, ...]
+"""("point", link, point), ("through", link, guide), ("direction", link, guide), ("turn", sliding pair), and of the
+driver k ("value", k), ("rate", k), ("second", k)."""
+
+
+def dimensions(mechanism: Mechanism) -> dict[Dimension, complex]:
+    """The numbers of a mechanism by name (SI)."""
+    found: dict[Dimension, complex] = {}
+    for link in (mechanism.frame, *mechanism.links):
+        found |= {("point", link.name, point): z for point, z in link.points.items()}
+        for name, guide in link.guides.items():
+            found["through", link.name, name], found["direction", link.name, name] = guide.through, guide.direction
+    found |= {("turn", pair.key): pair.turn for pair in mechanism.slidings}
+    for k, driver in enumerate(mechanism.drivers):
+        found |= {(what, k): complex(x) for what, x in zip(("value", "rate", "second"), driver.values, strict=True)}
+    return found
+
+
+def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) -> Mechanism:
+    """The mechanism with some of its numbers changed; what was drawn is then a sketch."""
+
+    def link(old: PlacedLink) -> PlacedLink:
+        points = {p: changed.get(("point", old.name, p), z) for p, z in old.points.items()}
+        guides = {
+            n: replace(
+                g,
+                through=changed.get(("through", old.name, n), g.through),
+                direction=changed.get(("direction", old.name, n), g.direction),
+            )
+            for n, g in old.guides.items()
+        }
+        return replace(old, points=points, guides=guides)
+
+    def driver(k: int, old: Driver) -> Driver:
+        value, rate, second = (
+            changed.get((what, k), complex(x)).real
+            for what, x in zip(("value", "rate", "second"), old.values, strict=True)
+        )
+        return replace(old, value=value, rate=rate, second=second, rpm=None if ("rate", k) in changed else old.rpm)
+
+    return replace(
+        mechanism,
+        frame=link(mechanism.frame),
+        links=tuple(map(link, mechanism.links)),
+        slidings=tuple(replace(s, turn=changed.get(("turn", s.key), s.turn)) for s in mechanism.slidings),
+        drivers=tuple(driver(k, d) for k, d in enumerate(mechanism.drivers)),
+        sketch={**mechanism.drawn, **mechanism.sketch},
+        drawn={},
+    )
+
+
+_MOVING = ("frame", "links", "slidings", "pins", "drivers", "cams", "contacts", "gears", "starts", "slots")
+"""The parts of a mechanism on which its motion depends."""
+
+
+def changed_beside(one: Mechanism, other: Mechanism) -> tuple[str, ...]:
+    """The parts in which two mechanisms move otherwise for something else than these numbers: where a cam stands, the
+    radius of a disc, teeth."""
+    own = dimensions(one)
+    alike = [with_dimensions(mechanism, own) for mechanism in (one, other)]
+    return tuple(part for part in _MOVING if getattr(alike[0], part) != getattr(alike[1], part))
+
+
+def same_but_for_dimensions(one: Mechanism, other: Mechanism) -> bool:
+    """Whether two mechanisms differ in nothing but these numbers, and in what was drawn."""
+    own = dimensions(one)
+    return with_dimensions(one, own) == with_dimensions(other, own)

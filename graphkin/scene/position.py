@@ -14,9 +14,8 @@ from dataclasses import dataclass, field
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
-from graphkin.scene.bodies import Compass, Guide, Link, Polar, Reading, references
-from graphkin.scene.contacts import PlacedContact
-from graphkin.scene.model import Driver, PinInSlot, PlacedGuide, SlidingPair
+from graphkin.scene.bodies import Compass, Guide, Link, PinInSlot, Polar, Reading, SlidingPair, references
+from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, Wording
 

@@ -26,15 +26,13 @@ from graphkin.scene.asked import (
     positions_named,
     stated_values,
 )
-from graphkin.scene.bodies import Flaws, Frame, Guide, Link, Pin, Reading
-from graphkin.scene.cams import Cam, LawCam, cams_of
-from graphkin.scene.contacts import PlacedDisc
-from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_driver, stated_driver
-from graphkin.scene.force_names import no_force
-from graphkin.scene.form import Form, path_name, plain
-from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of
-from graphkin.scene.model import Mechanism, PlacedLink, Question
-from graphkin.scene.pairs import (
+from graphkin.scene.bodies import (
+    Flaws,
+    Frame,
+    Guide,
+    Link,
+    Pin,
+    Reading,
     check_own_points,
     check_references,
     islands,
@@ -44,9 +42,15 @@ from graphkin.scene.pairs import (
     with_bars,
     with_carriages,
 )
+from graphkin.scene.cams import Cam, LawCam, cams_of
+from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_driver, stated_driver
+from graphkin.scene.force_names import no_force
+from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of
+from graphkin.scene.model import Mechanism, PlacedDisc, PlacedLink, Question
 from graphkin.scene.sheet import Drawing, ReadScan, SheetWishes, Vary, background_of, scans_of
 from graphkin.scene.tables import (
     FileTable,
+    Form,
     KeyPath,
     LinkName,
     NotNegative,
@@ -59,6 +63,8 @@ from graphkin.scene.tables import (
     Units,
     file_table_by_name,
     key,
+    path_name,
+    plain,
     tidy,
 )
 from graphkin.scene.touching import (

@@ -16,8 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from graphkin.plane import added_up
-from graphkin.scene.printed import Line, Printed, Unreadable, stated
-from graphkin.scene.symbol import KINDS, PointRef, Symbol
+from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unreadable, stated
 from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 

@@ -1,33 +1,59 @@
-"""What the tables of a scene file have in common: units, kinds of values, keys, and places by their path.
+"""What the tables of a file have in common: kinds of values, keys, units, places by their path; and the form of a file,
+by which every wrong key and value in it is told at once.
 
 A table of the file is a class, a key a field of it, made by `key`, which tells what stands there and in which unit:
 reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  A table holds
-what a file says in the file's own names; what may stand in it is asked when a scene is made (`graphkin.scene.form`).
+what a file says in the file's own names; what may stand in it is asked when a scene is made (`Form.checked`).
+
+A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant, and what
+remains is a valid file, so that the questions asked later (do the names exist, do the lengths meet) can still be
+asked of it.  The paths of what was taken out are kept, so that nothing is reported twice.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import re
+import sys
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING, Field, dataclass, fields, replace
-from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, TypeVar, dataclass_transform
+from difflib import get_close_matches
+from functools import cache, cached_property
+from numbers import Integral, Real
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    Generic,
+    Literal,
+    NamedTuple,
+    TypeVar,
+    dataclass_transform,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
 
-from pydantic import Discriminator, Strict, StringConstraints, Tag
+from pydantic import Discriminator, Strict, StringConstraints, Tag, TypeAdapter, ValidationError
 from pydantic import Field as Rule
+from pydantic_core.core_schema import CoreSchema, no_info_plain_validator_function
 
-from graphkin.files import OwnTables, Tables
-from graphkin.words import LANGUAGES
+from graphkin.errors import Problem, SceneError, did_you_mean
+from graphkin.files import Json, OwnTables, Tables
+from graphkin.words import LANGUAGES, Phrase, Wording, from_others
 
 __all__ = [
-    "SMALLEST", "Asked", "Count", "FileTable", "GuideRef", "GuideRefs", "KeyPath", "Language", "Least", "LinkName",
-    "LinkNames", "List", "Magnitude", "Measure", "NameOrPlace", "NotNegative", "Number", "NumberOrSquare", "Numbers",
-    "Part", "Place", "PointName", "PointNames", "PositionName", "Share", "ShownName", "SlideRef", "Stated", "Switch",
-    "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units", "entries", "file_table",
-    "file_table_by_name", "form_of_driver", "form_of_list", "forms", "in_si", "in_units", "item_of", "key", "key_of",
-    "keys_of", "path_of_key", "put_at", "tidy", "value_at", "xy",
+    "SMALLEST", "Asked", "Count", "FileTable", "Form", "GuideRef", "GuideRefs", "KeyPath", "Language", "Least",
+    "LinkName", "LinkNames", "List", "Magnitude", "Measure", "NameOrPlace", "NotNegative", "Number",
+    "NumberOrSquare", "Numbers", "Part", "Place", "PointName", "PointNames", "PositionName", "Share", "ShownName",
+    "SlideRef", "Stated", "Switch", "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units",
+    "clause_of", "entries", "file_table", "file_table_by_name", "form_of_driver", "form_of_list", "forms", "in_si",
+    "in_units", "item_of", "key", "key_of", "keys_of", "path_name", "path_of_key", "plain", "put_at", "shown",
+    "tidy", "value_at", "xy",
 ]  # fmt: skip
+
 
 AnyTable = TypeVar("AnyTable", bound="FileTable")
 
@@ -395,3 +421,395 @@ def value_at(place: object, path: KeyPath) -> Any:
 def put_at(tables: OwnTables, path: KeyPath, value: object) -> None:
     """Put a value at a path whose tables are there.  Raises TypeError where they are not."""
     value_at(tables, path[:-1])[path[-1]] = value
+
+
+# -- the form of a file ------------------------------------------------------------------------------------------------
+
+
+MOST_VALUES = 20_000
+DEEPEST = 8
+ROUNDS = 50
+"""So often what is left of a file is looked at again."""
+UNKNOWN = "unexpected_keyword_argument"
+
+
+class Form(Generic[AnyTable]):
+    """The form of a kind of file.
+
+    Parameters
+    ----------
+    whole : the type of the whole file, a table of tables
+    title : what the schema calls it
+    needed : the table without which there is nothing to ask about, "" where there is none
+    """
+
+    def __init__(self, whole: type[AnyTable], title: str, needed: str = "") -> None:
+        self.whole, self.title, self.needed = whole, title, needed
+
+    @cached_property
+    def _rules(self) -> TypeAdapter[AnyTable]:
+        return _rules(self.whole, _when_met())
+
+    def checked(self, raw: OwnTables) -> tuple[AnyTable, list[Problem], frozenset[KeyPath]]:
+        """Check the form of a file.  Returns what is valid in it, the problems, and the paths of what was taken out for
+        them.
+
+        ``raw`` comes from `plain` and is changed: wrong entries are taken out of it.
+        Raises SceneError where nothing is left to ask about.
+        """
+        problems: dict[KeyPath, Problem] = {}
+        gone: set[KeyPath] = set()
+        for _ in range(ROUNDS):
+            try:
+                return self._rules.validate_python(raw), list(problems.values()), frozenset(gone)
+            except ValidationError as error:
+                found = error.errors(include_url=False)
+            for item in sorted(found, key=lambda e: e["type"] != UNKNOWN):
+                loc: KeyPath = tuple(item["loc"])
+                path = _written_path(loc)
+                missing = item["type"] == "missing"
+                if missing and value_at(raw, path) is not None:
+                    continue  # it was there under a misspelt name
+                if path not in problems and not (missing and path in gone):  # that it is wrong was told
+                    problems[path] = Problem(path_name(path), *self._sentence(loc, path, dict(item)))
+                meant = self._meant(loc, raw) if item["type"] == UNKNOWN else None
+                if meant is not None:
+                    _read_as(raw, path, meant)
+                else:
+                    cut = _take_out(raw, _cut(path))
+                    if item["type"] != UNKNOWN or isinstance(item["input"], list | dict):
+                        gone.add(cut)
+            if self.needed and not raw.get(self.needed):
+                break
+        raise SceneError(*problems.values())
+
+    def table_at(self, loc: Sequence[str | int]) -> type[FileTable] | None:
+        """The table that stands at a place of a file, as pydantic names places: with a tag ("<one>") where a value has
+        several forms.  None where there is no table.
+
+        >>> from graphkin.scene.scene_tables import SCENE
+        >>> SCENE.table_at(("links", "2", "guides", "g")).__name__
+        'Guide'
+        >>> SCENE.table_at(("driver", "<list>", 1, "<slide>")).__name__
+        'DrivenSlide'
+        """
+        return _within(self.whole, tuple(loc))
+
+    def keys_at(self, loc: Sequence[str | int]) -> dict[str, str]:
+        """The keys that may stand in the table at a place, with their descriptions."""
+        table = self.table_at(loc)
+        return {} if table is None else {key_of(f): f.metadata.get("description", "") for f in keys_of(table)}
+
+    def schema(self) -> dict[str, Json]:
+        """The JSON schema (draft 2020-12) of such a file, for editors that complete and check TOML."""
+        made = _without_null(_rules(self.whole, {}).json_schema(by_alias=True))
+        assert isinstance(made, dict)
+        return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": self.title}
+
+    def _meant(self, loc: KeyPath, raw: OwnTables) -> str | None:
+        """The key that a misspelt one stands for, where it is near and not written as well, or both are tables."""
+        table = value_at(raw, _written_path(loc[:-1]))
+        near = get_close_matches(str(loc[-1])[:60], self.keys_at(loc[:-1]), n=1, cutoff=0.75)
+        if not near or not isinstance(table, dict) or loc[-1] not in table:
+            return None
+        both = [table[loc[-1]], table.get(near[0])]
+        return near[0] if near[0] not in table or all(isinstance(t, dict) for t in both) else None
+
+    def _sentence(self, loc: KeyPath, path: KeyPath, item: OwnTables) -> tuple[Wording, Wording]:
+        """What was found at a place, and what would be right, by what pydantic found."""
+        kind, value, ctx = item["type"], item["input"], item.get("ctx", {})
+        found: Wording = Phrase("found value", value=shown(value))
+        wanted: Wording
+        if kind == "missing":
+            wanted = from_others(clause_of(self.keys_at(loc[:-1]).get(str(loc[-1]), "")))
+            if loc == ("links",):
+                wanted = Phrase("a scene has moving links links.1 and so")
+            elif loc[0] == "driver" and loc[-1] == "link":
+                wanted = Phrase("write link 1 for a driven angle or slide")
+            return Phrase("is missing"), wanted
+        if kind == UNKNOWN:
+            is_table = isinstance(value, dict)
+            return Phrase("unknown table") if is_table else Phrase("unknown key"), self._about_key(loc)
+        if "[key]" in loc:
+            return Phrase("is no name here", value=shown(path[-1])), _name_rule(ctx)
+        if kind == "form":
+            return found, Phrase(item["msg"])
+        if kind in _KINDS:
+            wanted = _KINDS[kind]
+            if kind == "string_type" and isinstance(value, int | float) and not isinstance(value, bool):
+                wanted = Phrase("a text stands in quotation marks", value=shown(value))
+            elif kind == "float_type" and isinstance(value, str):
+                wanted = Phrase("a number is written without quotation marks")
+            return found, wanted
+        if kind == "literal_error":
+            choices = re.findall(r"'([^']*)'", ctx["expected"])
+            names = ", ".join(f'"{c}"' for c in choices) or str(ctx["expected"])
+            wanted = Phrase("one of is possible" if len(choices) > 1 else "is possible", names=names)
+            near = did_you_mean(value[:60], choices) if isinstance(value, str) else wanted
+            is_near = near.key == "did you mean"
+            return found, Phrase("list comma of two", first=wanted, second=near) if is_near else wanted
+        if kind == "finite_number":
+            return found, Phrase("a finite number is wanted")
+        if kind == "greater_than_equal" and ctx["ge"] > 0:
+            which = "found a negative" if value < 0 else "found a zero" if value == 0 else "found far too small a"
+            last = str(path[-1])
+            noun = Phrase(f"noun {'scale' if last.endswith('scale') else _NOUNS.get(last, 'length')}")
+            return Phrase(which, value=shown(value), noun=noun), Phrase("a must be positive", noun=noun)
+        if kind == "greater_than_equal":
+            return found, Phrase("no number of a scene may be below", limit=f"{ctx['ge']:g}")
+        if kind == "less_than_equal":
+            return found, Phrase("no number of a scene may exceed", limit=f"{ctx['le']:g}")
+        if kind in ("too_short", "too_long") and loc == ("links",):
+            return Phrase("there is none"), Phrase("a scene has moving links links.1 and so")
+        if kind in ("too_short", "too_long"):
+            if isinstance(value, list) and value and isinstance(value[0], dict | list):
+                found = Phrase("found of them", count=len(value))
+            within = f"{path[-2]}." if isinstance(path[-1], int) else str(path[-1])
+            return found, _SIZES.get(within, Phrase("a place is x y"))
+        if kind == "string_too_long":
+            limit = ctx["max_length"]
+            return Phrase("is characters long", count=len(value)), Phrase("at most are possible", limit=limit)
+        if kind == "string_pattern_mismatch":
+            return Phrase("is no name here", value=shown(value)), _name_rule(ctx)
+        return found, from_others(str(item["msg"]))
+
+    def _about_key(self, loc: KeyPath) -> Wording:
+        """What an unknown key may mean."""
+        key = str(loc[-1])[:60]
+        if key in self.keys_at(()) and len(loc) > 1:
+            at_top = key in ("title", "title_zh", "source", "source_zh", "find")
+            own = Phrase("is a table of its own", key=key)
+            return Phrase("belongs at the top of the file before", key=key) if at_top else own
+        if loc[0] == "driver" and key == "slide":
+            return Phrase("a driver has either link a driven angle")
+        return did_you_mean(key, self.keys_at(loc[:-1]))
+
+
+# -- what is left of a file --------------------------------------------------------------------------------------------
+
+
+def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
+    """Copy a mapping, or typed tables, to plain dict, list, str, bool, int and float, so that the form can be checked
+    strictly.
+
+    Raises SceneError where a key is no text, or where the tables are nested too deeply or too many to be a scene.
+    """
+    left = MOST_VALUES
+
+    def copy(value: object, path: KeyPath) -> object:
+        nonlocal left
+        left -= 1
+        if len(path) > DEEPEST:
+            found = Phrase("is nested more than levels deep", most=DEEPEST)
+            raise SceneError(Problem(path_name(path[:4]), found, Phrase("a scene needs at most four")))
+        if left < 0:
+            found = Phrase("holds more than values", most=MOST_VALUES)
+            raise SceneError(Problem(Phrase("the file"), found, Phrase("a scene is one mechanism")))
+        if isinstance(value, FileTable):
+            value = entries(value)
+        elif hasattr(value, "tolist"):  # arrays and numbers of NumPy
+            value = value.tolist()
+        if isinstance(value, Mapping):
+            for key in value:
+                if not isinstance(key, str | int) or str(key).startswith(("<", "[")):  # signs that pydantic's paths use
+                    found = Phrase("has the key", key=f"{key!a:.60}")
+                    raise SceneError(Problem(path_name(path), found, Phrase("keys are words")))
+            return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
+        if isinstance(value, list | tuple):
+            return [copy(item, (*path, i)) for i, item in enumerate(value)]
+        if isinstance(value, bool):
+            return value
+        if isinstance(value, str):
+            return str(value)
+        if isinstance(value, Integral):
+            whole = int(value)
+            return whole if abs(whole) < 10**300 else math.inf if whole > 0 else -math.inf
+        if isinstance(value, Real):
+            return float(value)
+        return value
+
+    made = copy(source, ())
+    assert isinstance(made, dict)
+    return made
+
+
+def _cut(path: KeyPath) -> KeyPath:
+    """The smallest entry of the file that can be taken out for something wrong at ``path``."""
+    head, inside = str(path[0]), str(path[2]) if len(path) > 2 else ""
+    if head == "links":
+        return path[: 4 if inside in ("at", "guides", "discs") else 3]
+    if head == "frame":
+        return path[: 3 if path[1:2] and path[1] in ("points", "guides", "discs") else 2]
+    if head == "driver" and path[-1] in ("link", "slide"):  # without it the form of the driver is not known
+        return path[:1]
+    if head == "driver":
+        return path[: 3 if isinstance(path[1:2] and path[1], int) else 2]
+    return path[: 3 if head == "cams" else 2]
+
+
+def _read_as(raw: OwnTables, path: KeyPath, key: str) -> None:
+    """Move a misspelt entry to the key that is meant; a table is added to the one that is there."""
+    table = value_at(raw, path[:-1])
+    value = table[path[-1]]
+    moved = {**value, **table[key]} if key in table else value
+    renamed = {key if k == path[-1] else k: v for k, v in table.items()}
+    table.clear()
+    table.update({**renamed, key: moved})
+
+
+def _take_out(raw: OwnTables, path: KeyPath) -> KeyPath:
+    """Take an entry out, or where it is not there (a required key) the table that misses it; return its path."""
+    table = value_at(raw, path[:-1])
+    if isinstance(table, dict) and path[-1] in table:
+        del table[path[-1]]
+        return path
+    return _take_out(raw, path[:-1]) if len(path) > 1 else path
+
+
+# -- sentences ---------------------------------------------------------------------------------------------------------
+
+_BARE = re.compile(r"[A-Za-z0-9_-]+")
+_NOUNS = {
+    "count": "count", "g": "gravity", "mass": "mass", "rate": "rate", "weight": "weight", "delta": "fluctuation",
+    "K": "number", "swing": "number",
+}  # fmt: skip
+"""What must be positive, where it is no length."""
+_KINDS = {
+    "string_type": Phrase("a text is wanted"),
+    "float_type": Phrase("a number is wanted"),
+    "bool_type": Phrase("true or false is wanted"),
+    "list_type": Phrase("a list is wanted"),
+    "dict_type": Phrase("a table is wanted"),
+    "dataclass_type": Phrase("a table is wanted"),
+}
+_SIZES = {
+    "on": Phrase("one guide or two are possible"),
+    "in": Phrase("one guide or two are possible"),
+    "angle_on": Phrase("one number for each guide is wanted"),
+    "from": Phrase("two points of the link are wanted"),
+    "r": Phrase("two lengths are wanted one for each point"),
+    "driver": Phrase("two values of the driver are wanted"),
+    "between": Phrase("two outlines or wheels are wanted 1.k 2.f"),
+    "teeth": Phrase("two are wanted one for each wheel 20"),
+    "angles": Phrase("two angles in degrees are wanted 30 30"),
+    "pairs": Phrase("three of are wanted", wanted=Phrase("crank angle rocker angle")),
+    "pairs.": Phrase("two angles in degrees are wanted 30 60"),
+    "positions": Phrase("three of are wanted", wanted="{ B = [x, y], C = [x, y] }"),
+}
+"""How long the list of a key is, or with a point, one in it."""
+
+
+def shown(value: object) -> Wording:
+    """A value as it would be written in the file, shortened.
+
+    >>> shown(True), shown("AB"), shown([1, 2.5])
+    ('true', '"AB"', '[1, 2.5]')
+    """
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        text = value.encode("unicode_escape").decode() if not value.isprintable() else value
+        return f'"{text[:57]}..."' if len(text) > 60 else f'"{text}"'
+    if isinstance(value, float):
+        return f"{value:.15g}"
+    if isinstance(value, int):
+        return str(value) if abs(value) < 10**20 else Phrase("a number of too many digits")
+    if isinstance(value, list):
+        inner = ", ".join(str(shown(v)) for v in value[:4]) + (", ..." if len(value) > 4 else "")
+        return f"[{inner}]"
+    if isinstance(value, dict):
+        return Phrase("a table" if value else "an empty table")
+    return str(value)[:60] if value is not None else Phrase("nothing")
+
+
+def path_name(path: Iterable[str | int]) -> str:
+    """A path as its name: ``links.3.length``; the second of several drivers is ``driver.2``."""
+    parts = []
+    for part in path:
+        if isinstance(part, int):
+            parts.append(str(part + 1))
+        else:
+            parts.append(part if _BARE.fullmatch(part) and len(part) <= 60 else str(shown(part)))
+    return ".".join(parts) or "the file"
+
+
+def clause_of(description: str) -> str:
+    """The description of a key as a clause of a problem."""
+    return description[:1].lower() + description[1:].rstrip(".")
+
+
+def _written_path(loc: KeyPath) -> KeyPath:
+    """A place as the file has it, without pydantic's tags."""
+    return tuple(part for part in loc if not (isinstance(part, str) and part.startswith("<")) and part != "[key]")
+
+
+def _name_rule(ctx: Tables) -> Wording:
+    """How a name is written, by the pattern that it misses."""
+    pattern = str(ctx.get("pattern", ""))
+    if "max_length" in ctx:
+        return Phrase("a name has at most letters and digits", limit=ctx["max_length"])
+    if r"\." in pattern:
+        return Phrase("a guide is written link for the link's")
+    if "/" in pattern:
+        return Phrase("a sliding pair is written link or sliding")
+    if "A-Z][" in pattern:
+        return Phrase("a point is named by a capital letter")
+    return Phrase("a link or guide is named by letters")
+
+
+# -- rules from types --------------------------------------------------------------------------------------------------
+
+
+def _rules(table: type[AnyTable], others: Mapping[str, object]) -> TypeAdapter[AnyTable]:
+    """The rules of a table by its annotations, in which ``others`` go before the tables of the same names."""
+    made = TypeAdapter(table)
+    made.rebuild(_types_namespace={**vars(sys.modules[table.__module__]), **others})
+    return made
+
+
+class _WhenMet:
+    """The rules of a table in another: made when a file has such a table, since most have few of the kinds."""
+
+    def __init__(self, table: type[FileTable]) -> None:
+        self.rules = cache(lambda: _rules(table, _when_met()))
+
+    def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
+        return no_info_plain_validator_function(lambda value: self.rules().validate_python(value))
+
+
+@cache
+def _when_met() -> Mapping[str, object]:
+    """Every table by its name, its rules to be made when they are met."""
+    return {table.__name__: Annotated[table, _WhenMet(table)] for table in FileTable.__subclasses__()}
+
+
+def _within(kind: object, loc: KeyPath) -> type[FileTable] | None:
+    """The table at ``loc`` inside of a value of a kind; of several kinds that of the tag, or the first that has it."""
+    if isinstance(kind, type) and issubclass(kind, FileTable):
+        if not loc:
+            return kind
+        hints = get_type_hints(kind, {**vars(sys.modules[kind.__module__]), "ClassVar": ClassVar}, include_extras=True)
+        types = {key_of(key): hints[key.name] for key in keys_of(kind)}
+        return _within(types[str(loc[0])], loc[1:]) if loc[0] in types else None
+    if get_origin(kind) is Annotated:
+        bare, *marks = get_args(kind)
+        tags = [mark.tag for mark in marks if isinstance(mark, Tag)]
+        return None if tags and loc[:1] != (tags[0],) else _within(bare, loc[1:] if tags else loc)
+    if get_origin(kind) in (dict, list, tuple):
+        return _within(get_args(kind)[1 if get_origin(kind) is dict else 0], loc[1:]) if loc else None
+    return next((table for part in get_args(kind) if (table := _within(part, loc)) is not None), None)
+
+
+def _without_null(node: Json) -> Json:
+    """TOML has no null: a key that may be left out keeps the type it has when it is written."""
+    if isinstance(node, list):
+        return [_without_null(item) for item in node]
+    if not isinstance(node, dict):
+        return node
+    out = {k: _without_null(v) for k, v in node.items() if not (k == "default" and v is None)}
+    kinds = out.get("anyOf")
+    if isinstance(kinds, list) and {"type": "null"} in kinds:
+        rest = [kind for kind in kinds if kind != {"type": "null"}]
+        del out["anyOf"]
+        out = {**rest[0], **out} if len(rest) == 1 and isinstance(rest[0], dict) else {**out, "anyOf": rest}
+    return out

@@ -12,9 +12,8 @@ from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross
-from graphkin.scene.bodies import Reading
-from graphkin.scene.contacts import PlacedContact, PlacedDisc, PlacedGear
-from graphkin.scene.model import PlacedGuide, SlidingPair
+from graphkin.scene.bodies import Reading, SlidingPair
+from graphkin.scene.model import PlacedContact, PlacedDisc, PlacedGear, PlacedGuide
 from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, Switch, file_table, forms, key
 from graphkin.words import Phrase
 

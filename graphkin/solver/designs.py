@@ -13,7 +13,7 @@ from functools import cache, cached_property
 import numpy as np
 
 from graphkin.errors import SceneError, Unsolvable
-from graphkin.scene.dimensions import Dimension, with_dimensions
+from graphkin.scene.model import Dimension, with_dimensions
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.code import Code, Kernel
 from graphkin.solver.driver_range import range_from

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphkin.plane import cross
-from graphkin.scene.contacts import PlacedContact
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.search import least_value
 from graphkin.solver.driver_range import DriverRange, extremes, range_of

@@ -10,9 +10,8 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.dimensions import Dimension, dimensions
 from graphkin.scene.force_names import force_names, opposite
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Dimension, Mechanism, dimensions
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.bounds import error_bounds
 from graphkin.solver.code import LONG, Code, Kernel

@@ -10,7 +10,8 @@ import numpy as np
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
-from graphkin.scene.model import Mechanism, PlacedLink, SlidingPair
+from graphkin.scene.bodies import SlidingPair
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.solver.pose import Array, ErrorBound, Pose, rest
 from graphkin.structure import Pair, Structure
 from graphkin.words import Phrase

@@ -20,9 +20,9 @@ from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
+from graphkin.scene.bodies import CircularSlot, PinInSlot
 from graphkin.scene.cams import LawCam, SwingingFollower
-from graphkin.scene.contacts import PlacedContact, PlacedDisc
-from graphkin.scene.model import CircularSlot, Mechanism, PinInSlot, PlacedGuide, PlacedLink
+from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
 from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase
 

@@ -20,7 +20,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem
-from graphkin.scene.contacts import PlacedContact
+from graphkin.scene.model import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Pair, Structure
 from graphkin.words import Phrase

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from graphkin.errors import CallError, Problem, SceneError, as_text, unfit
 from graphkin.files import OwnTables, Tables, opened, path_of
 from graphkin.scene import mechanism_of
-from graphkin.scene.dimensions import Dimension, changed_beside, dimensions
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Dimension, Mechanism, changed_beside, dimensions
 from graphkin.scene.scene import put
 from graphkin.scene.tables import path_of_key, value_at
 from graphkin.solver.pose import turned

@@ -18,9 +18,8 @@ from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import Tables, folder_alone, whole_file
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
-from graphkin.scene.dimensions import Dimension, dimensions, same_but_for_dimensions
 from graphkin.scene.drivers import moments, moves_by_law
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Dimension, Mechanism, dimensions, same_but_for_dimensions
 from graphkin.solver import DriverRange, driver_range, over_time, prepare, structure_of
 from graphkin.solver.designs import PreparedMechanisms
 from graphkin.solver.named_positions import named_positions

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import graphkin
-from graphkin.scene.files import toml_text
+from graphkin.scene.scene import toml_text
 
 from ..command import run
 

@@ -14,7 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from graphkin.scene.files import library_text
+from graphkin.scene.scene import library_text
 from tests.board.served import served, talking
 from tests.papers.test_browser import FLAGS
 

@@ -17,8 +17,7 @@ import numpy as np
 import graphkin
 from graphkin.errors import CallError, GraphkinError, SceneError, Unsolvable
 from graphkin.scene import mechanism_of
-from graphkin.scene.files import library
-from graphkin.scene.scene import written
+from graphkin.scene.scene import library, written
 from graphkin.study.designs import applied
 
 POSITIONS = 3

@@ -12,8 +12,7 @@ from graphkin.board.pictures import FigureOptions, shown
 from graphkin.board.scene_text import changed, line_of, places
 from graphkin.board.shelf import Shelf, mark_of
 from graphkin.errors import CallError, Problem
-from graphkin.scene.files import library_text
-from graphkin.scene.scene import mechanism_of
+from graphkin.scene.scene import library_text, mechanism_of
 
 pytestmark = pytest.mark.quick
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import graphkin
-from graphkin.scene.files import library_text
+from graphkin.scene.scene import library_text
 
 pytest.importorskip("anywidget", reason="the extra live is not installed")
 pytestmark = pytest.mark.quick

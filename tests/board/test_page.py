@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 import graphkin
-from graphkin.scene.files import library_text
+from graphkin.scene.scene import library_text
 from tests.board.served import served
 
 pytest.importorskip("uvicorn", reason="the extra live is not installed")

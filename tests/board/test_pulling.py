@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from graphkin.board.answers import Desk, answer
-from graphkin.scene.files import library_text
+from graphkin.scene.scene import library_text
 
 
 @pytest.mark.parametrize("name", [

@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from graphkin.board.server import LARGEST_MESSAGE, STATIC
-from graphkin.scene.files import library_text
+from graphkin.scene.scene import library_text
 from tests.board.served import served, talking
 from tests.command import run
 

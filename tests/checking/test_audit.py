@@ -12,8 +12,7 @@ from graphkin.checking.slip_likelihood import transcription_errors
 from graphkin.checking.slips import Consequences
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
-from graphkin.scene.printed import stated
-from graphkin.scene.symbol import Symbol
+from graphkin.scene.symbol import Symbol, stated
 from graphkin.scene.tables import Units
 from graphkin.words import say
 from tests.command import run

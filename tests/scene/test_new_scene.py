@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import graphkin
-from graphkin.scene.files import NEW, new_scene
+from graphkin.scene.scene import NEW, new_scene
 
 from ..command import run
 

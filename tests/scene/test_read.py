@@ -9,7 +9,8 @@ import pytest
 
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.model import Driver, Mechanism, PinInSlot, SlidingPair
+from graphkin.scene.bodies import PinInSlot, SlidingPair
+from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
 
 from .scenes import FOUR_BAR, SIX_BAR, changed

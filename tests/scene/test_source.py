@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from graphkin.errors import SceneError
-from graphkin.scene import files as texts
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
+from graphkin.scene import scene as texts
 from tests.command import run
 
 from .scenes import FOUR_BAR

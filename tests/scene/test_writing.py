@@ -9,11 +9,10 @@ import pytest
 
 import graphkin
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
-from graphkin.scene.files import toml_text
-from graphkin.scene.form import plain
 from graphkin.scene.laws import FollowerLaw, LiftPiece, MotionLaw
+from graphkin.scene.scene import toml_text
 from graphkin.scene.scene_tables import SCENE, as_mapping
-from graphkin.scene.tables import in_si, in_units
+from graphkin.scene.tables import in_si, in_units, plain
 from graphkin.solver import solve
 
 

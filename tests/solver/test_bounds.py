@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of, mechanism_of_text
-from graphkin.scene.dimensions import Dimension, dimensions, with_dimensions
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Dimension, Mechanism, dimensions, with_dimensions
 from graphkin.solver import Motion, bounds, solve
 from tests import EVERYTHING, rolling_linkages, scenes
 from tests.bench.accuracy import measure

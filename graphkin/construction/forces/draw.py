@@ -38,7 +38,8 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.construction.touching import Touch, Touching
 from graphkin.plane import added_up, cross, unit
-from graphkin.scene.model import Mechanism, PinInSlot, PlacedGuide, PlacedLink
+from graphkin.scene.bodies import PinInSlot
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, Element, Structure, analyse
 

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 
 from graphkin.account.headings import number, once
 from graphkin.account.notation import Letters
-from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink, SlidingPair
+from graphkin.scene.bodies import SlidingPair
+from graphkin.scene.model import Mechanism, PlacedGuide, PlacedLink
 from graphkin.words import Phrase, languages, say
 
 __all__ = ["along_its_guide", "as_line", "given_shapes", "off_its_guide", "used_guides"]

@@ -21,8 +21,9 @@ from graphkin.drawing.ink.primitives import Segment
 from graphkin.drawing.ink.strokes import colour_of_link
 from graphkin.drawing.ink.symbols import hull
 from graphkin.plane import cross, dot
+from graphkin.scene.bodies import CircularSlot
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.model import CircularSlot, Mechanism
+from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair
 
