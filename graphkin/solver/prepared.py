@@ -36,8 +36,11 @@ PRODUCTS = 4
 """Roundings in the cosine and sine of an angle, those of many even steps included."""
 _PER: tuple[Name, ...] = (("per metre",), ("per radian",), ("per metre of rates",))
 RESIDUE = 16 * UNIT  # of what moves: a few roundings
-CLEAR = 0.2
-"""Where no sine at the nodes of a path is less than this, none between them is near zero."""
+CLEAR = 3.0
+"""Times the greatest turn of a link between two positions: a sine that is more than that at both is not zero between
+them, since the two lines whose sine it is turn by twice that at most."""
+FINER, FINEST = 16, 4
+"""Into so many parts, and so many times, is divided what lies between two positions that do not tell."""
 
 
 @dataclass(frozen=True)
@@ -117,9 +120,21 @@ class PreparedMechanism:
         ahead = self.range.ahead
         if ahead.limit is not None or len(ahead.flips) or self.by_newton:
             return False
-        t = ahead.nodes
-        state = positions(self.structure, ahead.drive(t), ahead.form(t), rates=False)
-        return all(float(np.min(np.abs(g.sine))) > CLEAR for g in state.groups.values() if isinstance(g, DyadSolution))
+        t = ahead.nodes[None]
+        for _ in range(FINEST):
+            state = positions(self.structure, ahead.drive(t.ravel()), ahead.form(t.ravel()), rates=False)
+            dyads = (g for g in state.groups.values() if isinstance(g, DyadSolution))
+            sine = np.min([np.abs(np.broadcast_to(g.sine, t.size)) for g in dyads] or [np.ones(t.size)], axis=0)
+            if not (sine > SINGULAR).all():
+                return False
+            axes = np.array([np.broadcast_to(pose.u, t.size) for pose in state.poses.values()]).reshape(-1, *t.shape)
+            turn = np.abs(np.angle(axes[..., 1:] / axes[..., :-1])).max(axis=0)
+            sine = sine.reshape(t.shape)
+            near = np.minimum(sine[:, 1:], sine[:, :-1]) <= CLEAR * turn
+            if not near.any():
+                return True
+            t = np.linspace(t[:, :-1][near], t[:, 1:][near], FINER + 1, axis=1)
+        return False
 
     @cached_property
     def signs(self) -> dict[Name, float] | None:

@@ -144,3 +144,14 @@ def test_a_larger_group_is_solved_as_by_solve() -> None:
     expected = [motion.acceleration("E").real, motion.acceleration("E").imag, motion.omega("5")]
     assert ok.all()
     assert columns == pytest.approx(np.array(expected), abs=1e-11 * np.abs(expected).max())
+
+
+@pytest.mark.parametrize(("past", "clear"), [(1e-3, True), (1e-9, False)])
+def test_only_a_turn_that_comes_to_no_dead_point_is_swept_without_a_look_at_each_position(past, clear) -> None:
+    scene = mechanism_of(scenes.four_bar(100, 300, 101, 299 + past, sketch={"C": [300, 101]}))
+    ready = prepare(scene, ["omega_3"])
+    assert (True, clear) == (ready.whole, ready.clear)
+    columns, ok = ready.sweep(720)
+    solved = solve(scene, sweep=720)
+    assert solved.ok.tolist() == ok.tolist()
+    assert pytest.approx(solved.omega("3")[ok], rel=1e-7) == columns[0][ok]
