@@ -14,7 +14,6 @@ from graphkin.account.headings import number, slide_index, written
 from graphkin.account.notation import Letters
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import pushed_by_driver
-from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet, either_way
 from graphkin.construction.steps import Aid, DiagramName, Direction, RateTrial, Size, Step, Superposed, Vector
 from graphkin.plane import added_up
@@ -155,7 +154,7 @@ def _measured_rate(sheet: Sheet, step: Step) -> tuple[float, float | None, float
     if not step.held:
         rate = (sheet.omega if step.kind == "omega" else sheet.alpha)[step.link]
         return rate.mm, sheet.readings.get(frozenset(step.points), rate.arm_mm), rate.value
-    drawn = (abs(one.span) for one in vectors_seen(sheet, step.diagram) if one.symbol == step.symbol)
+    drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
     return _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
 
 
@@ -304,7 +303,7 @@ def _span(sheet: Sheet, symbol: Symbol) -> float | None:
     """The length of a drawn velocity (mm), as read where a hand has."""
     drawn: Vector | Aid | None = sheet.vectors("velocity").get(symbol)
     if drawn is None:
-        drawn = next((one for one in vectors_seen(sheet, "velocity") if one.symbol == symbol), None)
+        drawn = next((one for one in sheet.vectors_seen("velocity") if one.symbol == symbol), None)
     return None if drawn is None else _as_read(sheet, symbol, abs(drawn.span))
 
 

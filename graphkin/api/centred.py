@@ -35,7 +35,7 @@ from graphkin.construction.centres import (
     velocity_sentences,
 )
 from graphkin.construction.centres.pairs import LinkPair, normal, wedge
-from graphkin.construction.room import Room, scales_for
+from graphkin.construction.scales import Room
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
@@ -425,7 +425,7 @@ class Centred(OfScene, Result):
 def found_centres(of: Mechanism | Structure, values: Mapping[str, float] | None) -> Centres:
     """All centres at driver values in SI, on a drawing of a scale of its own that leaves room around the mechanism."""
     centres = find_centres(of, values)
-    return centres.at(scales_for(centres.sheet, ROOM))
+    return centres.at(centres.sheet.scales_for(ROOM))
 
 
 def _name(pair: LinkPair) -> str:

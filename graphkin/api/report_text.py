@@ -155,10 +155,11 @@ def contact_lines(checked: Checked, language: str) -> list[str]:
     if other is None:
         pins = dict.fromkeys(p.point for p in checked.mechanism.pins)
         return [say(Phrase("at pins", (", ".join(pins),)), language)] if pins else []
-    ways = dict.fromkeys(n for n in other.sheet.remarks if n.key in ("at contact", "at pitch curve"))
+    said = ("at contact", "at pitch curve")
+    ways = dict.fromkeys((str(n.of[0]), n.key) for n in other.sheet.remarks if n.key in said)
     if not ways:  # nothing asked leads over a contact
         return []
-    names, curve = [str(n.of[0]) for n in ways], any(n.key == "at pitch curve" for n in ways)
+    names, curve = [name for name, _ in ways], any(key == "at pitch curve" for _, key in ways)
     first = {row.symbol: row for row in checked.report.rows}
     both = [(row, first[row.symbol]) for row in other.report.rows if row.symbol in first]
     alike = sum(abs(a.reading.value - b.reading.value) <= a.tolerance + b.tolerance for a, b in both)

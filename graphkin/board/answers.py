@@ -25,7 +25,7 @@ from graphkin.board.building import pulled
 from graphkin.board.pictures import FigureOptions
 from graphkin.board.scene_text import changed, completions, line_of
 from graphkin.board.shelf import Shelf, mark_of
-from graphkin.construction.sheet import Scales
+from graphkin.construction.scales import Scales
 from graphkin.drawing.figures import figure_kinds
 from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_you_mean
 from graphkin.files import Json

@@ -18,7 +18,8 @@ from graphkin.api.drawn import Drawn, drawn_figure, known_figures
 from graphkin.api.report_text import plain_said, reading_words
 from graphkin.board.building import movable
 from graphkin.construction import Plan, execute, plan
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.force_stages import force_stages

@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import travel
-from graphkin.construction.sheet import Sheet, either_way
+from graphkin.construction.sheet import MOST_LOST, Sheet, either_way
 from graphkin.construction.steps import DiagramName, Vector
-from graphkin.construction.zero_vectors import MOST_LOST
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair

@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from graphkin.checking.readings import Reading
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, phrase_of
 from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.files import Json

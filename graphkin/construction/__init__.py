@@ -4,17 +4,16 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.construction.instruments import EXACT, Cad, Exact, Instrument, erring, nudged, pencil
+from graphkin.construction.instruments import EXACT, Cad, Instrument, erring, nudged, pencil
 from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
 from graphkin.construction.polygons import NO_SLIP, Slip
-from graphkin.construction.room import Room, drawn_sizes
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Room, Scales
+from graphkin.construction.sheet import Sheet
 
 __all__ = [
     "EXACT",
     "NO_SLIP",
     "Cad",
-    "Exact",
     "GoneOn",
     "Instrument",
     "Plan",
@@ -24,7 +23,6 @@ __all__ = [
     "Sheet",
     "Slip",
     "draft",
-    "drawn_sizes",
     "erring",
     "execute",
     "nudged",

@@ -45,7 +45,7 @@ from graphkin.construction.net import (
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
-from graphkin.construction.sheet import DrawnGroup, Rate, Remark
+from graphkin.construction.sheet import DrawnGroup, Rate
 from graphkin.construction.steps import (
     Aid,
     Bar,
@@ -243,7 +243,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     _draw_contours(plot, order, group)
     if order == "velocity":
         for _, one, two in plan.parallel:
-            plot.board.notice("mechanism", Remark("parallel legs", (one, two)))
+            plot.board.notice("mechanism", "parallel legs", one, two)
     if plan.tried:
         plan = plot.plans[group] = _with_assumptions(plot, order, group, plan)
         _assume(plot, order, group, plan, _true_rates(plot, order, group, plan))
@@ -705,7 +705,7 @@ def _true_rates(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPla
         plot.board.do(Step("trial", "polygon", order, tuple(strokes), data=told))
     shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
     places = [[end[ref] for ref in shared] for end in ends]
-    plot.board.notice(order, Remark("magnified", (", ".join(group.links),), magnified(places, apart)))
+    plot.board.notice(order, "magnified", ", ".join(group.links), size=magnified(places, apart))
     found = _as_noted(plot, plan, rates, apart)
     closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
     ways = tuple(_left_open(e, across) for e, across in plan.open_ends)

@@ -21,7 +21,7 @@ from graphkin.construction.net import (
     node,
 )
 from graphkin.construction.polygons import RATE, Component, Polygons, letter
-from graphkin.construction.sheet import Equation, Rate, Remark
+from graphkin.construction.sheet import Equation, Rate
 from graphkin.construction.steps import GIVEN, Aid, Bar, Direction, Mark, Order, Ray, Role, Size, Step, Term, Vector
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
@@ -326,7 +326,7 @@ def _lay_off(plot: Polygons, order: Order, part: Component, at: complex, equatio
         hand = plot.board.instrument
         tip = hand.point(at + hand.direction(part.span / size) * hand.length(size))
     vector = Vector(part.symbol, at, tip, part.role)
-    plot.board.notice(order, Remark("zero vector", (part.symbol,), size))
+    plot.board.notice(order, "zero vector", part.symbol, size=size)
     plot.record(vector, Step("lay off", part.role, order, (), equation, symbol=part.symbol, size=part.size, mm=size,
                              direction=part.written))  # fmt: skip
     return tip
@@ -339,7 +339,7 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
         for part in parts:
             if part.span is None:
                 found = Vector(part.symbol, tail, plot.slip.found(part.symbol, tail, tip), part.role)
-                plot.board.notice(order, Remark("zero vector", (part.symbol,), abs(found.span)))
+                plot.board.notice(order, "zero vector", part.symbol, size=abs(found.span))
                 mm = plot.found_mm(part.symbol, found.span)
                 plot.record(found, Step("read", "vector", order, (), equation, symbol=part.symbol, mm=mm))
                 at = tip
@@ -524,7 +524,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
         rule = Size("over radius", factor=symbol_of(plot, "v", edge), radius=1.0 / abs(bends))
         inward = 1j * sense * (1 if bends > 0.0 else -1)
         parts.append(_term(plot, edge, "an", inward, speed**2 * abs(bends) / per, turned, rule))
-        plot.board.notice("acceleration", Remark("at pitch curve", (edge.start.point,)))
+        plot.board.notice("acceleration", "at pitch curve", edge.start.point)
     return [*parts, _term(plot, edge, "ar", sense, mm, edge.direction, size)]
 
 
@@ -534,7 +534,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     one, two = (ref.link for ref in edge.labels)
     contact, place, normal = plot.contact(edge.contact)
     touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
-    plot.board.notice(order, Remark("at contact", (contact.name,)))
+    plot.board.notice(order, "at contact", contact.name)
     tangent, per = -1j * normal, plot.scales.of(order)
     if order == "velocity":
         return [_term(plot, edge, "v", tangent, None, edge.direction)]

@@ -20,7 +20,8 @@ from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
 from graphkin.construction.position import place
-from graphkin.construction.sheet import LimitPosition, Limits, Scales
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Element, Pair, Structure

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.steps import OnPaper
 from graphkin.plane import added_up, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
 from graphkin.structure import Body, Dyad, Pair, Structure
@@ -19,7 +20,7 @@ __all__ = [
 
 
 @dataclass(frozen=True)
-class Pose:
+class Pose(OnPaper):
     """Where a link lies on paper: its origin (mm) and the unit direction of its own x axis."""
 
     origin: complex
@@ -28,11 +29,6 @@ class Pose:
     def place(self, own: complex) -> complex:
         """A place on paper (mm), given in the link's own axes (mm)."""
         return self.origin + self.axis * own
-
-    def scaled(self, times: float) -> Pose:
-        """The same place on a larger figure."""
-        return Pose(self.origin * times, self.axis)
-
 
 Poses = Mapping[str, Pose]
 

@@ -18,12 +18,10 @@ from graphkin.construction.instruments import EXACT, ErringInstrument, Instrumen
 from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import draw_position, place
-from graphkin.construction.room import Room, chosen_scales, extents_around, extents_of, leading_on
-from graphkin.construction.scales import Extent
+from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.seen_from import seen
-from graphkin.construction.sheet import Board, DrawnGroup, Limits, Scales, Sheet, either_way
-from graphkin.construction.steps import ORDERS, DiagramName, Order, Step
-from graphkin.construction.touching import Touching, outlines_on_paper
+from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, either_way, without_residues
+from graphkin.construction.steps import ORDERS, Order, Step
 from graphkin.construction.triangles import (
     Inversion,
     TriangleDrawn,
@@ -32,7 +30,6 @@ from graphkin.construction.triangles import (
     opened_at_triangles,
     own_assembly,
 )
-from graphkin.construction.zero_vectors import without_residues
 from graphkin.errors import Unsolvable
 from graphkin.scene.loads import Loading
 from graphkin.scene.model import Mechanism
@@ -339,17 +336,15 @@ NATURAL = Scales(1e-3, 1e-3, 1e-3)  # 1 mm of paper for 1 mm, 1 mm/s, 1 mm/s2
 class Plan(Task):
     """A task as exact hands carry it out, and the scales of its figures.
 
-    ``exact`` is that construction, once for all figures, at scales of its own; ``extents`` are those of its figures,
-    vectors that only a question asks for left out.
+    ``exact`` is that construction, once for all figures, at scales of its own.
     """
 
     scales: Scales
     exact: Sheet
-    extents: Mapping[DiagramName, Extent]
 
     def scales_for(self, room: Room | None) -> Scales:
         """The scales that fill a room; without one the scene's own where it gives them."""
-        return chosen_scales(self.structure.scene, self.extents, room)
+        return chosen_scales(self.structure.scene, self.exact.extents, room)
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
@@ -386,9 +381,8 @@ class Plan(Task):
         except Unsolvable:  # a contact at a pivot, which turns nothing there
             return None
         exact = finished(other, made)
-        extents = extents_of(exact)
         return replace(
-            other, exact=exact, extents=extents, scales=chosen_scales(self.structure.scene, extents, None),
+            other, exact=exact, scales=chosen_scales(self.structure.scene, exact.extents, None),
             chains=made.polygons.chains, plans=made.polygons.plans,
         )  # fmt: skip
 
@@ -464,14 +458,8 @@ def _planned(task: Task, room: Room | None) -> Plan:
         moves = any(driver.values[1] for driver in task.structure.scene.drivers)
         task = replace(task, acting=acting_loads(exact, exact if moves else growing[0]), growing=growing)
         exact = replace(exact, acting=task.acting, growing=task.growing)
-    places = [z for p, z in polygons.places.items() if p not in polygons.special]
-    for profile in outlines_on_paper(task.structure.scene, polygons.paper.poses, 1.0 / NATURAL.length).values():
-        places += profile
-    places += Touching(task.structure.scene, 1.0 / NATURAL.length, polygons.paper.poses).outermost()
-    extents = extents_around(places, lambda order: (*polygons.shown_of(order), *leading_on(exact, order)), NATURAL)
     own = {f.name: getattr(task, f.name) for f in fields(Task)} | {"chains": polygons.chains, "plans": polygons.plans}
-    scales = chosen_scales(task.structure.scene, extents, room)
-    return Plan(**own, scales=scales, exact=exact, extents=extents)
+    return Plan(**own, scales=chosen_scales(task.structure.scene, exact.extents, room), exact=exact)
 
 
 def _growing(task: Task, here: Sheet) -> tuple[Sheet, ...]:

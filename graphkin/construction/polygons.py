@@ -18,7 +18,8 @@ from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
-from graphkin.construction.sheet import Board, Rate, Scales
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Board, Rate
 from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Role, Size, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.trains import Wheels
@@ -256,10 +257,6 @@ class Polygons:
     def is_aid(self, symbol: Symbol) -> bool:
         """Whether a vector belongs to a special point."""
         return any(ref is not None and ref.point in self.special for ref in (symbol.of, symbol.to))
-
-    def shown_of(self, order: Order) -> list[Vector]:
-        """The vectors of a polygon, those that only lead to special points left out."""
-        return [v for symbol, v in self.drawn[order].items() if not self.is_aid(symbol)]
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""

@@ -9,7 +9,7 @@ from graphkin.construction.dyads import Meeting, assemble, drive, meet, refuse
 from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
-from graphkin.construction.sheet import Board, Remark
+from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Step
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import (
@@ -105,7 +105,7 @@ def draw_position(
             story = (trials or {})[element].steps(paper, so_far)
         else:
             meeting = position.meetings[i]
-            board.notice("mechanism", Remark("sharp crossing", (_inner_name(element),), meeting.sharpness))
+            board.notice("mechanism", "sharp crossing", _inner_name(element), size=meeting.sharpness)
             _remark_arm(board, element, paper)
             index = branches.get(i, 0) % len(meeting.poses)
             story = meeting.tell(index)
@@ -151,7 +151,7 @@ def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
     one, two = dyad.outer_first, dyad.outer_second
     if not dyad.inner.turns and one.turns and two.turns:
         apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-        board.notice("mechanism", Remark("short arm", (", ".join(dyad.links), one.point, two.point), apart))
+        board.notice("mechanism", "short arm", ", ".join(dyad.links), one.point, two.point, size=apart)
 
 
 def _inner_name(dyad: Dyad) -> str | Phrase:

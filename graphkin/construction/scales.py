@@ -1,14 +1,19 @@
-"""Scales of a round series, and which of them shows something in the room that it has."""
+"""Scales: of a round series, which of them show something in the room that it has, and which a mechanism and its
+polygons get, the scene's own or those of the 1-2-2.5-5 series that fill the paper."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-__all__ = ["SERIES", "Extent", "fitting_scale", "next_of_series"]
+from graphkin.construction.steps import DIAGRAMS, DiagramName
+from graphkin.scene.model import Mechanism
+
+__all__ = ["SERIES", "Extent", "Room", "Scales", "chosen_scales", "fitting_scale", "next_of_series"]
 
 SERIES = (1.0, 2.0, 2.5, 5.0)
+UNMET = 40.0  # what a wish that a room does not hold costs, as `Room.cost`
 
 
 def next_of_series(least: float) -> float:
@@ -38,10 +43,67 @@ class Extent:
         x, y = [z.real for z in spots], [z.imag for z in spots]
         return Extent((max(x) - min(x)) * per_mm, (max(y) - min(y)) * per_mm)
 
+    def least_scale(self, room: tuple[float, float]) -> float:
+        """The scale (m, m/s, m/s2 for one mm) at which it just fits a width and height (mm)."""
+        return max(self.width / room[0], self.height / room[1])
+
 
 def fitting_scale(extent: Extent, room: tuple[float, float], units: float) -> float:
     """The finest scale of the series (units for one mm) at which something fits the room; 1 if it spans nothing."""
-    least = max(extent.width / room[0], extent.height / room[1]) * units
+    least = extent.least_scale(room) * units
     if not math.isfinite(least) or least <= 0.0:
         return 1.0
     return next_of_series(least)
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Scale factors: m, m/s, m/s2 and N for one mm of paper; ``force`` is 0 where no forces are drawn."""
+
+    length: float
+    velocity: float
+    acceleration: float
+    force: float = 0.0
+
+    def of(self, diagram: DiagramName) -> float:
+        return self.length if diagram == "mechanism" else getattr(self, diagram)
+
+
+@dataclass(frozen=True)
+class Room:
+    """Width and height (mm) that the mechanism and each polygon may fill.
+
+    ``others`` are rooms that may be taken instead, where their scales are so much finer (in powers of ten, of all three
+    figures together) as they ``cost`` more; with ``keeps_wishes`` scales that the scene wishes for are kept in a room
+    that holds them.
+    """
+
+    mechanism: tuple[float, float] = (150.0, 150.0)
+    polygon: tuple[float, float] = (140.0, 140.0)
+    others: tuple[Room, ...] = ()
+    cost: float = 0.0
+    keeps_wishes: bool = False
+
+
+def chosen_scales(scene: Mechanism, extents: Mapping[DiagramName, Extent], room: Room | None) -> Scales:
+    """The scene's own scales, and for those it does not give the finest of the series that fit the room."""
+    fast = scene.units.rates.metres
+    sheet = scene.question.sheet
+    wanted = sheet.length_scale, sheet.velocity_scale, sheet.acceleration_scale
+    wishes = [wish * per if wish else None for wish, per in zip(wanted, (1e-3, fast, fast), strict=True)]
+    space = room or Room()
+    choices: list[tuple[float, list[float]]] = []
+    for part in (space, *space.others):
+        cost, scales = part.cost, []
+        for name, wish in zip(DIAGRAMS, wishes, strict=True):
+            most, unit = (part.mechanism, scene.units.metres) if name == "mechanism" else (part.polygon, fast)
+            if wish is not None and (room is None or space.keeps_wishes):
+                if room is None or wish * (1 + 1e-9) >= extents[name].least_scale(most):
+                    scales.append(wish)
+                    continue
+                cost += UNMET
+            scales.append(fitting_scale(extents[name], most, 1.0 / unit) * unit)
+            cost += math.log10(scales[-1])
+        choices.append((cost, scales))
+    least = min(cost for cost, _ in choices)
+    return Scales(*next(scales for cost, scales in choices if cost <= least + 1e-9))

@@ -15,12 +15,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphkin.construction.polygons import Polygons, Slip, letter
-from graphkin.construction.sheet import Equation, Sheet
-from graphkin.construction.steps import Aid, Bar, DiagramName, Order, Ray, Size, Step, Stroke, Term, Vector
+from graphkin.construction.sheet import Equation
+from graphkin.construction.steps import Aid, Bar, Order, Ray, Size, Step, Stroke, Term, Vector
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import LargerGroup
 
-__all__ = ["Joint", "contours", "copy_steps", "seen", "vectors_seen", "with_held"]
+__all__ = ["Joint", "contours", "copy_steps", "seen", "with_held"]
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Rows = list[np.ndarray]
@@ -132,18 +132,6 @@ def seen(symbol: Symbol, held: str) -> Symbol:
     if symbol.kind in ("v", "a") and symbol.to is None:
         return Symbol(symbol.kind, symbol.of, PointRef(symbol.of.point, held))
     return replace(symbol, seen=held)
-
-
-def vectors_seen(sheet: Sheet, diagram: DiagramName) -> Iterator[Aid]:
-    """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
-    held = {step.held for step in sheet.steps if step.reason == "seen from"}
-    special = {step.point for step in sheet.steps if step.reason == "special point"}
-    for step in sheet.steps if held else ():
-        for stroke in step.strokes if step.diagram == diagram else ():
-            if isinstance(stroke, Aid) and stroke.symbol.to is not None:
-                of, to = stroke.symbol.of, stroke.symbol.to
-                if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
-                    yield stroke
 
 
 def _term(term: Term, held: str) -> Term:

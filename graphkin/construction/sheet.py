@@ -8,19 +8,34 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from graphkin.construction.instruments import EXACT_NAME, Exact, Instrument
+from graphkin.construction.instruments import EXACT_NAME, ErringInstrument, Instrument
 from graphkin.construction.links_on_paper import Pose
-from graphkin.construction.steps import DIAGRAMS, Aid, Cause, DiagramName, Mark, Step, Term, Vector
+from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
+from graphkin.construction.steps import (
+    DIAGRAMS,
+    ORDERS,
+    Aid,
+    Cause,
+    DiagramName,
+    Mark,
+    OnPaper,
+    Step,
+    Stroke,
+    Term,
+    Vector,
+)
+from graphkin.construction.touching import Touching, outlines_on_paper
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import greatest_before
 from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase
 
@@ -28,8 +43,8 @@ if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
 
 __all__ = [
-    "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Scales", "Sheet",
-    "either_way",
+    "MOST_LOST", "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Sheet", "either_way",
+    "without_residues",
 ]  # fmt: skip
 
 _Thing = TypeVar("_Thing")
@@ -37,12 +52,21 @@ PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
 SHORT = 3.0  # mm on paper; a direction drawn through two points nearer than this errs by a pencil's width in ten
+INTO_MARGIN = 1.1  # times as large as its room may trial polygons be: panels have a margin for names
+LOST = 1e-13  # of the largest vector, by rounding, where lines cross square
+MOST_LOST = 1e-9  # what is larger is no residue, however lines cross
 MAGNIFIED = 2.0  # times as much as was left open: from there on it is said
+
+
+Remarkable = Literal[
+    "sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs", "at contact",
+    "at pitch curve",
+]  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Remark:
-    """What may have to be said of a construction: whether it ``holds`` depends on the scale of the figure.
+    """What may have to be said of the construction: whether it ``holds`` depends on the scale of the figure.
 
     Parameters
     ----------
@@ -56,8 +80,8 @@ class Remark:
     size : the sine of the angle of a sharp crossing, by how much it is magnified, else a length on paper (mm)
     """
 
-    key: Literal["sharp crossing", "off the sheet", "zero vector", "short arm", "magnified", "parallel legs",
-                 "at contact", "at pitch curve"]  # fmt: skip
+    diagram: DiagramName
+    key: Remarkable
     of: tuple[str | Symbol | Phrase, ...]
     size: float = 0.0
 
@@ -76,34 +100,17 @@ class Remark:
 
     @property
     def phrase(self) -> Phrase:
+        size = f"{math.degrees(math.asin(self.size)) if self.key == 'sharp crossing' else self.size:.2g}"
         match self.key:
-            case "sharp crossing":
-                return Phrase(self.key, (*self.of, f"{math.degrees(math.asin(self.size)):.2g}"))
-            case "magnified":
-                return Phrase(self.key, (*self.of, f"{self.size:.2g}"))
+            case "sharp crossing" | "magnified":
+                return Phrase(self.key, (*self.of, size))
             case "short arm":
-                links, one, other = self.of
-                return Phrase(self.key, (links, one, f"{self.size:.2g}", other))
+                return Phrase(self.key, (*self.of[:2], size, *self.of[2:]))
         return Phrase(self.key, self.of)
 
     def scaled(self, times: float) -> Remark:
         """The same where lengths on paper are so many times as large."""
         return self if self.key in ("sharp crossing", "magnified") else replace(self, size=self.size * times)
-
-
-@dataclass(frozen=True)
-class Scales:
-    """Scale factors: m, m/s, m/s2 and N for one mm of paper; ``force`` is 0 where no forces are drawn."""
-
-    length: float
-    velocity: float
-    acceleration: float
-    force: float = 0.0
-
-    def of(self, diagram: DiagramName) -> float:
-        return {
-            "mechanism": self.length, "velocity": self.velocity, "acceleration": self.acceleration, "force": self.force,
-        }[diagram]  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -114,12 +121,6 @@ class Equation:
     diagram: DiagramName
     sides: tuple[tuple[Term, ...], ...]
     element: Element
-
-    @property
-    def unknowns(self) -> int:
-        """Number of unknown sizes and directions."""
-        own = {t.symbol: (not t.size_known) + (not t.direction_known) for side in self.sides for t in side}
-        return sum(own.values())
 
 
 @dataclass(frozen=True)
@@ -139,35 +140,26 @@ class Rate:
     same_as: str = ""
 
     @property
-    def off_plan(self) -> bool:
-        """Whether it was read off the velocity plan of a train."""
-        return self.mm != 0.0 and not self.arm_mm
-
-    @property
     def is_own(self) -> bool:
         """Whether it was read off by itself, neither given nor that of another link."""
-        return (self.vector is not None or self.off_plan) and not self.same_as
+        return (self.vector is not None or self.mm != 0.0) and not self.same_as
 
     def scaled(self, vector_times: float, arm_times: float) -> Rate:
         """The same rate read off larger figures; one that was read off a velocity plan stays."""
-        if self.off_plan:
-            return self
-        return replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
+        off_plan = self.mm and not self.arm_mm
+        return self if off_plan else replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
 
 
 @dataclass(frozen=True)
-class LimitPosition:
+class LimitPosition(OnPaper):
     """The mechanism drawn once more, at a limit position of an output: the crank's value (rad) and where links lie."""
 
     value: float
     poses: Mapping[str, Pose]
 
-    def scaled(self, times: float) -> LimitPosition:
-        return LimitPosition(self.value, {name: pose.scaled(times) for name, pose in self.poses.items()})
-
 
 @dataclass(frozen=True)
-class Limits:
+class Limits(OnPaper):
     """Both limit positions of a slide or of a link over a whole turn of the crank, the one furthest along the guide's
     sense, or furthest counter-clockwise, being ``high``; ``swing`` is how far a link turns between them (rad), to a
     few degrees."""
@@ -175,9 +167,6 @@ class Limits:
     low: LimitPosition
     high: LimitPosition
     swing: float
-
-    def scaled(self, times: float) -> Limits:
-        return Limits(self.low.scaled(times), self.high.scaled(times), self.swing)
 
 
 @dataclass(frozen=True)
@@ -200,7 +189,7 @@ class Sheet:
 
     ``ends`` gives the end points in each polygon: ends["velocity"][PointRef("B", "3")] is b3.
     ``omega`` and ``alpha`` hold the measured rates by link.
-    ``noticed`` are what may have to be said of the construction, by diagram.
+    ``noticed`` are what may have to be said of the construction.
     ``causes`` tells to what the acts of the hand belong: (acts made when it was done, what).
     ``left_out`` says what nothing asked for needs; ``held_still`` are steps drawn apart, with one link for a frame.
     ``asked`` is what is asked for, if the drawing is limited to it; ``limits`` are the limit positions drawn for it, by
@@ -227,7 +216,7 @@ class Sheet:
     steps: tuple[Step, ...]
     equations: tuple[Equation, ...]
     assembly: Mapping[str, Phrase]
-    noticed: tuple[tuple[DiagramName, Remark], ...] = ()
+    noticed: tuple[Remark, ...] = ()
     causes: tuple[tuple[int, Cause], ...] = ()
     left_out: tuple[Phrase, ...] = ()
     held_still: tuple[Step, ...] = ()
@@ -271,22 +260,19 @@ class Sheet:
             scales=scales,
             poses={name: pose.scaled(length) for name, pose in self.poses.items()},
             points={ref: z * length for ref, z in self.points.items()},
-            ends={
-                "velocity": {ref: z * velocity for ref, z in self.ends["velocity"].items()},
-                "acceleration": {ref: z * acceleration for ref, z in self.ends["acceleration"].items()},
-            },
+            ends={order: {ref: z * k[order] for ref, z in self.ends[order].items()} for order in ORDERS},
             omega={name: rate.scaled(velocity, length) for name, rate in self.omega.items()},
             alpha={name: rate.scaled(acceleration, length) for name, rate in self.alpha.items()},
             steps=tuple(step.scaled(k[step.diagram]) for step in self.steps),
             held_still=tuple(step.scaled(k[step.diagram]) for step in self.held_still),
-            noticed=tuple((name, remark.scaled(k[name])) for name, remark in self.noticed),
+            noticed=tuple(remark.scaled(k[remark.diagram]) for remark in self.noticed),
             limits={pair: limits.scaled(length) for pair, limits in self.limits.items()},
         )
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
         """What is to be said of the construction at these scales: lines that meet off the sheet, zero vectors."""
-        return tuple(remark for _, remark in self.noticed if remark.holds)
+        return tuple(remark for remark in self.noticed if remark.holds)
 
     @property
     def notes(self) -> tuple[Phrase, ...]:
@@ -323,6 +309,48 @@ class Sheet:
         strokes = (s for step in self.steps if step.diagram == diagram for s in step.strokes)
         return [s for s in strokes if isinstance(s, Aid) and s.trial]
 
+    def vectors_seen(self, diagram: DiagramName) -> Iterator[Aid]:
+        """The vectors of a diagram that are seen from held links; those that lead to special points left out."""
+        held = {step.held for step in self.steps if step.reason == "seen from"}
+        special = {step.point for step in self.steps if step.reason == "special point"}
+        for step in self.steps if held else ():
+            for stroke in step.strokes if step.diagram == diagram else ():
+                if isinstance(stroke, Aid) and stroke.symbol.to is not None:
+                    of, to = stroke.symbol.of, stroke.symbol.to
+                    if {stroke.symbol.seen, to.link} & held and not special & {to.point, of.point if of else ""}:
+                        yield stroke
+
+    @cached_property
+    def extents(self) -> dict[DiagramName, Extent]:
+        """Width and height of the mechanism and of both polygons, poles included, by which scales are chosen: special
+        points left out, but with vectors seen from held links, and trial polygons a little smaller."""
+        special = {step.point for step in self.steps if step.reason in ("special point", "pitch point")}
+        places = [z for ref, z in self.points.items() if ref.point not in special]
+        if self.scene.cams or self.scene.gears or any(link.discs for link in (self.scene.frame, *self.scene.links)):
+            per = 1.0 / self.scales.length
+            places += (z for outline in outlines_on_paper(self.scene, self.poses, per).values() for z in outline)
+            places += Touching(self.scene, per, self.poses).outermost()
+        extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
+        for order in ORDERS:
+            drawn: list[Vector | Aid] = [*self.vectors(order).values(), *self.vectors_seen(order)]
+            true, every = (
+                Extent.around([0j, *(z for v in some for z in (v.tail, v.tip))], self.scales.of(order))
+                for some in (drawn, [*drawn, *self.trials(order)])
+            )
+            width, height = max(true.width, every.width / INTO_MARGIN), max(true.height, every.height / INTO_MARGIN)
+            extents[order] = Extent(width, height)
+        return extents
+
+    @property
+    def drawn_sizes(self) -> tuple[tuple[float, float], ...]:
+        """Width and height (mm) of the mechanism and of both polygons as they are drawn."""
+        pairs = ((self.extents[name], self.scales.of(name)) for name in DIAGRAMS)
+        return tuple((extent.width / per, extent.height / per) for extent, per in pairs)
+
+    def scales_for(self, room: Room) -> Scales:
+        """The finest scales of the series at which it fits a room."""
+        return chosen_scales(self.scene, self.extents, room)
+
 
 def either_way(symbol: Symbol) -> Symbol:
     """A vector by the name of that or of its opposite, whichever is first: both are as long.
@@ -339,6 +367,123 @@ def either_way(symbol: Symbol) -> Symbol:
 # -- the board on which it grows ---------------------------------------------------------------------------------------
 
 
+# -- vectors that are nothing but rounding -----------------------------------------------------------------------------
+#
+# Exact hands lose some 1e-16 of the largest vector, and more where lines cross at a small angle.  A normal component is
+# v squared over a length, and so is as certain as the velocity that it comes from, however short.
+
+
+def without_residues(sheet: Sheet) -> Sheet:
+    """A sheet of exact hands, each vector that is nothing but rounding made zero, with the rates measured from it."""
+    zero = _residues(sheet)
+    if not zero:
+        return sheet
+    rates = {
+        "omega": _rates(sheet.omega, zero, sheet.scales.velocity / sheet.scales.length),
+        "alpha": _rates(sheet.alpha, zero, sheet.scales.acceleration / sheet.scales.length),
+    }
+    return replace(
+        sheet,
+        steps=tuple(_step(step, zero, rates) for step in sheet.steps),
+        omega=rates["omega"],
+        alpha=rates["alpha"],
+        noticed=tuple(
+            replace(remark, size=0.0) if remark.key == "zero vector" and remark.of[0] in zero else remark
+            for remark in sheet.noticed
+        ),
+    )
+
+
+def _residues(sheet: Sheet) -> frozenset[Symbol]:
+    scales, size = sheet.scales, sheet.scene.size
+    velocity, acceleration = _drawn(sheet, "velocity"), _drawn(sheet, "acceleration")
+    fastest, pushed = _largest(sheet, velocity), _largest(sheet, acceleration)
+    lost_before, lost = _lost(sheet, ("mechanism", "velocity")), _lost(sheet, ("mechanism", "velocity", "acceleration"))
+    zero = {s for s, vector in velocity.items() if 0.0 < abs(vector.span) <= lost_before(s) * fastest(s)}
+    still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
+    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+
+    def residue(symbol: Symbol) -> float:
+        # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
+        most = pushed(symbol)
+        carried = max(most, (fastest(symbol) * scales.velocity) ** 2 / size / scales.acceleration) * lost(symbol)
+        # beside a dead point v squared over a length far exceeds all accelerations
+        return min(carried, MOST_LOST * most) if most > carried else carried
+
+    for symbol, vector in acceleration.items():
+        # at a contact the curvatures give a normal part where nothing slides too
+        squares = () if symbol.of is not None and symbol.of.point in touching else _speeds(symbol, fixed)
+        speed = next((s for s in squares if s in velocity), None)
+        nothing = abs(vector.span) <= residue(symbol) if speed is None else speed in still
+        if nothing and vector.span != 0.0:
+            zero.add(symbol)
+    return frozenset(zero)
+
+
+def _drawn(sheet: Sheet, diagram: DiagramName) -> dict[Symbol, Vector | Aid]:
+    """The vectors of a diagram, those among them that are seen from a held link."""
+    return {**{one.symbol: one for one in sheet.vectors_seen(diagram)}, **sheet.vectors(diagram)}
+
+
+def _largest(sheet: Sheet, vectors: Mapping[Symbol, Vector | Aid]) -> Callable[[Symbol], float]:
+    """The largest vector that leads to one (mm)."""
+    return greatest_before(sheet.structure, ((symbol, abs(vector.span)) for symbol, vector in vectors.items()))
+
+
+def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> Callable[[Symbol], float]:
+    """What rounding may have cost of a vector, as a part of the largest that leads to it."""
+    crossings = (r for r in sheet.noticed if r.diagram in diagrams and r.key == "sharp crossing")
+    sharp = [(_crossing(r), 1.0 / max(r.size, 1e-9)) for r in crossings]
+    sharpest = greatest_before(sheet.structure, sharp)
+    return lambda symbol: min(MOST_LOST, LOST * max(sharpest(symbol), 1.0) ** 2)
+
+
+def _crossing(remark: Remark) -> Symbol:
+    """What a crossing finds, as a quantity: its own, or the velocity of a point or of links."""
+    (of,) = remark.of
+    if isinstance(of, Phrase):
+        return Symbol("omega", link=str(of.args[0]).split(", ")[0])
+    try:
+        return Symbol.parse(str(of))
+    except ValueError:
+        return Symbol("v", PointRef(str(of)))
+
+
+def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
+    """The velocity whose square a normal component is: relative, or from the pole where its start is fixed."""
+    if symbol.kind != "an" or symbol.to is None:
+        return ()
+    return (Symbol("v", symbol.of, symbol.to), *((Symbol("v", symbol.of),) if symbol.to.point in fixed else ()))
+
+
+def _step(step: Step, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, Rate]]) -> Step:
+    strokes: tuple[Stroke, ...] = tuple(
+        replace(s, tip=s.tail) if isinstance(s, Vector | Aid) and s.symbol in zero else s for s in step.strokes
+    )
+    step = replace(step, strokes=strokes)
+    if step.reason == "sum of rates":
+        return replace(step, value=rates[step.kind][step.links[0]].value)
+    if step.symbol not in zero:
+        return step
+    if step.reason == "rate":
+        return replace(step, value=0.0)
+    return replace(step, mm=0.0) if step.mm else step
+
+
+def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) -> dict[str, Rate]:
+    """Rates without what came from residues; a driver's own rate on top of one stays."""
+    found = {}
+    for name, rate in rates.items():
+        if rate.vector in zero:
+            residue = rate.mm / rate.arm_mm * per_mm if rate.arm_mm else 0.0
+            rate = replace(rate, value=0.0 if abs(rate.value) <= 2.0 * residue else rate.value, mm=0.0)
+        found[name] = rate
+    return found
+
+
+# -- the board on which it grows ---------------------------------------------------------------------------------------
+
+
 @dataclass
 class Board:
     """Steps in the order in which they are done, and what was read; the one thing in this room that grows.
@@ -350,7 +495,7 @@ class Board:
     instrument: Instrument
     steps: list[Step] = field(default_factory=list)
     equations: list[Equation] = field(default_factory=list)
-    noticed: list[tuple[DiagramName, Remark]] = field(default_factory=list)
+    noticed: list[Remark] = field(default_factory=list)
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
     arms: dict[frozenset[str], float] = field(default_factory=dict)
     lengths: dict[Symbol, float] = field(default_factory=dict)
@@ -375,7 +520,7 @@ class Board:
         return self._read(self.lengths, either_way(symbol), mm)
 
     def _read(self, kept: dict[_Thing, float], thing: _Thing, mm: float) -> float:
-        if isinstance(self.instrument, Exact):
+        if not isinstance(self.instrument, ErringInstrument):
             return self.instrument.read(mm)  # it shows the same each time
         if thing not in kept:
             kept[thing] = self.instrument.read(mm)
@@ -393,29 +538,23 @@ class Board:
         self.steps[-1] = replace(last, strokes=(*last.strokes, mark))
         return True
 
-    def notice(self, diagram: DiagramName, remark: Remark) -> None:
+    def notice(self, diagram: DiagramName, key: Remarkable, *of: str | Symbol | Phrase, size: float = 0.0) -> None:
         """Take note of what may have to be said, at this scale or at another."""
-        self.noticed.append((diagram, remark))
+        self.noticed.append(Remark(diagram, key, of, size))
 
     def cross(self, diagram: DiagramName, p: complex, d: complex, q: complex, e: complex, what: str) -> complex:
         """Where the line through p along d meets the line through q along e, drawn as ruler lines.
 
         Raises
         ------
-        Unsolvable
-            status "dead point": the lines are parallel and meet nowhere
+        Unsolvable : "dead point": the lines are parallel and meet nowhere
         """
         d, e = self.instrument.direction(d), self.instrument.direction(e)
         sine = abs(cross(d, e))
-        if sine < PARALLEL:
-            raise Unsolvable(
-                "dead point",
-                Problem(
-                    what, Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
-                ),
-            )
-        self.notice(diagram, Remark("sharp crossing", (what,), sine))
         at = cross_lines(p, d, q, e)
-        assert at is not None
-        self.notice(diagram, Remark("off the sheet", (what,), max(abs(at - p), abs(at - q))))
+        if sine < PARALLEL or at is None:
+            said = Phrase("the two lines that should find it are"), Phrase("move the driver off this position")
+            raise Unsolvable("dead point", Problem(what, *said))
+        self.notice(diagram, "sharp crossing", what, size=sine)
+        self.notice(diagram, "off the sheet", what, size=max(abs(at - p), abs(at - q)))
         return self.instrument.point(at)

@@ -18,10 +18,46 @@ from graphkin.words import Phrase, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "ORDERS", "SENTENCES", "Aid", "Bar", "Cause", "CompassArc",
-    "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved", "Order", "Part", "PlanTrial",
-    "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff", "Term", "TrialCurve",
-    "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of", "plain_in",
+    "DIAGRAMS",
+    "FINDS_A_POINT",
+    "GIVEN",
+    "LENGTHS",
+    "ORDERS",
+    "SENTENCES",
+    "Aid",
+    "Bar",
+    "Cause",
+    "CompassArc",
+    "DiagramName",
+    "Direction",
+    "FarPoint",
+    "Image",
+    "Mark",
+    "Missed",
+    "Moved",
+    "OnPaper",
+    "Order",
+    "Part",
+    "PlanTrial",
+    "RateTrial",
+    "Ray",
+    "Reason",
+    "Role",
+    "Size",
+    "Step",
+    "Stroke",
+    "Superposed",
+    "TakenOff",
+    "Term",
+    "TrialCurve",
+    "TrialPositions",
+    "TrialRow",
+    "TrialTable",
+    "Vector",
+    "Verb",
+    "end_of",
+    "phrase_of",
+    "plain_in",
 ]  # fmt: skip
 
 Order = Literal["velocity", "acceleration"]
@@ -277,7 +313,7 @@ class Step:
     def scaled(self, times: float) -> Step:
         """The same step with all its lengths on paper so many times as large."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
-        data = self.data.scaled(times) if isinstance(self.data, TrialPositions | Superposed) else self.data
+        data = self.data.scaled(times) if isinstance(self.data, OnPaper) else self.data
         growth = 1.0 if self.per_mm else times
         radii = tuple(radius * growth for radius in self.radii)
         return _changed(self, strokes=strokes, data=data, mm=self.mm * growth, radii=radii)
@@ -307,17 +343,19 @@ def phrase_of(cause: Cause) -> Phrase:
 # -- strokes -----------------------------------------------------------------------------------------------------------
 
 
-LENGTHS = {"tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners"}
-"""Places and lengths of strokes (mm), which a scale changes; a direction stays."""
+LENGTHS = {
+    "tail", "tip", "through", "to", "centre", "radius", "at", "a", "b", "curve", "corners", "mm", "apart", "origin",
+    "poses", "low", "high", "less", "table",
+}  # fmt: skip
+"""Places and lengths on paper (mm), and what has such, which a scale changes; a direction stays."""
 
 
 class OnPaper:
-    """A stroke by its places (mm)."""
+    """What has places or lengths on paper (mm)."""
 
     def scaled(self, times: float) -> Self:
         """The same so many times as large."""
-        places = {name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS}
-        return _changed(self, **places)
+        return _changed(self, **{name: _times(value, times) for name, value in vars(self).items() if name in LENGTHS})
 
 
 def _changed(value: Value, **fields: object) -> Value:
@@ -330,7 +368,11 @@ def _changed(value: Value, **fields: object) -> Value:
 
 def _times(value: Any, times: float) -> Any:
     if isinstance(value, tuple):
-        return tuple(place * times for place in value)
+        return tuple(_times(part, times) for part in value)
+    if isinstance(value, dict):
+        return {name: _times(part, times) for name, part in value.items()}
+    if isinstance(value, OnPaper | TrialTable):
+        return value.scaled(times)
     return value if value is None else value * times
 
 
@@ -482,7 +524,7 @@ def _each_times(values: tuple[float, ...], by: list[float]) -> tuple[float, ...]
 
 
 @dataclass(frozen=True)
-class TrialPositions:
+class TrialPositions(OnPaper):
     """A group placed by trial: ``driven`` names what is moved, ``left_out`` the link (or driver) left out until it
     fits, ``rolling`` the contacts or gears at which as much must have rolled off as since the scene's own position,
     ``point`` the free point whose trial curve is drawn ("" for none), in ``count`` trial positions, ``table`` what is
@@ -497,10 +539,6 @@ class TrialPositions:
     rolling: tuple[str, ...] = ()
     table: TrialTable | None = None
     instead: tuple[tuple[str, str, float], ...] = ()
-
-    def scaled(self, times: float) -> TrialPositions:
-        """The same with the lengths of its table so many times as large."""
-        return replace(self, table=self.table.scaled(times) if self.table is not None else None)
 
 
 @dataclass(frozen=True)
@@ -524,7 +562,7 @@ class RateTrial:
 
 
 @dataclass(frozen=True)
-class TakenOff:
+class TakenOff(OnPaper):
     """A known vector with the rule of its size, and how long it is (mm) in the direction in which something is open."""
 
     symbol: Symbol
@@ -543,7 +581,7 @@ class PlanTrial:
 
 
 @dataclass(frozen=True)
-class Superposed:
+class Superposed(OnPaper):
     """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
     ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
     ``less``."""
@@ -554,12 +592,6 @@ class Superposed:
     ways: tuple[Direction, ...]
     between: tuple[tuple[PointRef, PointRef], ...]
     less: tuple[tuple[TakenOff, ...], ...]
-
-    def scaled(self, times: float) -> Superposed:
-        """The same with its lengths so many times as large."""
-        apart = tuple(tuple(mm * times for mm in row) for row in self.apart)
-        less = tuple(tuple(replace(one, mm=one.mm * times) for one in row) for row in self.less)
-        return replace(self, apart=apart, less=less)
 
 
 # -- in words ----------------------------------------------------------------------------------------------------------

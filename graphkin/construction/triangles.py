@@ -18,7 +18,8 @@ from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading, start_board, travel
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import draw_position, place
-from graphkin.construction.sheet import Board, Scales
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Board
 from graphkin.construction.steps import DIAGRAMS, ORDERS, Cause, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 
-from graphkin.construction import Room, drawn_sizes
+from graphkin.construction import Room
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.plane import added_up
@@ -87,7 +87,7 @@ def sheet_room(scene: Mechanism) -> Room:
 def sheet_plan(sheet: Sheet) -> SheetPlan:
     """The cheapest plan that holds the figures as they are drawn."""
     plans = sorted(_plans(sheet.scene), key=lambda plan: plan.cost)
-    sizes = drawn_sizes(sheet)
+    sizes = sheet.drawn_sizes
     return next((plan for plan in plans if plan.holds(sizes)), plans[0])
 
 
@@ -96,7 +96,7 @@ def with_less_mechanism(plan: SheetPlan, sheet: Sheet) -> Iterator[SheetPlan]:
     panel, equations = plan.mechanism, plan.equations
     if equations is None or equations.right != panel.right:
         return  # they stand elsewhere
-    spare = panel.height - drawn_sizes(sheet)[0][1] - AROUND_MECHANISM[1] - FOR_DIMENSIONS
+    spare = panel.height - sheet.drawn_sizes[0][1] - AROUND_MECHANISM[1] - FOR_DIMENSIONS
     for share in (0.5, 1.0) if spare > 0 else ():
         up = share * spare
         yield replace(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from graphkin.construction import Plan, Room, execute, plan
-from graphkin.construction.sheet import Scales
+from graphkin.construction.scales import Scales
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
 from graphkin.scene.model import Mechanism
@@ -136,7 +136,7 @@ def _coarser(one: Scales, other: Scales, wished: Mapping[str, float | None]) -> 
 
 def _size(own: Plan, name: str) -> tuple[float, float]:
     """Width and height (mm) of the mechanism (``length``) or of a polygon."""
-    extent = own.extents["mechanism" if name == "length" else name]  # type: ignore[index]
+    extent = own.exact.extents["mechanism" if name == "length" else name]  # type: ignore[index]
     per = getattr(own.scales, name)
     return extent.width / per, extent.height / per
 

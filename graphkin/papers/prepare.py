@@ -20,7 +20,8 @@ from graphkin.checking.uncertainty import predict
 from graphkin.construction import Plan, execute, plan
 from graphkin.construction.centres import Centres, find_centres
 from graphkin.construction.forces import force_scale
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import Unsolvable
 from graphkin.papers.answer_key import answer_key, answers_template, key_table

@@ -20,8 +20,8 @@ from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.voice import capital
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction import Plan, execute
-from graphkin.construction.scales import next_of_series
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales, next_of_series
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.cam import cam_pictures, scaled_cam

@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 
 from graphkin.construction import Cad, Scales, draft, pencil
-from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
@@ -60,7 +59,7 @@ def test_every_equation_closes(name):
     sheet = draft(mechanism_of(name))
     special = {point for group in sheet.groups for point, _ in group.points}
     for equation in sheet.equations:
-        seen = {one.symbol: one for one in vectors_seen(sheet, equation.diagram)}
+        seen = {one.symbol: one for one in sheet.vectors_seen(equation.diagram)}
         vectors = {**seen, **sheet.vectors(equation.diagram)}
         terms = [t.symbol for side in equation.sides for t in side]
         if any(ref is not None and ref.point in special for s in terms for ref in (s.of, s.to)):

@@ -12,7 +12,7 @@ from graphkin.account.notation import letters_of
 from graphkin.api.centred import found_centres
 from graphkin.api.centroded import centrodes
 from graphkin.construction.centres import Centres, speeds
-from graphkin.construction.room import Room, scales_for
+from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centres_figure, named_centres, untold
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
@@ -189,7 +189,7 @@ def test_no_label_of_a_picture_is_overlapped_crossed_or_cut(
 
 def test_in_a_crowd_no_name_of_a_found_centre_stands_on_another_and_it_is_shown_on_a_further_page() -> None:
     centres = found_centres(mechanism_of("single-flier"), None)
-    centres = centres.at(scales_for(centres.sheet, Room(mechanism=(40.0, 32.0))))
+    centres = centres.at(centres.sheet.scales_for(Room(mechanism=(40.0, 32.0))))
     letters = letters_of(centres.sheet, "chinese")
     back = background(bare_mechanism(centres.sheet, letters))
     box = ink_box(back.drawn)

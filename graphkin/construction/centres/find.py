@@ -26,7 +26,8 @@ from graphkin.construction.centres.pairs import (
 )
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import LinkMotion
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.words import Phrase

@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.account.headings import describe, figure_title, term
 from graphkin.account.notation import Letters, in_counting_order
 from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
-from graphkin.construction.room import Room, scales_for
+from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
     GAP,
@@ -186,7 +186,7 @@ def centres_figure(
     some = untold(centres, figure.piece.drawn)
     if not some:
         return made
-    small = centres.at(scales_for(centres.sheet, SMALL))
+    small = centres.at(centres.sheet.scales_for(SMALL))
     again = [small.of(*centre.pair) for centre in some]
     return replace(made, further=centre_steps(small, again, _mechanism_behind(small, letters), letters, spoken))
 

@@ -26,7 +26,6 @@ from graphkin.account.notation import letters_of
 from graphkin.checking.readings import read_off
 from graphkin.checking.report import measured
 from graphkin.construction import Room, Scales
-from graphkin.construction.room import scales_for
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
@@ -182,7 +181,7 @@ def polygons_beside(
     wide, tall = PANELS[columns]
     page = FigurePage.of(first, "polygons", language, convention, columns * (wide + GUTTER) - GUTTER)
     room = Room((wide - ROOM_BESIDE, tall - ROOM_BESIDE), (wide - ROOM_BESIDE, tall - ROOM_BESIDE))
-    all_scales = [scales_for(sheet, room) for _, sheet in sheets]
+    all_scales = [sheet.scales_for(room) for _, sheet in sheets]
     scales = Scales(first.scales.length, max(s.velocity for s in all_scales), max(s.acceleration for s in all_scales))
     drawn = [(name, sheet.at(scales)) for name, sheet in sheets]
     shown: list[DiagramName] = ["velocity"]

@@ -20,7 +20,8 @@ from graphkin.account.notation import Letters
 from graphkin.account.voice import ZERO
 from graphkin.checking.scans import judge_scans
 from graphkin.construction.instruments import EXACT_NAME
-from graphkin.construction.sheet import Scales, Sheet
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Size, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes

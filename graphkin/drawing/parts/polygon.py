@@ -21,7 +21,6 @@ from graphkin.account.in_mechanism import numeral
 from graphkin.account.notation import Letters, pole
 from graphkin.account.voice import SAME, Foot, Place, PolygonPoints
 from graphkin.construction.scales import SERIES
-from graphkin.construction.seen_from import vectors_seen
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Aid, Bar, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
@@ -122,7 +121,7 @@ def same_place(z: complex) -> complex:
 def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box:
     """The box (mm, y down, about the pole) around all vectors of a polygon, trial polygons among them; lines that lead
     to them are counted in where they do not reach far."""
-    seen = vectors_seen(sheet, diagram)
+    seen = sheet.vectors_seen(diagram)
     vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(on_page(z) for z in ends)
