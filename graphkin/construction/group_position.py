@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -25,7 +25,7 @@ from graphkin.construction.follow import best_first, drawn_near, fitted
 from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
 from graphkin.construction.proportional_division import divide, shares
-from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint
+from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.steps import (
     Bar,
     CompassArc,
@@ -52,8 +52,7 @@ AGAIN = 2  # times that a trial drawing is drawn which does not close by hands t
 PARTS = (1, 4, 16)  # steps in which links known already are moved to where hands put them
 BEFORE = 0.45  # part of the trial positions that lie before the place sought; so that none falls on it
 DIVISIONS, UNSEEN = 4, 0.02  # divisions at most, until so little (mm, degrees) is missed
-STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size)
-BEFORE = 0.45  # part of it that lies before the place sought
+STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's size), as many parts of it before
 LEAST = 1e-3  # of the largest singular value: trials that tell less about one of what is moved are not divided
 
 
@@ -104,25 +103,15 @@ class GroupTrial:
         poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
         values = np.array(reduced.values(poses, paper.mm))
         story: list[Step] = []
-        if self.given:
-            story += [_started(paper, driver) for driver in reduced.group.starts]
-        if reduced.trial:
-            driven = tuple(d.key for d in reduced.trial)
-            strokes: tuple[Stroke, ...] = ()
-            point, table = "", None
-            if len(values) == 1:
-                tried = _trial_drawings(replace(so_far, instrument=EXACT), reduced, poses, values)
-                point, strokes = _curve(so_far, reduced, poses, tried)
-                table = table_of_one(so_far, reduced, tried[::BETWEEN], BEFORE) if tried else None
+        for driver in reduced.group.starts if self.given else ():  # at the position from which rolling starts
+            if driver.turns:
+                axis = cmath.phase(paper.poses[driver.link].axis)
+                story.append(Step("lay off", "rolling", link=driver.link, value=axis))
             else:
-                table = table_of_several(so_far, reduced, poses, values)
-            rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
-            left_out = tuple(name for name in reduced.left_out if name not in rolling)
-            links, instead = reduced.group.links, tuple(reduced.driven_instead())
-            told = TrialPositions(links, driven, left_out, point, POINTS, rolling, table, instead)
-            story.append(Step("trial", "positions", strokes=strokes, data=told))
-        board = reduced.opened(so_far, [float(v) for v in values])
-        board = replace(board, instrument=EXACT)
+                story.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
+        if reduced.trial:
+            story.append(_trial_positions(so_far, reduced, poses, values))
+        board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
         for element in reduced.elements:
             if isinstance(element, Driven):
                 pose, told_here = drive(board, element)
@@ -135,8 +124,7 @@ class GroupTrial:
                 best = meeting.nearest(poses)
                 told_here = meeting.tell(best) if best is not None else ()
             story += told_here
-            for name in element.members:
-                board.poses[name] = poses[name]
+            board.poses.update({name: poses[name] for name in element.members})
         return tuple(story)
 
 
@@ -146,8 +134,8 @@ def _to_hand(paper: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism
     if trial.given:
         return
     guess = trial.on(paper)
-    known = replace(paper, instrument=EXACT, poses={name: guess.get(name, paper.poses[name]) for name in paper.poses})
-    known.pricked = {}
+    there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
+    known = replace(paper, instrument=EXACT, poses=there, pricked={})
     yield from best_first(trial.reduced.structure, trial.reduced.group, known, guess)
 
 
@@ -168,10 +156,11 @@ def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[st
             if k == parts:
                 return fit
             poses.update(fit)
-    names = ", ".join(reduced.group.links)
-    raise Unsolvable(
-        "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
-    )
+    raise _refused(reduced, Phrase("no trial position closes this group here"))
+
+
+def _refused(reduced: ReducedMechanism, found: Phrase) -> Unsolvable:
+    return Unsolvable("not assembled", Problem(Phrase("links", links=", ".join(reduced.group.links)), found))
 
 
 def _between(one: Pose, two: Pose, part: float) -> Pose:
@@ -189,10 +178,7 @@ def _placed_by_hand(paper: PlacedLinks, reduced: ReducedMechanism, guess: Poses)
         values = values - np.linalg.solve(slopes, at)
     last = drawn_near(reduced, paper, poses, values)
     if last is None:
-        names = ", ".join(reduced.group.links)
-        raise Unsolvable(
-            "not assembled", Problem(Phrase("links", links=names), Phrase("the last trial drawing does not close"))
-        )
+        raise _refused(reduced, Phrase("the last trial drawing does not close"))
     paper.pricked.update(last.pricked)
     paper.poses.update(reduced.put_back(last))
     paper.settle([r.left_out for r in reduced.removed if r.left_out])
@@ -204,36 +190,55 @@ def _by_hand(
     """What a trial drawing leaves open as hands find and read it, and how that changes with the trial values."""
     drawn = drawn_near(reduced, paper, poses, values)
     if drawn is None:
-        names = ", ".join(reduced.group.links)
-        raise Unsolvable(
-            "not assembled", Problem(Phrase("links", links=names), Phrase("a trial drawing does not close"))
-        )
+        raise _refused(reduced, Phrase("a trial drawing does not close"))
     size = paper.mm * reduced.structure.scene.size
-    gaps = np.array([
+    gaps = [
         gap if one.is_angle else paper.instrument.read(gap * size) / size
         for gap, one in zip(reduced.gaps(drawn), reduced.removed, strict=True)
-    ])  # fmt: skip
+    ]
     exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked={})
-    step = 1e-6
-    rows = []
-    for i in range(len(values)):
-        sides = [drawn_near(reduced, exact, poses, values + s * step * np.eye(len(values))[i]) for s in (-1, 1)]
-        if sides[0] is None or sides[1] is None:
+    step, slopes = 1e-6, []
+    for change in step * np.eye(len(values)):
+        low, high = (drawn_near(reduced, exact, poses, values + sign * change) for sign in (-1, 1))
+        if low is None or high is None:
             raise Unsolvable("dead point", Problem("trial", Phrase("the trial drawing is at a dead point")))
-        rows.append((np.array(reduced.gaps(sides[1])) - np.array(reduced.gaps(sides[0]))) / (2 * step))
-    return gaps, np.array(rows).T
+        slopes.append((np.array(reduced.gaps(high)) - np.array(reduced.gaps(low))) / (2 * step))
+    return np.array(gaps), np.array(slopes).T
 
 
-def _started(paper: PlacedLinks, driver: Driver) -> Step:
-    """What is given of a link, or of a pair, at the position from which rolling starts."""
-    if driver.turns:
-        return Step("lay off", "rolling", link=driver.link, value=cmath.phase(paper.poses[driver.link].axis))
-    return Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm)
+# -- what is drawn and measured in trial positions ---------------------------------------------------------------------
+
+
+Tried = tuple[np.ndarray, PlacedLinks]
+"""The values of the trial drivers (rad, or the mechanism's size), and the trial drawing."""
+
+
+def _trial_positions(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray) -> Step:
+    """The step of the trial positions of a group, whose links lie so in the end, at these values."""
+    strokes: tuple[Stroke, ...] = ()
+    point, table = "", None
+    if len(values) == 1:
+        tried = _trial_drawings(replace(known, instrument=EXACT), reduced, poses, values)
+        point, strokes = _curve(known, reduced, poses, [drawn for _, drawn in tried])
+        table = _trial_table(known, reduced, poses, tried[::BETWEEN]) if tried else None
+    else:
+        tables = (_trials_about(known, reduced, poses, values, STEP / 2**i) for i in range(6))
+        about = next(filter(None, tables), None)
+        table = _trial_table(known, reduced, poses, about) if about else None
+    rolling = tuple(r.name for r in reduced.removed if r.rolling is not None)
+    angles = [d for d in reduced.structure.scene.drivers if d.turns]
+    instead = tuple(
+        (r.left_out, r.other_side, r.turned) for r in reduced.removed
+        if r.left_out and r.slides and any(r.left_out in d.links for d in angles)
+    )  # fmt: skip
+    driven, left_out = tuple(d.key for d in reduced.trial), tuple(n for n in reduced.left_out if n not in rolling)
+    told = TrialPositions(reduced.group.links, driven, left_out, point, POINTS, rolling, table, instead)
+    return Step("trial", "positions", strokes=strokes, data=told)
 
 
 def _trial_drawings(
     known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
-) -> list[tuple[float, PlacedLinks]]:
+) -> list[Tried]:
     """Drawings at trial values on either side of the place sought, so near that all can be drawn; none where even the
     nearest cannot."""
     parts = (POINTS - 1) * BETWEEN
@@ -247,199 +252,124 @@ def _trial_drawings(
                 break
             near[i] = drawn
         else:
-            return [(float(values[0]) + away * (i / parts - BEFORE), near[i]) for i in range(parts + 1)]
+            return [(values + away * (i / parts - BEFORE), near[i]) for i in range(parts + 1)]
         away /= 2.0
     return []
 
 
+def _trials_about(
+    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray, step: float
+) -> list[Tried]:
+    """Drawings at trial values about the place sought, each further one with another of them changed; none where one
+    cannot be drawn."""
+    exact = replace(known, instrument=EXACT)
+    places = [values + step * (one - BEFORE) for one in (np.zeros(len(values)), *np.eye(len(values)))]
+    drawn = [(at, made) for at in places if (made := drawn_near(reduced, exact, poses, at)) is not None]
+    return drawn if len(drawn) == len(places) else []
+
+
 def _curve(
-    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[tuple[float, PlacedLinks]]
+    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[PlacedLinks]
 ) -> tuple[str, tuple[Stroke, ...]]:
     """The free end in some trial positions, and the arc or the line that it must meet; nothing where what is left out
     is an angle or a driver."""
     removed = reduced.removed[0]
     if not removed.ends or not tried:
         return "", ()
-    if removed.slide is None and removed.ends[0][1] not in reduced.group.members:
-        removed = replace(removed, ends=removed.ends[::-1])  # the free end is the one that moves
-    places = tuple(_seen(drawn, removed, poses) for _, drawn in tried)
-    curve = TrialCurve(places, places[::BETWEEN], removed.ends[0][0])
-    return removed.ends[0][0], (curve, *_goal(known, removed, poses))
+    ends = removed.ends
+    if removed.kind == "bar" and ends[0][1] not in reduced.group.members:
+        ends = ends[::-1]  # the free end is the one that moves
+    (point, link), base = ends[0], removed.other_side if removed.slides else ""
+
+    def at(lying: Poses, point: str, link: str) -> complex:
+        return lying[link].place(known.links[link].points[point] * known.mm)
+
+    def seen(lying: Poses) -> complex:
+        """The free end as seen from what it must meet: from the bar's other end, or from the link with the guide."""
+        if base:
+            return poses[base].place((at(lying, point, link) - lying[base].origin) / lying[base].axis)
+        return at(lying, point, link) - at(lying, *ends[1]) + at(poses, *ends[1])
+
+    places, free = tuple(seen(drawn.poses) for drawn in tried), at(poses, point, link)
+    goal: Stroke
+    if base:
+        size = max((abs(z) for each in known.links.values() for z in each.points.values()), default=0.0)
+        reach = removed.along(poses) * 0.2 * known.mm * size
+        goal = Bar(free - reach, free + reach, "")
+    else:
+        goal = CompassArc(at(poses, *ends[1]), abs(free - at(poses, *ends[1])), free)
+    return point, (TrialCurve(places, places[::BETWEEN], point), goal)
 
 
-def _seen(drawn: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> complex:
-    """The free end as seen from what it must meet: from the bar's other end, or from the link with the guide."""
-    free = _at(drawn, drawn.poses, *removed.ends[0])
-    if removed.slide is None:
-        return free - _at(drawn, drawn.poses, *removed.ends[1]) + _at(drawn, poses, *removed.ends[1])
-    base = removed.other_side
-    was, lies = drawn.poses[base], poses[base]
-    return lies.place((free - was.origin) / was.axis)
+def _trial_table(known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, tried: Sequence[Tried]) -> TrialTable:
+    """What is missed in trial positions, and the divisions of it, in degrees and mm on paper.
 
-
-def _at(paper: PlacedLinks, poses: Poses, point: str, link: str) -> complex:
-    pose = poses[link]
-    return pose.origin + pose.axis * paper.links[link].points[point] * paper.mm
-
-
-def _goal(paper: PlacedLinks, removed: RemovedConstraint, poses: Poses) -> tuple[Stroke, ...]:
-    free = _at(paper, poses, *removed.ends[0])
-    if removed.slide is None:
-        centre = _at(paper, poses, *removed.ends[1])
-        return (CompassArc(centre, abs(free - centre), free),)
-    along = removed.along(poses)
-    reach = 0.2 * paper.mm * max((abs(z) for link in paper.links.values() for z in link.points.values()), default=0.0)
-    return (Bar(free - along * reach, free + along * reach, ""),)
-
-
-# -- what is measured in trial positions -------------------------------------------------------------------------------
-
-
-def table_of_one(
-    known: PlacedLinks, reduced: ReducedMechanism, tried: Sequence[tuple[float, PlacedLinks]], before: float
-) -> TrialTable:
-    """The table of one trial driver.
+    Of several trials of one driver the two on either side of the place sought are divided, then that of them goes
+    whose miss has the sense of the new one; of several drivers that goes which misses most.
 
     Parameters
     ----------
-    tried : trial positions in their order
-    before : the part of them that lies before the place sought
+    poses : where the links lie in the end, near which the divided trials are drawn
     """
-    columns = _Columns(known, reduced)
+    size = known.mm * reduced.structure.scene.size
     exact = replace(known, instrument=EXACT)
-    trials = [(value, reduced.gaps(drawn)[0]) for value, drawn in tried]
-    over = [i for i, ((_, a), (_, b)) in enumerate(pairwise(trials)) if a * b < 0.0]
-    sides = min(over, key=lambda i: abs(i + 0.5 - before * (len(tried) - 1)), default=None)
-    divided: list[tuple[float, float]] = []
-    if sides is not None:
-        (a, one), (b, two) = trials[sides], trials[sides + 1]
-        near: Poses = tried[sides][1].poses
-        while len(divided) < DIVISIONS and not (divided and columns.is_unseen([divided[-1][1]])):
-            c = (a * two - b * one) / (two - one)
-            drawn = drawn_near(reduced, exact, near, np.array([c]))
-            if drawn is None:
-                break
-            gap, near = reduced.gaps(drawn)[0], drawn.poses
-            divided.append((c, gap))
-            (a, one), (b, two) = ((c, gap), (b, two)) if gap * two < 0.0 else ((a, one), (c, gap))
-            if gap == 0.0:
-                break
-    return TrialTable(
-        columns.moved, columns.missed, tuple(columns.row([v], [gap]) for v, gap in trials),
-        tuple(columns.row([v], [gap]) for v, gap in divided), (sides or 0) + 1,
-    )  # fmt: skip
+    moved = [_moved(known, reduced, driver) for driver in reduced.trial]
 
+    def misses(gaps: Sequence[float] | np.ndarray) -> tuple[float, ...]:
+        pairs = zip(gaps, reduced.removed, strict=True)
+        return tuple(float(math.degrees(gap) if r.is_angle else gap * size) for gap, r in pairs)
 
-def table_of_several(
-    known: PlacedLinks, reduced: ReducedMechanism, poses: Poses, values: np.ndarray
-) -> TrialTable | None:
-    """The table of several trial drivers, for the position in which links lie; None where no trials about it can be
-    drawn."""
-    columns = _Columns(known, reduced)
-    exact = replace(known, instrument=EXACT)
+    def row(values: np.ndarray, gaps: Sequence[float] | np.ndarray) -> TrialRow:
+        shown = (math.degrees(v + ahead) if one.turned else v * size
+                 for v, (one, ahead) in zip(values, moved, strict=True))  # fmt: skip
+        return tuple(map(float, shown)), misses(gaps)
 
-    def missed(at: np.ndarray) -> np.ndarray | None:
-        drawn = drawn_near(reduced, exact, poses, at)
-        return None if drawn is None else np.array(reduced.gaps(drawn))
-
-    tried = next((made for i in range(6) if (made := _trials_about(missed, values, STEP / 2**i))), None)
-    if tried is None:
-        return None
-    at, gaps = [v for v, _ in tried], [gap for _, gap in tried]
+    at, gaps = [values for values, _ in tried], [np.array(reduced.gaps(drawn)) for _, drawn in tried]
+    trials, before, alone = tuple(map(row, at, gaps)), 0, len(moved) == 1
+    if alone:
+        over = [i for i, (one, two) in enumerate(pairwise(gaps)) if one[0] * two[0] < 0.0]
+        sides = min(over, key=lambda i: abs(i + 0.5 - BEFORE * (len(tried) - 1)), default=None)
+        before = (sides or 0) + 1
+        at, gaps = ([], []) if sides is None else (at[sides : sides + 2], gaps[sides : sides + 2])
     parts: tuple[float, ...] = ()
     divided: list[TrialRow] = []
     instead: list[int] = []
-    while len(divided) < DIVISIONS:
-        slopes = np.array([gap - gaps[0] for gap in gaps[1:]]).T
-        sizes = np.linalg.svd(slopes, compute_uv=False)
+    while gaps and len(divided) < DIVISIONS:
+        sizes = np.linalg.svd(np.array([gap - gaps[0] for gap in gaps[1:]]), compute_uv=False)
         if sizes[-1] <= LEAST * sizes[0] or not sizes[0]:
             break
         found = divide(at, gaps)
-        open_there = missed(found)
-        if open_there is None:
+        drawn = drawn_near(reduced, exact, poses, found)
+        if drawn is None:
             break
+        left_open = np.array(reduced.gaps(drawn))
         parts = parts or tuple(map(float, shares(gaps)))
-        divided.append(columns.row(found, open_there))
-        if columns.is_unseen(open_there):
+        divided.append(row(found, left_open))
+        if all(abs(miss) < UNSEEN for miss in misses(left_open)):
             break
-        most = max(range(len(gaps)), key=lambda i: float(np.abs(gaps[i]).max()))
-        at[most], gaps[most] = found, open_there
-        instead.append(most + 1)
-    trials = tuple(columns.row(v, gap) for v, gap in tried)
-    return TrialTable(columns.moved, columns.missed, trials, tuple(divided), 0, parts, tuple(instead))
+        gone = int(left_open[0] * gaps[1][0] >= 0.0) if alone else int(np.argmax([np.abs(gap).max() for gap in gaps]))
+        at[gone], gaps[gone] = found, left_open
+        instead.append(gone + 1)
+    missed = []
+    for r in reduced.removed:
+        length, names = 0.0, tuple[str, ...]((r.name,))
+        if r.driver is not None and r.driver.turns:
+            names = r.driver.links[::-1]
+        elif r.kind in ("bar", "guide"):
+            names = (*(point for point, _ in r.ends), *(slide.key for slide in r.slides))
+        if r.kind == "bar":
+            one, two = (reduced.structure.links[r.left_out].points[point] for point in names)
+            length = abs(two - one) * known.mm
+        missed.append(Missed(r.kind, names, length, r.is_angle))
+    about = () if alone else parts, () if alone else tuple(instead)
+    return TrialTable(tuple(one for one, _ in moved), tuple(missed), trials, tuple(divided), before, *about)
 
 
-Tried = list[tuple[np.ndarray, np.ndarray]]
-
-
-def _trials_about(missed: Callable[[np.ndarray], np.ndarray | None], values: np.ndarray, step: float) -> Tried | None:
-    """Trials about a place, each further one with another of the values changed; None where one cannot be drawn."""
-    found = []
-    for one in (np.zeros(len(values)), *np.eye(len(values))):
-        at = values + step * (one - BEFORE)
-        gaps = missed(at)
-        if gaps is None:
-            return None
-        found.append((at, gaps))
-    return found
-
-
-@dataclass(frozen=True)
-class _Columns:
-    """What stands in a table of trials: values and misses as they are measured on paper."""
-
-    known: PlacedLinks
-    reduced: ReducedMechanism
-
-    @property
-    def moved(self) -> tuple[Moved, ...]:
-        return tuple(self._moved(driver)[0] for driver in self.reduced.trial)
-
-    @property
-    def missed(self) -> tuple[Missed, ...]:
-        return tuple(_missed(self.reduced, removed, self.known.mm) for removed in self.reduced.removed)
-
-    def row(self, values: Sequence[float] | np.ndarray, gaps: Sequence[float] | np.ndarray) -> TrialRow:
-        """Values and gaps of a trial (rad, or the mechanism's size) in degrees and mm on paper."""
-        shown = []
-        for driver, value in zip(self.reduced.trial, values, strict=True):
-            moved, ahead = self._moved(driver)
-            shown.append(math.degrees(value + ahead) if moved.turned else value * self._size)
-        return tuple(map(float, shown)), tuple(map(float, self._misses(gaps)))
-
-    def is_unseen(self, gaps: Sequence[float] | np.ndarray) -> bool:
-        return all(abs(miss) < UNSEEN for miss in self._misses(gaps))
-
-    def _misses(self, gaps: Sequence[float] | np.ndarray) -> list[float]:
-        removed = self.reduced.removed
-        return [math.degrees(g) if r.is_angle else g * self._size for g, r in zip(gaps, removed, strict=True)]
-
-    @property
-    def _size(self) -> float:
-        return self.known.mm * self.reduced.structure.scene.size
-
-    def _moved(self, driver: Driver) -> tuple[Moved, float]:
-        """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
-        ground = self.reduced.structure.scene.frame.name
-        if not driver.turns:
-            return Moved(driver.key, "", False), 0.0
-        if driver.relative_to in self.known.poses:  # a link that stands already: its angle is taken to the x axis
-            return Moved(driver.link, "", True), cmath.phase(self.known.poses[driver.relative_to].axis)
-        return Moved(driver.link, "" if driver.relative_to == ground else driver.relative_to, True), 0.0
-
-
-def _missed(reduced: ReducedMechanism, removed: RemovedConstraint, mm: float) -> Missed:
-    """What is measured of what was left out."""
-    if removed.rolling is not None:
-        return Missed("rolled", (removed.name,), 0.0, removed.is_angle)
-    if removed.driver is not None and removed.driver.turns:
-        return Missed("turn", (removed.driver.relative_to, removed.driver.link), 0.0, removed.is_angle)
-    if removed.driver is not None:
-        return Missed("travel", (removed.driver.key,), 0.0, removed.is_angle)
-    if removed.second is not None:
-        return Missed("guides", (removed.left_out,), 0.0, removed.is_angle)
-    ends = tuple(point for point, _ in removed.ends)
-    if removed.slide is not None:
-        return Missed("guide", (*ends, removed.slide.key), 0.0, removed.is_angle)
-    own = reduced.structure.links[removed.left_out].points
-    return Missed("bar", ends, abs(own[ends[1]] - own[ends[0]]) * mm, removed.is_angle)
+def _moved(known: PlacedLinks, reduced: ReducedMechanism, driver: Driver) -> tuple[Moved, float]:
+    """What a trial driver moves, and how far (rad) its angle is ahead where it is taken to the x axis."""
+    base, ground = driver.relative_to, reduced.structure.scene.frame.name
+    if not driver.turns:
+        return Moved(driver.key, "", False), 0.0
+    if base in known.poses:  # a link that stands already: its angle is taken to the x axis
+        return Moved(driver.link, "", True), cmath.phase(known.poses[base].axis)
+    return Moved(driver.link, "" if base == ground else base, True), 0.0

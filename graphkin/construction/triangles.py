@@ -25,7 +25,7 @@ from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef
-from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick
+from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick, without
 from graphkin.words import Phrase
 
 __all__ = ["Inversion", "TriangleDrawn", "drawn_apart", "inversions_of", "opened_at_triangles", "own_assembly"]
@@ -92,18 +92,10 @@ def inversions_of(structure: Structure) -> tuple[Inversion, ...]:
 
 def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
     """The links of a triangle alone, the held one for a frame."""
-    names = {triangle.held, *triangle.links}
-    return replace(
-        scene,
-        frame=scene.by_name[triangle.held],
-        links=tuple(link for link in scene.links if link.name in names - {triangle.held}),
-        slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= names),
-        pins=tuple(p for p in scene.pins if {p.of, p.on} <= names),
-        drivers=(triangle.driver,),
-        sketch={},
-        drawn={},
-        question=replace(scene.question, find=(), stated=()),
-    )
+    alone = without(scene, {link.name for link in scene.links} - {triangle.held, *triangle.links})
+    links = tuple(link for link in alone.links if link.name != triangle.held)
+    frame = scene.by_name[triangle.held]
+    return replace(alone, frame=frame, links=links, drivers=(triangle.driver,), sketch={}, drawn={})
 
 
 @dataclass(frozen=True)

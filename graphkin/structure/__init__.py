@@ -23,6 +23,7 @@ from graphkin.structure.model import (
     links_for,
     needed,
     part_of,
+    without,
 )
 from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
@@ -60,4 +61,5 @@ __all__ = [
     "replacement_told",
     "started",
     "unrolled",
+    "without",
 ]

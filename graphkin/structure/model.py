@@ -6,7 +6,7 @@ one, 高副低代); such a block is a link named ``B/3`` like its pair, and is n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -40,6 +40,7 @@ __all__ = [
     "links_for",
     "needed",
     "part_of",
+    "without",
 ]
 
 
@@ -502,17 +503,28 @@ def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
 def _part_scene(scene: Mechanism, kept: set[str], asked: tuple[Symbol, ...]) -> Mechanism:
     """The scene with these links only."""
     of = {pin.key: pin.of for pin in scene.pins}
+    part = without(scene, {link.name for link in scene.links} - kept)
+    return replace(
+        part,
+        drivers=tuple(d for d in scene.drivers if {of.get(d.link, d.link), d.relative_to} <= kept),
+        question=replace(part.question, find=asked),
+        instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
+    )
+
+
+def without(scene: Mechanism, gone: Collection[str]) -> Mechanism:
+    """The scene without some links, or blocks that stand for higher pairs, and without what joins them to others; its
+    drivers stay, and nothing is asked or stated."""
+    lost = set(gone)
     return replace(
         scene,
-        links=tuple(link for link in scene.links if link.name in kept),
-        slidings=tuple(s for s in scene.slidings if {s.link, s.on} <= kept),
-        pins=tuple(p for p in scene.pins if {p.of, p.on} <= kept),
-        cams=tuple(c for c in scene.cams if {c.link, c.follower} <= kept),
-        contacts=tuple(c for c in scene.contacts if set(c.links) <= kept),
-        gears=tuple(g for g in scene.gears if {*g.wheels, g.carrier} <= kept),
-        drivers=tuple(d for d in scene.drivers if {of.get(d.link, d.link), d.relative_to} <= kept),
-        question=replace(scene.question, find=asked, stated=()),
-        instead_of=None if scene.instead_of is None else _part_scene(scene.instead_of, kept, asked),
+        links=tuple(link for link in scene.links if link.name not in lost),
+        slidings=tuple(s for s in scene.slidings if lost.isdisjoint((s.link, s.on))),
+        pins=tuple(p for p in scene.pins if lost.isdisjoint((p.key, p.of, p.on))),
+        cams=tuple(c for c in scene.cams if lost.isdisjoint((c.link, c.follower))),
+        contacts=tuple(c for c in scene.contacts if lost.isdisjoint((*c.links, c.block))),
+        gears=tuple(g for g in scene.gears if lost.isdisjoint((*g.wheels, g.carrier))),
+        question=replace(scene.question, find=(), stated=()),
     )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import pytest
@@ -13,14 +12,13 @@ import graphkin
 from graphkin import solver
 from graphkin.checking.readings import read_off
 from graphkin.construction import Plan, Slip, draft, execute, plan, reduced_mechanism
-from graphkin.construction.links_on_paper import Poses
+from graphkin.construction.links_on_paper import PlacedLinks
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.reduced_mechanism import RemovedConstraint
 from graphkin.construction.steps import Ray, TrialPositions
 from graphkin.errors import SceneError
 from graphkin.plane import cross
 from graphkin.scene import mechanism_of
-from graphkin.scene.model import PlacedLink
 from graphkin.scene.symbol import Symbol
 from tests.construction.test_contours import FOUR_BAR, ON_A_GUIDE, TURNED_ALIKE
 from tests.construction.test_groups import (
@@ -105,12 +103,13 @@ def test_check_fails_where_the_arc_that_trial_positions_meet_lies_a_tenth_of_a_d
     steps = draft(mechanism_of(name)).steps
     (arc,) = (step.data.table.missed[0] for step in steps if isinstance(step.data, TrialPositions) and step.data.table)
     assert "bar" == arc.kind
-    place = reduced_mechanism._place
+    hinges = RemovedConstraint._hinges
 
-    def turned(links: Mapping[str, PlacedLink], poses: Poses, mm: float, point: str, link: str) -> complex:
-        return place(links, poses, mm, point, link) * (TURNED if point == arc.names[0] else 1)
+    def turned(self: RemovedConstraint, paper: PlacedLinks) -> list[tuple[complex, complex]]:
+        places = zip(self.ends, hinges(self, paper), strict=True)
+        return [(own, at * (TURNED if point == arc.names[0] else 1)) for (point, _), (own, at) in places]
 
-    monkeypatch.setattr(reduced_mechanism, "_place", turned)
+    monkeypatch.setattr(RemovedConstraint, "_hinges", turned)
     assert not agrees(name)
 
 
