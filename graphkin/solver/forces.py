@@ -22,7 +22,7 @@ from graphkin.scene.force_names import ForceJoint, joints, opposite
 from graphkin.scene.loads import BalanceAt, LoadOn, Phase, SpringOn
 from graphkin.scene.model import Mechanism
 from graphkin.solver.cams import contact_of
-from graphkin.solver.linear_blocks import LinearBlocks
+from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
 from graphkin.structure import Pair, Structure
@@ -155,6 +155,8 @@ class _Pairs:
 
 
 EPS = float(np.finfo(float).eps)
+DEAD = 1e-10
+"""Equations with entries of order 1 whose inverse is greater than 1 / DEAD have no answer."""
 
 
 @dataclass(frozen=True)
@@ -259,23 +261,44 @@ class _Statics:
         return np.asarray((at - self.motion.poses[link].z) / self.size)
 
     @cached_property
-    def system(self) -> LinearBlocks:
+    def matrix(self) -> Array:
         """Equilibrium of each link, three rows each: both components of force, and moment about its origin over the
-        size; a column for each unknown."""
-        made: dict[tuple[int, int], float | Array] = {}
+        size; a column for each unknown.  Shape (n, rows, columns)."""
+        made = np.zeros((len(self.motion), 3 * len(self.row), len(self.unknowns)))
         for k, one in enumerate(self.unknowns):
             for link, sign in ((one.second, 1.0), (one.first, -1.0)):
                 i = self.row.get(link)
                 if i is None:
                     continue
                 if one.along is None:
-                    made[i + 2, k] = sign
+                    made[:, i + 2, k] = sign
                     continue
-                made[i + 2, k] = sign * cross(self.arm(link, one.at), one.along)
-                for row, part in ((i, one.along.real), (i + 1, one.along.imag)):
-                    if not isinstance(one.along, complex) or part:
-                        made[row, k] = sign * part
-        return LinearBlocks(made, 3 * len(self.row), len(self.unknowns), self.motion.ok)
+                made[:, i, k], made[:, i + 1, k] = sign * one.along.real, sign * one.along.imag
+                made[:, i + 2, k] = sign * cross(self.arm(link, one.at), one.along)
+        return made
+
+    @cached_property
+    def inverse(self) -> tuple[Array, Array]:
+        """The inverse of the matrix, and where there is one, shape (n,); nothing elsewhere."""
+        matrix, good = self.matrix, self.motion.ok
+        rows, columns = matrix.shape[1:]
+        if rows != columns:
+            return np.zeros((len(good), columns, rows)), np.zeros_like(good)
+        one = np.eye(rows)
+        found = solve_all(np.where(good[:, None, None], matrix, one), np.broadcast_to(one, matrix.shape))
+        good = good & (np.abs(found).sum(axis=2).max(axis=1, initial=0.0) < 1.0 / DEAD)  # what is no number is not less
+        return np.where(good[:, None, None], found, 0.0), good
+
+    def answer(self, right: Array) -> tuple[Array, Array]:
+        """The unknowns, shape (columns, n), NaN where there are none, and where there are, by right sides of shape
+        (rows, n)."""
+        inverse, good = self.inverse
+        good = good & np.isfinite(right).all(axis=0)
+        column = np.where(good, right, 0.0).T[..., None]
+        found = inverse @ column
+        # a second pass takes back the rounding of the first
+        found += inverse @ (column - np.where(good[:, None, None], self.matrix, 0.0) @ found)
+        return np.where(good, found[..., 0].T, np.nan), good
 
     def right(self, values: Iterable[tuple[Action, Array]]) -> Array:
         """What acts, brought to the other side."""
@@ -298,7 +321,7 @@ class _Statics:
         for one in self.acting:
             if one.key:
                 (moments if one.at is None else forces)[one.key] = one.value
-        found, ok = self.system.answer(self.right((one, one.value) for one in self.acting))
+        found, ok = self.answer(self.right((one, one.value) for one in self.acting))
         ok = ok & ~np.any([np.zeros(len(ok), dtype=bool), *without_line(self.motion).values()], axis=0)
         self._by_symbol(found, forces, moments)
         if not ok.all():
@@ -316,7 +339,7 @@ class _Statics:
         changed = ok & np.any([one.beside != one.value for one in jumping], axis=0)
         made = {one.key: one.beside for one in jumping if one.key and one.beside is not None}
         if changed.any():
-            self._by_symbol(np.where(changed, self.system.answer(self.right(values))[0], np.nan), made, made)
+            self._by_symbol(np.where(changed, self.answer(self.right(values))[0], np.nan), made, made)
         least = 1e-6 * EDGE * np.max(np.abs(np.nan_to_num(list(here.values()))), axis=0)
         for key, value in list(made.items()):
             made[key] = np.where(ok & (np.abs(value - here[key]) > least), value, np.nan)
@@ -359,9 +382,10 @@ class _Statics:
                 if link in self.row:
                     right[self.row[link] : self.row[link] + 3] += np.nan_to_num(off)
         found = np.nan_to_num([self._size_of(one, forces) for one in self.unknowns])
-        for (i, k), entry in self.system.entries.items():
-            right[i] += (np.abs(entry) * 16 * EPS + place / size + turn[0]) * found[k]
-        spread = self.system.spread(right) + 16 * EPS * found
+        matrix = np.nan_to_num(self.matrix)
+        off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
+        right += (off @ found.T[..., None])[..., 0].T
+        spread = (np.abs(self.inverse[0]) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
         most = np.where(forces.ok, spread.max(axis=0), np.nan)
         return most, most * size
 

@@ -378,3 +378,23 @@ def test_masses_and_loads_are_told_in_words():
     assert "link 4 has 22.449 kg, 1.2 kg m2 about its centre of mass, which lies at (290, 0) in its own axes" == told[0]
     assert "load P: a force of 9000 N on link 6" in told
     assert "a moment M_2 on link 2 keeps the balance" == told[-1]
+
+
+def test_a_pair_that_no_load_passes_through_has_no_force_at_all():
+    # the four-bar is loaded at its rocker: without weights the dyad that hangs on it carries just nothing
+    scene = {
+        "frame": {"points": {"A": [0, 0], "D": [100, 0], "G": [150, 90]}},
+        "links": {
+            "1": {"points": ["A", "B"], "length": 40},
+            "2": {"points": ["B", "C"], "length": 80},
+            "3": {"points": ["C", "D"], "length": 70},
+            "4": {"points": ["C", "E"], "length": 60},
+            "5": {"points": ["E", "G"], "length": 60},
+        },
+        "sketch": {"C": [70, 60], "E": [120, 120]},
+        "driver": {"link": "1", "angle": 50, "omega": 10},
+        "loads": {"push": {"on": "3", "at": "C", "force": 1000, "angle": 200}},
+    }
+    forces = graphkin.solve(scene).data["positions"][0]["forces"]
+    nothing = sorted(name for name, force in forces.items() if force == [0.0, 0.0])
+    assert ["F_0/5", "F_2/4", "F_4/5"] == nothing
