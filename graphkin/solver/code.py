@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from decimal import Decimal
 from functools import cache, cached_property
 from itertools import pairwise
 from threading import Thread
@@ -98,29 +97,16 @@ class Code:
     def floats(self) -> Callable[[Sequence[float], Sequence[float]], tuple[float, ...]]:
         """Function of params and inputs to what is asked.  Raises ZeroDivisionError, OverflowError in a singular
         position."""
-        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(self._one({}), FLOATS)
-        return made
-
-    @cached_property
-    def decimals(self) -> Callable[[Sequence[Decimal], Sequence[Decimal]], tuple[Decimal, ...]]:
-        """The same in 50 digits."""
-        values = dict.fromkeys(self.graph.lines[at][1] for at in self.order if self.graph.lines[at][0] == "const")
-        names = {x: f"k{n}" for n, x in enumerate(values)}
-        numbers = {name: Decimal(x) for x, name in names.items()}
-        made: Callable[[Sequence[Decimal], Sequence[Decimal]], tuple[Decimal, ...]]
-        made = defined(self._one(names), {"sqrt": Decimal.sqrt, "fmin": min, "fmax": max, **numbers})
-        return made
-
-    def _one(self, constants: Mapping[float, str]) -> str:
         inputs = {name: f"i[{k}]" for name, k in self._input.items()}
-        body, names = self._straight(self.order, inputs, constants)
-        return "\n    ".join(["def made(p, i):", *body, _tuple(names[at] for at in self.asked)])
+        body, names = self._straight(self.order, inputs)
+        text = "\n    ".join(["def made(p, i):", *body, _tuple(names[at] for at in self.asked)])
+        made: Callable[[Sequence[float], Sequence[float]], tuple[float, ...]] = defined(text, FLOATS)
+        return made
 
     def _straight(
         self,
         order: Sequence[int],
         inputs: Mapping[Name, str],
-        constants: Mapping[float, str],
         kept: Container[int] = (),
         before: Mapping[int, str] | None = None,
     ) -> tuple[list[str], dict[int, str]]:
@@ -138,7 +124,7 @@ class Code:
         for at in order:
             line = self.graph.lines[at]
             if line[0] == "const":
-                names[at] = constants.get(line[1], repr(line[1]))
+                names[at] = repr(line[1])
                 continue
             if line[0] in LEAVES:
                 text, deep = inputs.get(line[1]) or self._param[line[1]], 0
@@ -155,14 +141,14 @@ class Code:
     def straight_same(self) -> tuple[list[str], dict[int, str]]:
         """Assignments for what is the same at all positions, and what to write for each of its lines."""
         order = [at for at in self.order if at not in self.varying]
-        return self._straight(order, {}, {}, set(self._same[1]))
+        return self._straight(order, {}, set(self._same[1]))
 
     def straight_varying(
         self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
     ) -> tuple[list[str], dict[int, str]]:
         """The same for what changes, as far as some of the asked lines need it, after ``straight_same``."""
         order = [at for at in self.graph.needed([Real(self.graph, at) for at in asked]) if at in self.varying]
-        return self._straight(order, inputs, {}, set(), before)
+        return self._straight(order, inputs, set(), before)
 
     # many positions
 
@@ -179,7 +165,7 @@ class Code:
             if at not in self.varying:
                 wanted.setdefault(at, len(wanted))
         order = [at for at in self.order if at not in self.varying]
-        body, names = self._straight(order, {}, {})
+        body, names = self._straight(order, {})
         text = "\n    ".join(["def made(p):", *body, _tuple(names.get(at, f"x{at}") for at in wanted)])
         return defined(text, FLOATS), wanted
 

@@ -18,10 +18,9 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
-from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.expressions import Name, Real, Rounding, Vec
+from graphkin.solver.expressions import DECIMALS, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
 from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
@@ -49,14 +48,14 @@ def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
 
 @dataclass(frozen=True)
 class ExtendedPrecision:
-    """What it takes to compute a position again.
+    """Some formulas of a mechanism in fifty digits, at positions of its drivers.
 
     value, rate, second : of the drivers, shape (n, drivers), (drivers,), (drivers,)
     signs : the other inputs of the formulas, by name, shape (n,)
     """
 
     dimensioned: DimensionedProgram
-    code: Code
+    asked: Sequence[Real]
     drivers: Sequence[Driver]
     value: Array
     rate: Array
@@ -77,35 +76,60 @@ class ExtendedPrecision:
                 done[k] = True
         return done
 
-    def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, ...]:
-        """What the code computes at position ``k``, or with drivers at other values."""
-        given: dict[Name, Decimal] = {name: Decimal(float(column[k])) for name, column in self.signs.items()}
+    def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> list[Decimal]:
+        """The formulas at position ``k``, or with drivers at other values."""
+        return self._row({name: number for name, (number, _) in self._numbers(k, at or {}).items()})
+
+    def with_doubt(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, Decimal]:
+        """The first of them, and how far the digits that the file leaves open may move it.
+
+        Each number that is open is moved by itself; all together may move a product of small factors by as many times
+        the sum of that.
+        """
+        numbers = self._numbers(k, at or {})
+        given = {name: number for name, (number, _) in numbers.items()}
+        value = self._row(given)[0]
+        errors = [(name, sign * error) for name, (_, error) in numbers.items() if error for sign in (1, -1)]
+        moved = [abs(self._row({**given, name: given[name] + error})[0] - value) for name, error in errors]
+        return value, len(moved) * sum(moved, Decimal(0))
+
+    def _row(self, numbers: Mapping[Name, Decimal]) -> list[Decimal]:
+        return self.dimensioned.program.graph.values(self.asked, numbers.__getitem__, {}, DECIMALS)
+
+    def _numbers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
+        """What the formulas take at position ``k``, and how far each number may be off."""
+        graph, given = self.dimensioned.program.graph, self._drivers(k, at)
+        leaves = (graph.lines[line] for line in graph.needed(self.asked))
+        return {name: given.get(name) or self.dimensioned.decimal(name)
+                for kind, name, *_ in leaves if kind in ("param", "input")}  # fmt: skip
+
+    def _drivers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
+        """What the formulas take that changes from position to position, and how far it may be off."""
+        given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
             value = float(self.value[k, j])
             number, exact = meant_angle(value) if driver.turns else meant(value)
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
                 number, exact = Decimal(dead.exact), True
-            if at and j in at:
+            if j in at:
                 number, exact = at[j], True
+            error = Decimal(0 if exact else GIVEN * abs(value))
             if driver.turns:
-                given["cos", j], given["sin", j] = cos_sin(number)
+                cosine, sine = cos_sin(number)
+                given["cos", j], given["sin", j] = (cosine, error), (sine, error)
             else:
-                given["travel", j] = number
-            given["error", "angle" if driver.turns else "travel", j] = Decimal(0 if exact else GIVEN * abs(value))
+                given["travel", j] = number, error
             for name, rate in (("rate", float(self.rate[j])), ("second", float(self.second[j]))):
-                given[name, j], exact = meant(rate)
-                given["error", name, j] = Decimal(0 if exact else GIVEN * abs(rate))
-        params = self.dimensioned.decimals(self.code.params, given)
-        return self.code.decimals(params, [given[name] for name in self.code.inputs])
+                number, exact = meant(rate)
+                given[name, j] = number, Decimal(0 if exact else GIVEN * abs(rate))
+        return given
 
 
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
 TINY = 1e-25
 """The same where the driver's distance from the dead point is known to fifty digits."""
-FEW = 4
-"""As many positions are computed one by one in plain floats."""
 
 
 @dataclass(frozen=True)
@@ -177,18 +201,13 @@ def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], whi
 
 
 def extended_precision_of(
-    structure: Structure,
-    forms: Mapping[int, Array],
-    key: Hashable,
-    choose: Callable[[Program], list[Real]],
-    drive: Drive | None = None,
+    structure: Structure, forms: Mapping[int, Array], choose: Callable[[Program], Real], drive: Drive | None = None
 ) -> ExtendedPrecision:
-    """What computes some formulas of a mechanism of dyads in fifty digits, at positions of its drivers (its own), or at
+    """What computes a formula of a mechanism of dyads in fifty digits, at positions of its drivers (its own), or at
     any values of them."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
     run = _Run(structure, drive or Drive.at(structure, own), forms, False)
-    program = run.dimensioned.program
-    return run._extended(program.code(key, choose(program)))
+    return run._extended([choose(run.dimensioned.program)])
 
 
 class _Run:
@@ -205,7 +224,8 @@ class _Run:
     ) -> None:
         drive = drive.followed(structure)
         self.structure, self.drive, self.forms = structure, drive, forms
-        self.rates, self.fine, self.known = rates, fine, known
+        self.rates, self.fine = rates, fine
+        self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
         self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
         self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
@@ -280,8 +300,7 @@ class _Run:
         if not again.any():
             return state
         # the columns are those of the poses
-        extended = self._extended(program.code((upto, self.rates), _reals(asked)))
-        return replace(state, refined=extended.place(again, asked, columns))
+        return replace(state, refined=self._extended(_reals(asked)).place(again, asked, columns))
 
     def _rough(self, state: State) -> Array:
         """Positions whose rates sixteen digits leave rough."""
@@ -361,8 +380,6 @@ class _Run:
         code = program.code(key, reals)
         params = self.dimensioned.params(code.params, self.rates_of)
         inputs = [self.given[name] for name in code.inputs]
-        if self.n <= FEW:
-            return _as_asked(asked, self._one_by_one(code, params, inputs))
         out: list[Array] = []
         found = []
         for x in asked:
@@ -375,19 +392,10 @@ class _Run:
         """A number that the formulas are given, at the first position."""
         return float(self.given[name][0]) if name in self.given else self._known(name)
 
-    def _extended(self, code: Code) -> ExtendedPrecision:
+    def _extended(self, asked: Sequence[Real]) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
         drivers = self.structure.drivers
-        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
-
-    def _one_by_one(self, code: Code, params: list[float], inputs: list[Array]) -> list[Array]:
-        rows = np.empty((self.n, len(code.asked)))
-        for k in range(self.n):
-            try:
-                rows[k] = code.floats(params, [float(x[k]) for x in inputs])
-            except (ZeroDivisionError, OverflowError):
-                code.arrays(code.same(params), [x[k : k + 1] for x in inputs], list(rows[k : k + 1].T))
-        return list(rows.T)
+        return ExtendedPrecision(self.dimensioned, asked, drivers, self.drive.value, self.rate, self.second, signs)
 
 
 _LOST = np.full(1, np.nan)
@@ -431,40 +439,22 @@ class Discriminant:
 
     def __init__(self, structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None) -> None:
         known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
-        self._extended = extended_precision_of(structure, known, ("closing", i), lambda p: _with_doubt(p, i), drive)
+        self._extended = extended_precision_of(structure, known, lambda program: program.groups[i].discriminant, drive)
 
     def __call__(self, *values: Decimal) -> Decimal:
         """At values of the drivers.  Raises ArithmeticError where the groups before it have no place."""
-        value, _ = self._extended.row(0, dict(enumerate(values)))
-        return value
+        return self._extended.row(0, dict(enumerate(values)))[0]
 
     def with_doubt(self, values: Sequence[Decimal]) -> tuple[Decimal, Decimal]:
         """The same, and how far the file leaves it open: wholly where the groups before it have no place."""
         try:
-            value, doubt = self._extended.row(0, dict(enumerate(values)))
+            return self._extended.with_doubt(0, dict(enumerate(values)))
         except ArithmeticError:
             return Decimal(0), Decimal("Infinity")
-        return value, doubt
 
     def written(self, k: int) -> tuple[Decimal, Decimal]:
         """The same at a position."""
-        value, doubt = self._extended.row(k)
-        return value, doubt
-
-
-def _with_doubt(program: Program, i: int) -> list[Real]:
-    found = program.groups[i].discriminant
-    return [found, Rounding(program.graph, _given_error, program.graph.param(("unit",))).of(found)]
-
-
-def _given_error(x: Real) -> Real:
-    """How far a number that is given may be off."""
-    name = x.line[1]
-    if name[0] in ("size", "sign", "unit"):
-        return x.graph.const(0)
-    if name[0] in ("cos", "sin"):
-        return x.graph.param(("error", "angle", name[1]))
-    return x.graph.param(("error", *(name[:-1] if name[-1] in ("x", "y") else name)))
+        return self._extended.with_doubt(k)
 
 
 def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:

@@ -1,12 +1,7 @@
-"""Formulas as data: every operation once, in order, ready to be written out as code; and a bound of their rounding.
+"""Formulas as data: every operation once, in order, ready to be written out as code, or computed one by one.
 
 A formula is built by computing with ``Real`` and ``Vec`` in place of floats and complex numbers.  What is known to be 0
 or 1 is folded away, what is computed twice is computed once, and what leads to nothing asked is never written out.
-
-The bound of a formula is itself a formula, written beside it: running error analysis (Higham, Accuracy and Stability
-of Numerical Algorithms, sec. 3.3) without leaving out terms of second order.  With x' = x + e and |e| <= E for each
-operand each rule holds for every such e, and every operation adds one rounding of what it gave.  Where a divisor is not
-known to differ from zero the bound is infinite.
 """
 
 from __future__ import annotations
@@ -14,13 +9,14 @@ from __future__ import annotations
 import math
 import operator
 from collections.abc import Callable, Iterable, Mapping
+from decimal import Decimal
 from typing import Any, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
-    "FLOATS", "LEAVES", "ExpressionGraph", "Line", "Real", "Rounding", "Vec", "fmax", "fmin", "operands", "root",
+    "DECIMALS", "FLOATS", "LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root",
     "two_sum",
 ]  # fmt: skip
 
@@ -34,14 +30,11 @@ LEAVES = ("const", "param", "input")
 
 
 class ExpressionGraph:
-    """The lines of all formulas built on it; equal lines are one line.
-
-    ``rests`` are the lines that hold what rounding has taken from a sum ("sum" in place of "add").
-    """
+    """The lines of all formulas built on it; equal lines are one line.  Of a sum whose rounding is looked at ("sum" in
+    place of "add") nothing is folded away."""
 
     def __init__(self) -> None:
         self.lines: list[Line] = []
-        self.rests: set[int] = set()
         self._place: dict[Line, int] = {}
 
     def line(self, *line: str | float | Name) -> Real:
@@ -80,9 +73,11 @@ class ExpressionGraph:
                     stack += [(k, False) for k in reversed(operands(self.lines[at])) if k not in done]
         return order
 
-
-    def values(self, asked: Iterable[Real], given: Callable[[Name], float], known: dict[int, float]) -> list[float]:
-        """Numbers at one position without code of their own, as plain floats.
+    def values(
+        self, asked: Iterable[Real], given: Callable[[Name], Any], known: dict[int, Any],
+        operations: Mapping[str, Callable[..., Any]] | None = None,
+    ) -> list[Any]:  # fmt: skip
+        """Numbers at one position without code of their own: plain floats, or what the operations compute with.
 
         Parameters
         ----------
@@ -91,9 +86,9 @@ class ExpressionGraph:
 
         Raises
         ------
-        ZeroDivisionError, OverflowError : a singular position
+        ZeroDivisionError, OverflowError : a singular position; of decimals any ArithmeticError
         """
-        found = []
+        operations, found = operations or _OPERATIONS, []
         for real in asked:
             waiting = [real.at]
             while waiting:
@@ -105,9 +100,9 @@ class ExpressionGraph:
                     continue
                 waiting.pop()
                 if line[0] in LEAVES:
-                    known[at] = line[1] if line[0] == "const" else given(line[1])
+                    known[at] = operations["const"](line[1]) if line[0] == "const" else given(line[1])
                 else:
-                    known[at] = _OPERATIONS[line[0]](*(known[k] for k in line[1:]))
+                    known[at] = operations[line[0]](*(known[k] for k in line[1:]))
             found.append(known[real.at])
         return found
 
@@ -125,7 +120,7 @@ FLOATS: Mapping[str, Callable[..., float]] = {
     "sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2,
 }  # fmt: skip
 """What formulas of one position call."""
-_OPERATIONS: Mapping[str, Callable[..., float]] = {
+_OPERATIONS: Mapping[str, Callable[..., Any]] = {
     **FLOATS,
     "add": operator.add,
     "sum": operator.add,
@@ -135,7 +130,12 @@ _OPERATIONS: Mapping[str, Callable[..., float]] = {
     "neg": operator.neg,
     "abs": abs,
     "root": lambda x: math.sqrt(abs(x)),
+    "const": float,
 }
+DECIMALS: Mapping[str, Callable[..., Any]] = {
+    **_OPERATIONS, "root": lambda x: abs(x).sqrt(), "fmin": min, "fmax": max, "const": Decimal,
+}  # fmt: skip
+"""What formulas in 50 digits call."""
 
 
 def operands(line: Line) -> tuple[int, ...]:
@@ -388,85 +388,4 @@ def two_sum(a: Number, b: Number) -> tuple[Number, Number]:
     else:
         s = a.graph.line("sum", a.at, b.at)
     back = s - a
-    rest = (a - (s - back)) + (b - back)
-    if isinstance(rest, Real):
-        rest.graph.rests.add(rest.at)
-    return s, rest
-
-
-# how far rounding may have moved the result of a formula
-
-
-class Rounding:
-    """The bounds of the formulas of a graph, written into the same graph.
-
-    Parameters
-    ----------
-    given : bound of a number that is given (param or input), by its line
-    unit : how far one rounding may move a number, relatively
-    exact : lines whose own error is not looked at
-    """
-
-    def __init__(
-        self, graph: ExpressionGraph, given: Callable[[Real], Real], unit: Real, exact: Iterable[int] = ()
-    ) -> None:
-        self.graph = graph
-        self.unit = unit
-        self._given = given
-        self._known: dict[int, Real] = dict.fromkeys(exact, graph.const(0))
-
-    def of(self, asked: Real) -> Real:
-        """The bound of a formula."""
-        waiting = [asked.at]
-        while waiting:
-            at = waiting[-1]
-            missing = [k for k in operands(self.graph.lines[at]) if k not in self._known]
-            if missing:
-                waiting += missing
-            else:
-                waiting.pop()
-                if at not in self._known:
-                    self._known[at] = self._bound(Real(self.graph, at))
-        return self._known[asked.at]
-
-    def _bound(self, x: Real) -> Real:
-        kind = x.line[0]
-        if kind == "const" or x.at in self.graph.rests:
-            return self.graph.const(0)
-        if kind in ("param", "input"):
-            return self._given(x)
-        parts = [Real(self.graph, k) for k in x.line[1:]]
-        errors = [self._known[k] for k in x.line[1:]]
-        if kind in ("neg", "abs"):
-            return errors[0]
-        one = errors[0]
-        if kind == "root":
-            # |sqrt(p + e) - sqrt(p)| <= |e| / sqrt(p) and <= sqrt(|e|)
-            moved = one if one.value == 0 else fmin(one / x, root(one))
-            return moved + self.unit * abs(x)
-        two = errors[1]
-        if kind in ("fmin", "fmax"):
-            return fmax(one, two)
-        a, b = parts
-        rounded = self.unit * abs(x)
-        if kind == "sum":
-            return one + two
-        if kind in ("add", "sub"):
-            return one + two + rounded
-        if kind == "mul":
-            if _exact(a) or _exact(b):
-                return abs(a) * two + abs(b) * one
-            if a.at == b.at:
-                return (2.0 * abs(a) + one) * one + rounded
-            return (abs(a) + one) * two + abs(b) * one + rounded
-        if kind == "div":
-            if two.value == 0:
-                return one / abs(b) + rounded
-            left = fmax(abs(b) - two, self.graph.const(0))
-            return (one + abs(x) * two) / left + rounded
-        raise ValueError(f"no bound for {kind}")
-
-
-def _exact(x: Real) -> bool:
-    """Whether multiplying by this only changes sign and exponent."""
-    return x.value in (0.5, 2.0, -0.5, -2.0) or (x.line[0] == "input" and x.line[1][0] == "sign")
+    return s, (a - (s - back)) + (b - back)

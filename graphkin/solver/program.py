@@ -13,7 +13,7 @@ from decimal import Decimal
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
 from graphkin.solver.code import Code
-from graphkin.solver.decimals import DIGITS, meant, meant_direction
+from graphkin.solver.decimals import meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
 from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
 from graphkin.solver.pose import GIVEN, Pose
@@ -232,24 +232,18 @@ class DimensionedProgram:
             found.append(self._found[name] if changing is None else changing)
         return found
 
-    def decimals(self, names: Iterable[Name], drivers: Mapping[Name, Decimal]) -> list[Decimal]:
-        """The same as decimals; numbers that stand so in the file are without error."""
-        return [drivers[name] if name in drivers else self._decimal(name) for name in names]
-
     def _fixed(self, name: Name) -> float:
         if name[0] == "size":
             return self.structure.scene.size
         z = self._numbers[name[:-1]]
         return z.real if name[-1] == "x" else z.imag
 
-    def _decimal(self, name: Name) -> Decimal:
-        if name[0] == "unit":
-            return Decimal(10) ** -DIGITS
+    def decimal(self, name: Name) -> tuple[Decimal, Decimal]:
+        """A number of the file as a decimal, and how far it may be off: not at all where it stands so in the file."""
         if name[0] == "size":
-            return Decimal(self.structure.scene.size)
-        if name[0] == "error":
-            return Decimal(0 if self._meant(name[1:])[1] else GIVEN * abs(self._numbers[name[1:]]))
-        return self._meant(name[:-1])[0][0 if name[-1] == "x" else 1]
+            return Decimal(self.structure.scene.size), Decimal(0)
+        parts, known = self._meant(name[:-1])
+        return parts[0 if name[-1] == "x" else 1], Decimal(0 if known else GIVEN * abs(self._numbers[name[:-1]]))
 
     def _meant(self, name: Name) -> tuple[tuple[Decimal, Decimal], bool]:
         """What was written in the file for a place or direction, and whether it can be told."""

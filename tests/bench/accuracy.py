@@ -183,7 +183,7 @@ def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degre
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]
     reals = [x for z in asked for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))]
-    again = run._extended(program.code(("accuracy",), reals))
+    again = run._extended(reals)
 
     def row(k: int) -> dict[str, _Exact]:
         exact = Decimal(float(degrees[k]))
