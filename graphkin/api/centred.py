@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from graphkin.account.centres import how_found, place_of, velocity_sentences
+from graphkin.account.notation import in_counting_order
 from graphkin.api.arguments import (
     ON_SHEETS,
     At,
@@ -24,17 +26,15 @@ from graphkin.api.arguments import (
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.report import Known, in_unit
-from graphkin.construction.centres import (
-    Centre,
-    Centres,
+from graphkin.construction.centre_speeds import (
     Turning,
     by_centres,
     error_by_centres,
-    find_centres,
+    moving_pins,
     speeds,
-    velocity_sentences,
+    turning_of,
 )
-from graphkin.construction.centres.pairs import LinkPair, normal, wedge
+from graphkin.construction.centres import Centre, Centres, LinkPair, find_centres, normal, wedge
 from graphkin.construction.scales import Room
 from graphkin.errors import CallError, Problem, as_text, did_you_mean
 from graphkin.files import Json
@@ -49,67 +49,40 @@ if TYPE_CHECKING:
     from graphkin.solver import Motion
     from graphkin.table import Table
 
-__all__ = ["ROOM", "Centred", "Velocity", "centres", "centres_text", "found_centres"]
+__all__ = ["ROOM", "Centred", "SpeedByCentres", "centres", "centres_text", "found_centres"]
 
 
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
     """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
     below it."""
-    language = languages(centred.language or centred.mechanism.question.sheet.language)[0]
+    language, found = centred.spoken, centred.centres
     convention = centred.convention or centred.mechanism.question.sheet.convention
     letter = "P" if convention in ("chinese", "russian") else "I"
 
-    def name(pair: object) -> str:
-        if isinstance(pair, PointRef):
-            return pair.point
-        if not isinstance(pair, tuple):
-            return str(pair)
-        a, b = sorted(pair, key=lambda n: (not n.isdigit(), int(n) if n.isdigit() else 0, n))
+    def name(thing: object) -> str:
+        if not isinstance(thing, tuple) or isinstance(thing, PointRef):
+            return thing.point if isinstance(thing, PointRef) else str(thing)
+        a, b = sorted(thing, key=in_counting_order)
         return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
 
     rows = []
-    for pair, centre in sorted(centred.centres.table.items(), key=lambda item: item[1].number):
-        least = 1e-12 * centred.mechanism.size / centred.mechanism.units.metres
-        place = ", ".join(f"{x if abs(x) > least else 0.0:.6g}" for x in centred.where(centre))
-        if centre.point is None and centre.direction is not None:
-            place = f"∞ ({place})"
-        elif centre.point is not None:
-            place = f"{place} {centred.mechanism.units.length}"
-        how = say(_phrase(centre, name, ", ".join(centred.centres.kept)), language, name)
-        rows.append((str(centre.number or ""), name(pair), place, how))
-    sentences = [say(c.why, language, str) for c in centred.centres.indeterminate if c.why]
+    for centre in found.found:
+        place = ", ".join(f"{x:.6g}" for x in place_of(found, centre) or ())
+        if place:
+            place = f"∞ ({place})" if centre.point is None else f"{place} {centred.mechanism.units.length}"
+        how = say(how_found(found, centre, name), language, name)
+        rows.append((str(centre.number or ""), name(centre.pair), place, how))
+    sentences = [say(c.why, language, str) for c in found.indeterminate if c.why]
     sentences += [""] if sentences else []
     sentences.append(word("velocities by centres", language))
-    for phrase in velocity_sentences(centred.centres, centred.turning):
-        sentences.append(as_plain(rich_text(phrase, language, name)))
-    off = [name(p) for p, found in centred.compared.items() if found is not None and found[0] > found[1]]
+    sentences += [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found, centred.turning)]
+    off = [name(p) for p, apart in centred.compared.items() if apart is not None and apart[0] > apart[1]]
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
-    sentences += [
-        say(Phrase("centres too near", (str(v.symbol),)), language) for v in centred.velocities if v.ok is None
-    ]
+    sentences += [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
     verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
-    sentences.append(say(verdict, language))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
-    return heads, rows, sentences
-
-
-def _phrase(centre: Centre, name: Callable[[object], str], kept: str) -> Phrase:
-    """How a centre was found, as a sentence to be."""
-    if centre.kind == "undetermined":
-        return Phrase("centre none", (centre.pair,))
-    if centre.kind == "permanent":
-        if centre.rolls:
-            return Phrase("centre rolling", (centre.pair, centre.joint))
-        return Phrase("centre joint" if centre.point is not None else "centre guide", (centre.pair, centre.joint))
-    if centre.way:
-        return Phrase(f"centre {centre.way}", (centre.pair, kept))
-    lines = [_line(line.through, name) for line in centre.lines]
-    return Phrase("centre crossing" if centre.point is not None else "centre crossing far", (centre.pair, *lines))
-
-
-def _line(through: tuple[LinkPair, LinkPair] | tuple[str], name: Callable[[object], str]) -> str:
-    return "".join(name(p) if isinstance(p, tuple) else f"n({p})" for p in through)
+    return heads, rows, [*sentences, say(verdict, language)]
 
 
 MOST_PLAYED = 6  # links all of whose centres are played
@@ -122,100 +95,66 @@ FAIR = 1e-3  # of the largest: a value that may be off by more is not determined
 SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
 
 
-@dataclass(frozen=True)
-class Velocity:
-    """A velocity or angular velocity by centres beside the exact one (SI).
+@dataclass(frozen=True, repr=False)
+class SpeedByCentres(Known):
+    """A velocity or an angular velocity by instant centres beside the exact one (SI, or in the file's units).
 
     ``tolerance`` is how far the two may be apart: 1e-9 of the largest velocity of the mechanism (of the largest rate,
     or that velocity over the size), or what rounding does to the centres and to the position where that is more.  Where
     it exceeds a thousandth of the largest, or where centres are missing, they do not determine the value: ``ok`` is
-    None, and ``by_centres`` is None where there is none at all.
-    """
-
-    symbol: Symbol
-    by_centres: complex | float | None
-    exact: complex | float
-    chain: tuple[str, ...]
-    tolerance: float
-    largest: float
-    ok: bool | None
-
-
-def velocities_by_centres(centres: Centres, turning: Mapping[str, Turning], motion: Motion) -> tuple[Velocity, ...]:
-    """Velocities measured through centres beside the exact ones: those the scene asks for, or all."""
-    scene = centres.links.scene
-    asked = [s for s in scene.question.find if s.kind in ("v", "omega")]
-    symbols = asked if scene.question.find else _all(centres)
-    found = []
-    # what is asked may be nought beside the rest: it is judged by the whole mechanism
-    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *_all(centres)))}
-    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
-    size = scene.size
-    largest["omega"] = max(largest["omega"], largest["v"] / size)
-    rounded = float(motion.rough[0][0])
-    for symbol in symbols:
-        value = by_centres(centres, turning, symbol)
-        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
-        if value is None:
-            found.append(Velocity(symbol, None, wanted, (), math.inf, largest[symbol.kind], None))
-            continue
-        most = max(largest[symbol.kind], 1e-300)
-        own = rounded / (1.0 if symbol.is_vector else size)
-        tolerance = max(TOLERANCE * most, own, SAFETY * error_by_centres(centres, turning, symbol))
-        close = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
-        found.append(Velocity(symbol, value, wanted, _chain(centres, turning, symbol), tolerance, most, close))
-    return tuple(found)
-
-
-def _all(centres: Centres) -> list[Symbol]:
-    links = centres.links
-    frame = links.scene.frame
-    moving = [name for name in links.names if name != frame.name]
-    pins = [p for p, names in links.scene.holders.items() if p not in frame.points and any(n in moving for n in names)]
-    return [Symbol("omega", link=name) for name in moving] + [Symbol("v", PointRef(p)) for p in pins]
-
-
-def _chain(centres: Centres, turning: Mapping[str, Turning], symbol: Symbol) -> tuple[str, ...]:
-    if symbol.link:
-        return turning[symbol.link].chain
-    assert symbol.of is not None
-    holders = [symbol.of.link] if symbol.of.link else centres.links.scene.holders[symbol.of.point]
-    return next((turning[n].chain for n in holders if n in turning), ())
-
-
-@dataclass(frozen=True, repr=False)
-class SpeedByCentres(Known):
-    """A velocity or an angular velocity by instant centres beside the exact one; ``by_centres`` is None where they do
-    not give it.
-
-    chain : the centres it was taken through
-    tolerance : how far the two may be apart
-    ok : whether they agree; None where the centres do not determine it
+    None, and ``by_centres`` is None where there is none at all.  ``chain`` are the centres it was taken through.
     """
 
     by_centres: Value | None
     exact: Value
     chain: tuple[str, ...]
     tolerance: float
+    largest: float
     ok: bool | None
 
-    @classmethod
-    def of(cls, scene: Mechanism, velocity: Velocity) -> SpeedByCentres:
-        """A velocity (SI) in the units of its scene."""
-        unit = velocity.symbol.unit(scene.units)
+    def in_units(self, scene: Mechanism) -> SpeedByCentres:
+        """The same (SI) in the units of its scene, nothing but rounding being 0."""
+        unit, floor = self.symbol.unit(scene.units), 0.0 if self.ok is None else self.tolerance
+        values = [None if v is None else in_unit(unit, complex(v) if self.symbol.is_vector else float(v.real), floor)
+                  for v in (self.by_centres, self.exact)]  # fmt: skip
+        assert values[1] is not None
+        return replace(self, unit=unit.text, by_centres=values[0], exact=values[1], tolerance=unit.of(self.tolerance))
 
-        def shown(value: Value) -> Value:
-            own = complex(value) if velocity.symbol.is_vector else float(value.real)
-            return in_unit(unit, own, 0.0 if velocity.ok is None else velocity.tolerance)
-
-        taken = None if velocity.by_centres is None else shown(velocity.by_centres)
-        return cls(
-            velocity.symbol, unit.text, taken, shown(velocity.exact), velocity.chain, unit.of(velocity.tolerance),
-            velocity.ok,
-        )  # fmt: skip
+    def too_near(self, language: str) -> str:
+        """What is said where the centres do not determine it."""
+        return say(Phrase("centres too near", (str(self.symbol),)), language)
 
     def _values(self) -> tuple[tuple[str, Value | None], ...]:
         return ("by centres", self.by_centres), ("exact", self.exact)
+
+
+def velocities_by_centres(
+    centres: Centres, turning: Mapping[str, Turning], motion: Motion
+) -> tuple[SpeedByCentres, ...]:
+    """Velocities (SI) measured through centres beside the exact ones: those the scene asks for, or all."""
+    scene, size = centres.scene, centres.scene.size
+    moving = [name for name in centres.names if name != scene.frame.name]
+    every = [*(Symbol("omega", link=name) for name in moving), *moving_pins(centres)]
+    symbols = [s for s in scene.question.find if s.kind in ("v", "omega")] if scene.question.find else every
+    # what is asked may be nought beside the rest: it is judged by the whole mechanism
+    exact = {s: complex(motion.value(s)[0]) for s in dict.fromkeys((*symbols, *every))}
+    largest = {kind: max((abs(x) for s, x in exact.items() if s.kind == kind), default=0.0) for kind in ("v", "omega")}
+    largest["omega"] = max(largest["omega"], largest["v"] / size)
+    found = []
+    for symbol in symbols:
+        value = by_centres(centres, turning, symbol)
+        wanted = exact[symbol] if symbol.is_vector else exact[symbol].real
+        chain: tuple[str, ...] = ()
+        tolerance, most, ok = math.inf, largest[symbol.kind], None
+        if value is not None:
+            of = turning_of(centres, turning, symbol.of or PointRef("", symbol.link))
+            chain = () if of is None else of.chain
+            most = max(most, 1e-300)
+            rounded = float(motion.rough[0][0]) / (1.0 if symbol.is_vector else size)
+            tolerance = max(TOLERANCE * most, rounded, SAFETY * error_by_centres(centres, turning, symbol))
+            ok = None if tolerance > FAIR * most else abs(value - wanted) <= tolerance
+        found.append(SpeedByCentres(symbol, "", value, wanted, chain, tolerance, most, ok))
+    return tuple(found)
 
 
 @dataclass(frozen=True, repr=False)
@@ -258,7 +197,12 @@ class Centred(OfScene, Result):
 
     @property
     def mechanism(self) -> Mechanism:
-        return self.centres.links.scene
+        return self.centres.scene
+
+    @property
+    def spoken(self) -> str:
+        """The first of its languages."""
+        return languages(self.language or self.mechanism.question.sheet.language)[0]
 
     @cached_property
     def errors(self) -> dict[LinkPair, float | None]:
@@ -267,13 +211,13 @@ class Centred(OfScene, Result):
     @cached_property
     def compared(self) -> dict[LinkPair, tuple[float, float] | None]:
         """For each centre its error and what it may be."""
-        frame, names = self.centres.links.scene.frame.name, self.centres.links.names
+        frame, names = self.centres.scene.frame.name, self.centres.names
         largest = max(_seen(self.centres, self.motion, (name, frame))[1] for name in names)
         table = self.centres.table.items()
         return {pair: _error(self.centres, self.motion, centre, largest) for pair, centre in table}
 
     @cached_property
-    def velocities(self) -> tuple[Velocity, ...]:
+    def velocities(self) -> tuple[SpeedByCentres, ...]:
         """Those asked for, or the angular velocity of every link and the velocity of every moving pin."""
         return velocities_by_centres(self.centres, self.turning, self.motion)
 
@@ -286,7 +230,7 @@ class Centred(OfScene, Result):
     @cached_property
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin centres --json`` prints."""
-        names = self.centres.links.names
+        names = self.centres.names
         return {
             "links": list(names),
             "centres": {_name(pair): self._centre(centre) for pair, centre in self.centres.table.items()},
@@ -306,7 +250,7 @@ class Centred(OfScene, Result):
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
-            row["why"] = say(centre.why, languages(self.language or self.mechanism.question.sheet.language)[0])
+            row["why"] = say(centre.why, self.spoken)
         return row
 
     def where(self, centre: Centre) -> tuple[float, float] | tuple[()]:
@@ -316,7 +260,7 @@ class Centred(OfScene, Result):
             return _plain(z.real), _plain(z.imag)
         return () if centre.direction is None else (_plain(centre.direction.real), _plain(centre.direction.imag))
 
-    def _velocity(self, v: Velocity) -> dict[str, Json]:
+    def _velocity(self, v: SpeedByCentres) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
         values = (
             None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real) + 0.0
@@ -327,8 +271,7 @@ class Centred(OfScene, Result):
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
         if v.ok is None:
-            language = languages(self.language or self.mechanism.question.sheet.language)[0]
-            row |= {"by_centres": None, "why": say(Phrase("centres too near", (str(v.symbol),)), language)}
+            row |= {"by_centres": None, "why": v.too_near(self.spoken)}
         return row
 
     @cached_property
@@ -339,12 +282,12 @@ class Centred(OfScene, Result):
         from graphkin.study.centre_paths import centre_paths
 
         frame, whole = self.mechanism.frame.name, self.mechanism.whole
-        few = len(self.centres.links.names) <= MOST_PLAYED
+        few = len(self.centres.names) <= MOST_PLAYED
         # what stands for a cam at one position is none of the links that move
         standing = {slot.bar for slot in self.mechanism.slots if slot.bar not in whole.by_name}
         pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
         own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
-        found, mm = centre_paths(self.mechanism, own, pairs), self.centres.links.mm
+        found, mm = centre_paths(self.mechanism, own, pairs), self.centres.mm
         return centres_in_motion(
             self.centres,
             {name: z * mm for name, z in found.origins.items()},
@@ -368,7 +311,7 @@ class Centred(OfScene, Result):
                 Problem(f'"{name}"', Phrase("no centre or velocity of this name"), did_you_mean(name, known))
             )
         if found is None:
-            return SpeedByCentres.of(self.mechanism, taken[name])
+            return taken[name].in_units(self.mechanism)
         where = self.where(found)
         place = complex(*where) if where else None
         return PlacedCentre(_name(found.pair), found.kind, place, found.point is None, self.mechanism.units.length)
@@ -447,7 +390,7 @@ def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float
 
     q, omega = instant_centre(motion, *pair)
     chart, turn = centres.chart, float(omega[0])
-    away = (complex(q[0]) * centres.links.mm - turn * chart.middle) / chart.unit
+    away = (complex(q[0]) * centres.mm - turn * chart.middle) / chart.unit
     return (away.real, away.imag, turn), math.hypot(abs(away), turn)
 
 
@@ -461,7 +404,7 @@ def _error(centres: Centres, motion: Motion, centre: Centre, largest: float) -> 
         return None
     _, sine = wedge(normal(place), normal(centre.place))
     # what rounding does to the exact one grows as the relative motion gets small beside the motions themselves
-    unit = centres.chart.unit / centres.links.mm
+    unit = centres.chart.unit / centres.mm
     places = float(motion.bound.position[0]) / unit + float(motion.rough[0][0]) / (unit * strength)
     # as do the numbers of the file, where they lie far apart
     return sine, TOLERANCE + 1e-14 * largest / strength + (places if math.isfinite(places) else 0.0)

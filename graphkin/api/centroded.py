@@ -47,7 +47,7 @@ class Centroded(OfScene, Result):
 
     @property
     def mechanism(self) -> Mechanism:
-        return self.centres.links.scene
+        return self.centres.scene
 
     @property
     def ok(self) -> bool:
@@ -55,7 +55,7 @@ class Centroded(OfScene, Result):
         centre = self.centres.of(self.link, self.mechanism.frame.name)
         if centre.point is None or not np.isfinite(self.curves.fixed[0]):
             return True
-        away = abs(centre.point / self.centres.links.mm - complex(self.curves.fixed[0]))
+        away = abs(centre.point / self.centres.mm - complex(self.curves.fixed[0]))
         return bool(away <= 1e-9 * max(self.mechanism.size, abs(complex(self.curves.fixed[0]))))
 
     @property
@@ -85,8 +85,8 @@ class Centroded(OfScene, Result):
     def figure(self) -> Drawing:
         from graphkin.drawing.figures.centres_in_motion import centrodes_figure
 
-        mm = self.centres.links.mm
-        pose = self.centres.links.poses[self.link]
+        mm = self.centres.mm
+        pose = self.centres.poses[self.link]
         moving = pose.origin + pose.axis * self.curves.moving * mm
         path = self.path * mm
         whole = np.isfinite(path[:-1]) & np.isfinite(path[1:]) if self.point else np.zeros(0, dtype=bool)

@@ -23,7 +23,8 @@ from graphkin.words import Phrase, listed, say
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Advice
-    from graphkin.construction.centres import Centres, Turning
+    from graphkin.construction.centre_speeds import Turning
+    from graphkin.construction.centres import Centres
     from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
     from graphkin.table import Table
@@ -155,14 +156,14 @@ class Checked(OfScene, Result):
 
     @cached_property
     def _turning(self) -> Mapping[str, Turning]:
-        from graphkin.construction.centres import speeds
+        from graphkin.construction.centre_speeds import speeds
 
         return speeds(self.centres)
 
     def _by_other_ways(self, scene: Mechanism, row: Compared) -> dict[str, Json]:
         """A reading by instant centres (velocities), by Zhukovsky's lever (what balances), and of the drawing at the
         contacts; in scene units.  Of pins in straight slots that is this drawing."""
-        from graphkin.construction.centres import by_centres
+        from graphkin.construction.centre_speeds import by_centres
 
         symbol, ways = row.symbol, dict[str, Json]()
         unit = symbol.unit(scene.units, radians=True)

@@ -159,7 +159,7 @@ def _at_contacts(drawn: Drawn) -> tuple[Any, ...] | None:
 
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
-    from graphkin.construction.centres import speeds
+    from graphkin.construction.centre_speeds import speeds
 
     whole = drawn.checked
     # what exact hands have drawn serves this figure too; finite ones draw nothing of the centres

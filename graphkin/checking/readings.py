@@ -118,7 +118,7 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
             from graphkin.construction.centres import centres_on
 
             centres.append(centres_on(sheet, sheet.asked, instrument))
-        if not set(pair) <= set(centres[0].links.names):
+        if not set(pair) <= set(centres[0].names):
             return None
         centre = centres[0].of(*pair)
         if centre.point is None:

@@ -24,7 +24,8 @@ import numpy as np
 from graphkin import solver
 from graphkin.checking.uncertainty import COVERAGE, predict
 from graphkin.construction import EXACT, Scales, execute, pencil, plan
-from graphkin.construction.centres import by_centres, find_centres, speeds
+from graphkin.construction.centre_speeds import by_centres, speeds
+from graphkin.construction.centres import find_centres
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Unsolvable
@@ -452,7 +453,7 @@ class _CoupledFourBar:
         point = centres.of("2", "0").point
         if point is None:
             return math.nan, off
-        return float(abs(point / centres.links.mm - self.centre) / abs(self.centre)), off
+        return float(abs(point / centres.mm - self.centre) / abs(self.centre)), off
 
 
 def parallel_lines(mp: MPContext, samples: int = 2) -> Singularity:

@@ -5,19 +5,16 @@ from __future__ import annotations
 import cmath
 import math
 import random
-from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
 import pytest
 
 from graphkin.api.centred import centres as checked_centres
-from graphkin.construction.centres import Centres, by_centres, find_centres, speeds, velocity_sentences
+from graphkin.construction.centre_speeds import by_centres, speeds
+from graphkin.construction.centres import Centres, find_centres
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
-from graphkin.words import written
-from tests.bench.attack import mechanism
-from tests.mechanisms import random_scene
 
 
 def xy(z: complex) -> list[float]:
@@ -27,7 +24,7 @@ def xy(z: complex) -> list[float]:
 def off_line(centres: Centres) -> float:
     """How far the three centres of any three links are from one line, on the unit sphere."""
     worst = 0.0
-    for a, b, c in combinations(centres.links.names, 3):
+    for a, b, c in combinations(centres.names, 3):
         p, q, r = (centres.of(*pair).place for pair in ((a, b), (b, c), (c, a)))
         if p and q and r:
             cross = (p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0])
@@ -120,7 +117,7 @@ def test_centres_do_not_need_the_driver_to_move() -> None:
 
 def test_a_redundant_link_has_centres_too() -> None:
     scene = _parallelogram()
-    assert "4" in find_centres(mechanism_of(scene)).links.names
+    assert "4" in find_centres(mechanism_of(scene)).names
 
 
 def test_links_of_a_parallelogram_that_turn_alike_have_their_centre_at_infinity() -> None:
@@ -210,72 +207,6 @@ def test_the_shortest_chain_leads_from_the_driver_in_one_step(name: str) -> None
     assert 2 >= max(len(t.chain) for t in speeds(find_centres(mechanism_of(name))).values())
 
 
-def test_the_sense_is_opposite_where_the_common_centre_lies_between() -> None:
-    centres = find_centres(mechanism_of("sixbar-420rpm"))
-    assert "centre opposite sense" in [p.key for p in velocity_sentences(centres, speeds(centres))]
-
-
-@pytest.mark.parametrize("name", sorted(library()))
-def test_the_told_rates_multiply_up_to_the_exact_ones(name: str) -> None:
-    found = checked_centres(name)
-    exact = {f"v_{v.symbol.of}": abs(v.exact) for v in found.velocities if v.symbol.kind == "v"}
-    metres = found.scene.units.metres
-    for phrase in velocity_sentences(found.centres, found.turning):
-        if phrase.key == "centre speed":
-            symbol, _, _, _, rate, arm, scale, _ = phrase.args
-            told = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0]) * metres
-            carried = written.figures(str(rate), str(arm))
-            assert told == pytest.approx(exact[str(symbol)], rel=max(2e-3, 10.0 ** (1 - carried)))
-
-
-@pytest.mark.parametrize("name", sorted(library()))
-def test_every_told_rate_is_true_as_it_is_written(name: str) -> None:
-    found = checked_centres(name)
-    turning = {link: written.amount(one.omega) for link, one in found.turning.items()}
-    for phrase in velocity_sentences(found.centres, found.turning):
-        if phrase.key in ("centre same sense", "centre opposite sense"):
-            link, known, *_, far, near, rate = (str(arg).replace("−", "-") for arg in phrase.args)
-            sign = -1.0 if phrase.key == "centre opposite sense" else 1.0
-            value = sign * float(turning[known]) * float(far) / float(near)
-            assert float(rate) == pytest.approx(value, rel=0.0, abs=0.5001 * unit_of(rate))
-            turning[link] = rate
-
-
-def test_a_residue_is_no_rate_of_a_velocity_by_centres() -> None:
-    # at this dead centre a link stands still: nothing but rounding is left of its rate
-    scene = random_scene(9129, ("RRP", "RPR"), "slot", textbook=True)
-    found = checked_centres(scene, at=121.65525060596437)
-    told = [str(arg) for phrase in velocity_sentences(found.centres, found.turning) for arg in phrase.args]
-    assert [] == [text for text in told if "e-" in text or "e−" in text]
-
-
-def unit_of(number: str) -> float:
-    """One in the last figure of a number as it is written; of a whole one, one."""
-    head, _, power = number.partition("e")
-    places = len(head.partition(".")[2])
-    return float(10.0 ** (int(power or 0) - places))
-
-
-def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() -> None:
-    # the ram has no finite centre: its speed is that of the crank where both have one velocity
-    scene = replace(mechanism_of("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
-    centres = find_centres(scene)
-    (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
-    _, link, _, end, rate, arm, scale, said = told.args
-    exact = abs(checked_centres(scene).velocities[0].exact) / scene.units.metres
-    assert ("2", True) == (link, isinstance(end, tuple))
-    product = float(str(rate)) * float(str(arm)) * float(str(scale).split()[0])
-    said = str(said).split()[0]
-    assert float(said) == pytest.approx(product, rel=0.0, abs=0.5001 * unit_of(said))  # true as it is written
-    assert product == pytest.approx(exact, rel=1e-2)  # as many figures as the distances carry
-
-
-def test_a_clockwise_link_is_told_with_its_sign() -> None:
-    centres = find_centres(mechanism_of("shaper-scheme-2"))
-    told = {p.args[0]: p.args[-1] for p in velocity_sentences(centres, speeds(centres)) if "sense" in p.key}
-    assert "−0.739" == told["4"]  # 6.70206 · 8.68 mm / 78.68 mm
-
-
 def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
     centres = find_centres(mechanism_of("slider-crank-offset"))
     common = centres.of("1", "3").point
@@ -286,21 +217,3 @@ def test_a_slider_has_the_velocity_of_the_crank_at_their_centre() -> None:
     value = by_centres(centres, speeds(centres), Symbol.parse("v_C"))
     assert isinstance(value, complex)
     assert abs(common - pivot) * centres.sheet.scales.length * abs(omega) == pytest.approx(abs(value), rel=1e-12)
-
-
-def test_the_sliding_velocity_is_the_difference_of_rates_times_the_arm_from_the_common_centre():
-    centres = find_centres(mechanism_of("sixbar-guide-40deg"))
-    told = [p.args for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre sliding"]
-    assert [("1", "3"), ("5", "3")] == [args[1:3] for args in told]
-    sizes = [float(args[-1].split()[0]) for args in told]
-    assert [575.4062995771787, 99.20039152997784] == pytest.approx(sizes, rel=1e-3)
-
-
-def test_no_sliding_velocity_is_told_of_links_that_turn_alike_but_for_rounding() -> None:
-    centres = find_centres(mechanism_of(mechanism(9028)))
-    moving = speeds(centres)
-    told = [p.args[1:3] for p in velocity_sentences(centres, moving) if p.key == "centre sliding"]
-    assert told
-    for pinned, guiding in told:
-        one, other = moving[str(pinned)].omega, moving[str(guiding)].omega
-        assert abs(one - other) > 1e-3 * max(abs(one), abs(other))

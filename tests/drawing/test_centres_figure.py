@@ -11,7 +11,8 @@ import graphkin
 from graphkin.account.notation import letters_of
 from graphkin.api.centred import found_centres
 from graphkin.api.centroded import centrodes
-from graphkin.construction.centres import Centres, speeds
+from graphkin.construction.centre_speeds import speeds
+from graphkin.construction.centres import Centres
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.figures.centres import background, centres_figure, named_centres, untold
@@ -124,8 +125,8 @@ def test_no_stroke_of_a_centrode_leaps_across_the_figure() -> None:
 
 def test_the_moving_centrode_touches_the_fixed_one_at_the_centre() -> None:
     found = centrodes("slider-crank-offset", link="2")
-    pose = found.centres.links.poses["2"]
-    mm = found.centres.links.mm
+    pose = found.centres.poses["2"]
+    mm = found.centres.mm
     moving = pose.origin + pose.axis * complex(found.curves.moving[0]) * mm
     assert abs(moving - complex(found.curves.fixed[0]) * mm) <= 1e-9 * abs(moving)
 

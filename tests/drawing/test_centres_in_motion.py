@@ -42,7 +42,7 @@ def test_a_centre_stands_at_each_frame_where_it_is_drawn_at_that_position(frame)
     for pair in ("1-3", "2-4"):
         x, y = found.data["centres"][pair]["point"]
         pivot = place(own["centre-1-4"], 0)
-        expected = pivot + complex(x, -y) * there.centres.links.mm / 1000
+        expected = pivot + complex(x, -y) * there.centres.mm / 1000
         name = "centre-" + "-".join(sorted(pair.split("-")))
         if own[name].motion.moves[frame] is not None:
             assert expected == pytest.approx(place(own[name], frame), abs=1e-9)
@@ -57,7 +57,7 @@ def test_joints_and_links_are_carried_to_where_they_lie_at_that_position(frame):
     places = [graphkin.solve(scene, at=start + 3 * k).data["positions"][0]["points"] for k in (0, frame)]
     for part, point in (("point-B", "B@2"), ("point-C", "C@3"), ("link-2", "B@2"), ("link-3", "C@3")):
         (x0, y0), (x, y) = (table[point]["position"] for table in places)
-        expected = complex(x - x0, y0 - y) * there.centres.links.mm / 1000
+        expected = complex(x - x0, y0 - y) * there.centres.mm / 1000
         assert expected == pytest.approx(own[part].motion.moves[frame], abs=1e-9)
 
 

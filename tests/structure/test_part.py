@@ -107,11 +107,11 @@ def test_the_solver_of_a_check_solves_only_what_is_needed(monkeypatch: pytest.Mo
 
 def test_a_check_finds_only_the_centres_on_the_way() -> None:
     centres = graphkin.check(SIXBAR, find=["omega_3"]).centres
-    assert 6 == len(centres.links.pairs)
+    assert 6 == len(centres.pairs)
 
 
 def test_a_check_of_everything_finds_all_centres() -> None:
-    assert 15 == len(graphkin.check(SIXBAR).centres.links.pairs)
+    assert 15 == len(graphkin.check(SIXBAR).centres.pairs)
 
 
 def test_a_group_that_is_not_asked_for_may_stand_in_a_dead_point() -> None:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.centres import Centres, by_centres, find_centres, speeds
+from graphkin.construction.centre_speeds import by_centres, speeds
+from graphkin.construction.centres import Centres, find_centres
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 
@@ -27,7 +28,7 @@ def centres_at(name: str, degrees: float) -> Centres:
 def deviation(centres: Centres, pair: str, true: list[float | str]) -> float:
     """Distance from the true place in the mechanism's size, or the angle between the ways to them (rad) where it lies
     further off than ten sizes or at infinity."""
-    scene = centres.links.scene
+    scene = centres.scene
     unit = centres.sheet.scales.length / scene.units.metres
     size = scene.size / scene.units.metres
     found = centres.of(*pair.split("-"))

@@ -15,9 +15,11 @@ from itertools import pairwise, permutations
 
 import numpy as np
 
+from graphkin.account.centres import place_of, velocity_sentences
 from graphkin.account.headings import describe, figure_title, term
 from graphkin.account.notation import Letters, in_counting_order
-from graphkin.construction.centres import Centre, Centres, Turning, velocity_sentences
+from graphkin.construction.centre_speeds import Turning
+from graphkin.construction.centres import Centre, Centres
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
@@ -74,7 +76,7 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Pr
     Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
     there is most room, none where there is too little.
     """
-    names = sorted(centres.links.names, key=in_counting_order)
+    names = sorted(centres.names, key=in_counting_order)
     ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
     sides = [(c, middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found]
     lines: list[Primitive] = []
@@ -127,7 +129,7 @@ def _knots(
     """The links as points on the circle with their numbers."""
     drawn: list[Primitive] = []
     for name in names:
-        at, colour = middle + radius * ways[name], colour_of_link(centres.links.scene, name)
+        at, colour = middle + radius * ways[name], colour_of_link(centres.scene, name)
         drawn.append(Circle(at, 1.1, colour))
         runs = plain(name, 3.5, bold=True)
         box = text_box(Text(0j, runs, "middle", colour))
@@ -209,7 +211,7 @@ def background(piece: Piece, *also: str) -> Piece:
 
 def _side(centres: Centres, letters: Letters, language: str) -> Block:
     """The column beside the mechanism: circle diagram, legend, and the order in which centres were found."""
-    radius = RADIUS.get(len(centres.links.names), 23.0)
+    radius = RADIUS.get(len(centres.names), 23.0)
     circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
         {"centres": circle_diagram(centres, room.centre, radius)}))
     title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
@@ -219,7 +221,7 @@ def _side(centres: Centres, letters: Letters, language: str) -> Block:
 
 def _legend(centres: Centres, language: str) -> Iterator[Block]:
     """The mark of each kind of centre."""
-    frame = centres.links.scene.frame.name
+    frame = centres.scene.frame.name
     kinds: dict[str, Callable[[Centre], bool]] = {
         "permanent fixed": lambda c: c.kind == "permanent" and frame in c.pair,
         "permanent moving": lambda c: c.kind == "permanent" and frame not in c.pair,
@@ -297,17 +299,12 @@ def _say(phrase: Phrase, language: str, letters: Letters) -> str:
 def _description(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str) -> str:
     """Every centre in words, for those who do not see the figure."""
     said = []
-    scene = centres.links.scene
-    per_mm, least = centres.sheet.scales.length / scene.units.metres, 1e-12 * scene.size / scene.units.metres
     for each in languages(language):
         for centre in centres.found:
             name = letters.centre(centre.pair).replace("_{", "").replace("}", "")
+            place = "?" if centre.direction is None else "∞"
             if centre.point is not None:
-                z = centre.point * per_mm
-                place = ", ".join(f"{x if abs(x) > least else 0.0:.4g}" for x in (z.real, z.imag))
-                place = f"({place})"
-            else:
-                place = "∞" if centre.direction is not None else "?"
+                place = f"({', '.join(f'{x:.4g}' for x in place_of(centres, centre) or ())})"
             how = how_found(centre, letters, each, centres) if centre.number else centre.joint
             said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
         said += [

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.account.headings import punctuation
-from graphkin.construction.centres import Centres
-from graphkin.construction.centres.pairs import LinkPair
+from graphkin.construction.centres import Centres, LinkPair
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
 from graphkin.drawing.figures.centres import background

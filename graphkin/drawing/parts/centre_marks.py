@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from graphkin.account.centres import line_through
 from graphkin.account.headings import number
 from graphkin.account.notation import Letters
-from graphkin.construction.centres import Centre, Centres
-from graphkin.construction.centres.find import CentreRelation
-from graphkin.construction.centres.pairs import Line as Straight
+from graphkin.construction.centres import Centre, CentreRelation, Centres
+from graphkin.construction.centres import Line as Straight
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Text, on_page
@@ -45,10 +45,8 @@ def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
 
 def line_name(relation: CentreRelation, letters: Letters) -> str:
     """A line on which a centre lies, by the centres that it leads through, or the normal of a pin in a slot."""
-    if len(relation.through) == 1:
-        point = str(relation.through[0]).split("/")[0]
-        return f"$n_{{{point}}}$"
-    return "$" + "".join(letters.centre(pair) for pair in relation.through if not isinstance(pair, str)) + "$"
+    named = line_through(relation, letters.centre, lambda pin: "n_{" + pin.partition("/")[0] + "}")
+    return f"${named}$"
 
 
 def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
@@ -76,7 +74,7 @@ class _Marks:
         self, centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]
     ) -> None:
         self.centres, self.letters, self.panel = centres, letters, panel
-        self.frame = centres.links.scene.frame.name
+        self.frame = centres.scene.frame.name
         self.inside = panel.grown(-2.5)
         obstacles = obstacles_of(drawn)
         self.solid = list(obstacles.solid)
@@ -188,7 +186,7 @@ class _Marks:
         for one in relation.through:
             if isinstance(one, str):
                 name = one.split("/")[0]
-                places.append(self.centres.links.point(name) if name in self.centres.links.scene.holders else None)
+                places.append(self.centres.point(name) if name in self.centres.scene.holders else None)
             else:
                 places.append(self.centres.of(*one).point)
         return [z for z in places if z is not None]
@@ -254,16 +252,15 @@ class _Marks:
         words = self._names(group, " → ∞")
         if first.point is not None:
             point, start = self._reference()
-            scene = self.centres.links.scene
-            far = abs(first.point - start) / self.centres.links.mm / scene.units.metres
+            scene = self.centres.scene
+            far = abs(first.point - start) / self.centres.mm / scene.units.metres
             words = [f"${point}{self.letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
         return Label.of(stacked(words, 3.2), (tail, tip), f"label-{self._id(first)}", classes=("centre",),
                         key=self._key(group))
 
     def _reference(self) -> tuple[str, complex]:
         """The fixed pivot from which far centres are measured."""
-        links = self.centres.links
-        fixed = links.scene.frame.points
-        point = next(iter(fixed), None) or next(iter(links.scene.holders))
+        scene = self.centres.scene
+        point = next(iter(scene.frame.points), None) or next(iter(scene.holders))
         letter, rest = point[0], point[1:]
-        return (f"{letter}_{{{rest}}}" if rest else letter), links.point(point)
+        return (f"{letter}_{{{rest}}}" if rest else letter), self.centres.point(point)

@@ -1,0 +1,218 @@
+"""What is told of instant centres: how each was found, where it lies, and every velocity taken through them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from decimal import Decimal
+from typing import NamedTuple
+
+from graphkin.construction.centre_speeds import Turning, by_centres, error_by_centres, moving_pins, turning_of
+from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
+from graphkin.plane import dot
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.words import Phrase, written
+from graphkin.words.written import MOST, amount, on_paper, true_minus
+
+__all__ = ["how_found", "line_through", "place_of", "points_asked", "velocity_sentences"]
+
+SURE = 1e-6  # of the largest rate: one that may err by more, and is no larger than that, is nothing but rounding
+TOGETHER = 1e-9  # mm: places nearer than this are one
+STILL = 1e-12  # part of the largest speed that is none
+
+
+def how_found(centres: Centres, centre: Centre, name: Callable[[LinkPair], str]) -> Phrase:
+    """How a centre was found, as a sentence to be; ``name`` writes centres."""
+    if centre.kind == "undetermined":
+        return Phrase("centre none", (centre.pair,))
+    far = centre.point is None
+    if centre.kind == "permanent":
+        key = "centre rolling" if centre.rolls else "centre guide" if far else "centre joint"
+        return Phrase(key, (centre.pair, centre.joint))
+    if centre.way:
+        return Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept)))
+    lines = (line_through(line, name, lambda pin: f"n({pin})") for line in centre.lines)
+    return Phrase("centre crossing far" if far else "centre crossing", (centre.pair, *lines))
+
+
+def line_through(line: CentreRelation, name: Callable[[LinkPair], str], normal: Callable[[str], str]) -> str:
+    """A line on which a centre lies, by the centres that it leads through, or the normal of a pin in a slot."""
+    return "".join(normal(through) if isinstance(through, str) else name(through) for through in line.through)
+
+
+def place_of(centres: Centres, centre: Centre) -> tuple[float, float] | None:
+    """Coordinates of a centre in the scene's unit of length, without what rounding leaves of nought; of one at infinity
+    the direction to it; None where it is undetermined."""
+    scene = centres.scene
+    if centre.point is None and centre.direction is None:
+        return None
+    units = scene.units.metres
+    z = centre.direction if centre.point is None else centre.point * centres.sheet.scales.length / units
+    assert z is not None
+    x, y = (value if abs(value) > 1e-12 * scene.size / units else 0.0 for value in (z.real, z.imag))
+    return x, y
+
+
+def points_asked(centres: Centres) -> tuple[Symbol, ...]:
+    """The absolute velocities of points that the scene asks for; of every moving pin if it asks for nothing."""
+    asked = centres.scene.question.find
+    return tuple(s for s in asked if s.kind == "v" and s.to is None) if asked else moving_pins(centres)
+
+
+def velocity_sentences(centres: Centres, moving: Mapping[str, Turning]) -> tuple[Phrase, ...]:
+    """Every link's rate from the link before it in its chain, then every asked point's speed from its link's rate, and
+    the sliding velocity of every pin along a guide that moves.
+
+    Among the arguments of the phrases, pairs of links stand for centres, `Symbol` for a velocity, `PointRef` for a
+    point; distances are those of the figure (mm).
+    """
+    rates: dict[str, _Rate] = {}
+    largest = max((abs(t.omega) for t in moving.values()), default=0.0)
+    for turning in sorted(moving.values(), key=lambda one: len(one.chain)):
+        off = error_by_centres(centres, moving, Symbol("omega", link=turning.link))
+        if abs(turning.omega) <= max(STILL * largest, min(off, SURE * largest)):
+            rates[turning.link] = _Rate("0")  # nothing but rounding
+        else:
+            rates[turning.link] = _rate(centres, rates, turning)
+    links = [_of_link(centres, rates, t) for t in moving.values() if len(t.chain) > 1]
+    speeds = {s: abs(by_centres(centres, moving, s) or 0.0) for s in points_asked(centres)}
+    least = STILL * max(speeds.values(), default=0.0)
+    points = [_of_point(centres, moving, rates, s) for s, speed in speeds.items() if speed > least]
+    slidings = (_of_sliding(centres, rates, *one) for one in _pins_on_guides(centres))
+    return (*links, *(p for p in (*points, *slidings) if p is not None))
+
+
+class _Rate(NamedTuple):
+    """An angular velocity (rad/s) as it is written, and how many figures it carries."""
+
+    written: str
+    carried: int = MOST
+
+    @property
+    def size(self) -> str:
+        return self.written.removeprefix("-")
+
+    @property
+    def last(self) -> int:
+        """The power of ten of the last figure that it carries."""
+        return Decimal(self.written).adjusted() - self.carried
+
+
+def _apart(one: complex, other: complex) -> str:
+    """A distance on the figure (mm); of places that fall together but for rounding, none."""
+    mm = abs(one - other)
+    return on_paper(mm if mm > TOGETHER else 0.0)
+
+
+def _three(centres: Centres, turning: Turning) -> tuple[Centre, Centre, Centre]:
+    """The centres by which a link moves: its own, that of the link before it in its chain, and the common one."""
+    frame, name, known = centres.scene.frame.name, turning.link, turning.chain[-2]
+    return centres.of(name, frame), centres.of(known, frame), centres.of(name, known)
+
+
+def _rate(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> _Rate:
+    """The rate of a link, worked out from the rate before it and the distances as they are written."""
+    if len(turning.chain) < 2:
+        return _Rate(amount(turning.omega))
+    known = rates[turning.chain[-2]]
+    own, its, common = _three(centres, turning)
+    if own.point is None:  # it only translates
+        return _Rate(amount(turning.omega))
+    if common.point is None:  # it turns as the other does
+        return known
+    near = _apart(common.point, own.point)
+    if near == "0":
+        return _Rate(amount(turning.omega, MOST))
+    if its.point is None:
+        over, carried = amount(abs(turning.omega) * abs(common.point - own.point)), written.figures(near)
+    else:
+        far = _apart(common.point, its.point)
+        over, carried = written.product(known.size, far), min(known.carried, written.figures(far, near))
+    value = written.quotient(over, near, min(carried, MOST))
+    return _Rate("-" * (turning.omega < 0.0 and value != "0") + value, min(carried, MOST))
+
+
+def _of_link(centres: Centres, rates: Mapping[str, _Rate], turning: Turning) -> Phrase:
+    own, its, common = _three(centres, turning)
+    args = turning.link, turning.chain[-2], common.pair, its.pair, own.pair
+    rate = rates[turning.link]
+    if own.point is None:
+        return Phrase("centre slides", args)
+    if common.point is None:
+        return Phrase("centre turns alike", args)
+    near = _apart(own.point, common.point)
+    if its.point is None:
+        return Phrase("centre from slider", (*args, near, rate.size))
+    same = dot(its.point - common.point, own.point - common.point) >= 0.0
+    key = "centre same sense" if same else "centre opposite sense"
+    return Phrase(key, (*args, _apart(common.point, its.point), near, true_minus(rate.written)))
+
+
+def _of_point(
+    centres: Centres, moving: Mapping[str, Turning], rates: Mapping[str, _Rate], symbol: Symbol
+) -> Phrase | None:
+    """The speed of a point: its distance from the link's centre times the rate; of a link that only translates, the
+    speed that the link before it has where both have one velocity."""
+    assert symbol.of is not None
+    turning = turning_of(centres, moving, symbol.of)
+    if turning is None:
+        return None
+    link, centre = turning.link, centres.of(turning.link, centres.scene.frame.name)
+    end: PointRef | LinkPair = symbol.of
+    at: complex | None = centres.point(symbol.of.point)
+    if centre.point is None:
+        if len(turning.chain) < 2:
+            return None
+        _, centre, common = _three(centres, turning)
+        link, end, at = turning.chain[-2], common.pair, common.point
+    if centre.point is None or at is None or (length := _apart(at, centre.point)) == "0":
+        return None
+    rate = rates[link]
+    return Phrase("centre speed", (
+        symbol, link, centre.pair, end, rate.size, length,
+        *_speed(centres, rate.size, length, min(rate.carried, written.figures(length))),
+    ))  # fmt: skip
+
+
+def _speed(centres: Centres, rate: str, length: str, carried: int) -> tuple[str, str]:
+    """The scale of the figure, and what a rate (rad/s) times a length on it (mm) comes to."""
+    units = centres.scene.units.rates
+    per_mm = amount(centres.sheet.scales.length / units.metres)
+    speed = written.product(rate, length, per_mm, carried=carried)
+    return f"{per_mm} {units.length}/mm", f"{speed} {units.length}/s"
+
+
+def _pins_on_guides(centres: Centres) -> Iterator[tuple[str, str, str, str]]:
+    """Pins that slide along guides of moving links: the point, the link whose pin it is, the link that slides with it
+    (the same for a pin in a slot) and the link that bears the guide."""
+    scene, frame = centres.scene, centres.scene.frame.name
+    yield from ((pin.point, pin.of, pin.of, pin.on) for pin in scene.pins if frame not in (pin.of, pin.on))
+    for pair in scene.slidings:
+        guiding = pair.on.split(".")[0]
+        for point in scene.by_name[pair.link].points:
+            others = [n for n in scene.holders[point] if n not in (pair.link, guiding, frame)]
+            if others and guiding != frame:
+                yield point, others[0], pair.link, guiding
+                break
+
+
+def _of_sliding(
+    centres: Centres, rates: Mapping[str, _Rate], point: str, pinned: str, sliding: str, guiding: str
+) -> Phrase | None:
+    """v_B3B2 = |ω_1 − ω_3| P_13 B: relative to the guiding link the pin turns about the centre of both links."""
+    if not {pinned, guiding} <= set(rates) or not {pinned, guiding} <= set(centres.names):
+        return None
+    centre = centres.of(pinned, guiding)
+    one, other = rates[pinned], rates[guiding]
+    apart = written.difference(one.written, other.written)
+    # what the difference carries; None where they turn alike as far as the figure tells
+    last = max((rate.last for rate in (one, other) if Decimal(rate.written)), default=0)
+    carried = Decimal(apart).adjusted() - last if Decimal(apart) else 0
+    if centre.point is None or carried < 1:
+        return None
+    length = _apart(centres.point(point), centre.point)
+    symbol = Symbol("v", PointRef(point, guiding), PointRef(point, sliding))
+    second = f"({other.written})" if other.written.startswith("-") else other.written
+    return Phrase("centre sliding", (
+        symbol, pinned, guiding, centre.pair, PointRef(point), true_minus(one.written), true_minus(second), length,
+        *_speed(centres, apart, length, min(carried, written.figures(length))),
+    ))  # fmt: skip

@@ -1,0 +1,516 @@
+"""All instant centres of a scene as a student finds them: those that joints give, Kennedy's theorem with its circle
+diagram, and what remains by the motion of the links, which is measured on the velocity polygon.
+
+Places of the plane with infinity among them have homogeneous coordinates of unit length.  A place is (x, y, w): the
+point (x + iy) / w of the chart, or for w = 0 the direction x + iy.  A line is (a, b, c) with a x + b y + c w = 0.  The
+line through two places and the place where two lines cross are both vector products; the length of the product is the
+sine of the angle between the two on the unit sphere, and says how well they tell apart (Coxeter, Projective Geometry;
+Kimbrell, Kinematics Analysis and Synthesis, on centres at infinity).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import combinations
+from typing import Literal
+
+from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.links_on_paper import LinkMotion, Pose
+from graphkin.construction.plan import draft
+from graphkin.construction.scales import Scales
+from graphkin.construction.sheet import Sheet
+from graphkin.construction.touching import Touching
+from graphkin.plane import dot
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import PointRef, Symbol
+from graphkin.structure import Structure, analyse, part_of
+from graphkin.words import Phrase
+
+__all__ = [
+    "Centre", "CentreRelation", "Centres", "Line", "LinkPair", "Place", "ProjectiveChart", "centres_on", "find_centres",
+    "measured", "normal", "product", "wedge",
+]  # fmt: skip
+
+Place = tuple[float, float, float]
+Line = tuple[float, float, float]
+LinkPair = tuple[str, str]
+
+INFINITE = 1e-12
+"""A place whose third coordinate is smaller lies at infinity: so far off that doubles do not tell it from there."""
+AT_REST = 1e-9
+"""Two links whose relative motion is smaller than this part of the largest do not move relative to each other."""
+MEASURED = 1e-15  # so far off a measured centre may be (on the unit sphere)
+SLOW = 1e-3  # part of the largest motion below which a relative one is measured worse than that
+ROUNDING = 2e-16
+SURE = 1e-10
+"""A crossing whose place may err by more than this (of the mechanism's size) is not taken."""
+MOST_LINES = 24  # for one centre; a mechanism of many links has hundreds, and a few of them cross well
+TOGETHER = 1e-9  # two centres nearer to each other (on the unit sphere) give no line
+
+
+def wedge(a: Place, b: Place) -> tuple[Place, float]:
+    """The vector product of two places (a line) or of two lines (a place), of unit length, and the sine between them.
+
+    Both are (0, 0, 0) and 0 where the two are the same.
+    """
+    x, y, w = a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+    sine = math.sqrt(x * x + y * y + w * w)
+    if sine == 0.0:
+        return (0.0, 0.0, 0.0), 0.0
+    return (x / sine, y / sine, w / sine), sine
+
+
+def product(a: Place, b: Place) -> float:
+    """Scalar product: for a place and a line the distance (on the sphere) of one from the other."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def normal(a: Place) -> Place:
+    """The same place with coordinates of unit length, w not negative."""
+    length = math.copysign(math.sqrt(product(a, a)), a[2])
+    return a[0] / length, a[1] / length, a[2] / length
+
+
+@dataclass(frozen=True)
+class ProjectiveChart:
+    """The sheet as seen from the middle of the mechanism: ``unit`` (mm) is half its size, so that it spans about 1."""
+
+    middle: complex
+    unit: float
+
+    def at(self, z: complex) -> Place:
+        """A point of the sheet (mm)."""
+        s = (z - self.middle) / self.unit
+        return normal((s.real, s.imag, 1.0))
+
+    def towards(self, direction: complex) -> Place:
+        """The place at infinity in a direction."""
+        size = abs(direction)
+        return direction.real / size, direction.imag / size, 0.0
+
+    def line(self, z: complex, along: complex) -> Line:
+        """The line through a point of the sheet (mm) along a direction."""
+        return wedge(self.at(z), self.towards(along))[0]
+
+    def point(self, place: Place) -> complex | None:
+        """The point of the sheet (mm), None at infinity."""
+        x, y, w = place
+        return None if abs(w) < INFINITE else self.middle + self.unit * (complex(x, y) / w)
+
+    def direction(self, place: Place) -> complex:
+        """The way to a place from the middle of the sheet, of unit length; to the right, or straight up."""
+        x, y, _ = place
+        size = math.hypot(x, y) or 1.0
+        sense = -1.0 if x < 0.0 or (x == 0.0 and y < 0.0) else 1.0
+        return complex(x, y) * (sense / size)
+
+    def pole(self, at: complex, velocity: complex, omega: float) -> tuple[Place, float]:
+        """Where a motion has no velocity: the motion that gives the point ``at`` (mm) a velocity (mm/s) and turns at
+        ``omega`` (rad/s).  Returns the place and the strength: 0 where nothing moves (and then no place is meant).
+
+        The velocity of z is i omega (z - pole): with pole = q / omega, q = omega z + i v at any z.
+        """
+        q = omega * (at - self.middle) / self.unit + 1j * velocity / self.unit
+        strength = math.hypot(abs(q), omega)
+        if strength == 0.0:
+            return (0.0, 0.0, 0.0), 0.0
+        place = (q.real / strength, q.imag / strength, omega / strength)
+        return (place, strength) if omega >= 0.0 else ((-place[0], -place[1], -place[2]), -strength)
+
+    def velocity(self, place: Place, strength: float, z: complex) -> complex:
+        """The velocity (mm/s) of the point z of the sheet in a rotation about a place; the reverse of `pole`."""
+        x, y, w = place
+        return 1j * strength * (w * (z - self.middle) - complex(x, y) * self.unit)
+
+
+@dataclass(frozen=True)
+class CentreRelation:
+    """A line on which a centre lies: through two centres with a third link, or the common normal of a pin in a slot or
+    of what slides on each other.
+
+    ``through`` names the two centres, or the pin in slot; ``error`` is how far the line may be off on the unit sphere.
+    """
+
+    pair: LinkPair
+    line: Line
+    error: float
+    through: tuple[LinkPair, LinkPair] | tuple[str]
+
+
+@dataclass(frozen=True)
+class Centre:
+    """One instant centre.
+
+    ``place`` is homogeneous in the chart (None where undetermined); ``point`` in mm on paper, None at infinity, where
+    ``direction`` is the way to it; ``error`` is how far the place may be off on the unit sphere.  ``number`` counts the
+    found ones in their order.  ``joint`` names the joint of a permanent one, ``lines`` are the two that cross in a
+    found one; ``way`` names the construction of one that Kennedy's theorem does not give, ``why`` says why it does not,
+    or why there is none.
+    """
+
+    pair: LinkPair
+    kind: Literal["permanent", "found", "undetermined"]
+    place: Place | None = None
+    point: complex | None = None
+    direction: complex | None = None
+    number: int = 0
+    joint: str = ""
+    rolls: bool = False
+    lines: tuple[CentreRelation, ...] = ()
+    way: Literal["velocity polygon", "superposition", ""] = ""
+    why: Phrase | None = None
+    error: float = ROUNDING
+
+
+@dataclass(frozen=True)
+class Centres:
+    """The links of a scene where they lie on paper, and the centres of every two of them.
+
+    Parameters
+    ----------
+    scene : whose links these are; the sheet may show it at another speed of its driver
+    sheet : the position drawn
+    poses : where every link lies; blocks that only stand for a pin in a slot are no links, a redundant link is one if
+        turning pairs hold two of its points
+    table : the centres by pair of links
+    """
+
+    scene: Mechanism
+    sheet: Sheet
+    poses: Mapping[str, Pose]
+    table: Mapping[LinkPair, Centre] = field(default_factory=dict)
+
+    def of(self, a: str, b: str) -> Centre:
+        """The centre of two links, in any order.  Raises KeyError for a pair that is none."""
+        return self.table[self.pair(a, b)]
+
+    def at(self, scales: Scales) -> Centres:
+        """The same centres at other scales."""
+        k = self.sheet.scales.length / scales.length
+        table = {pair: replace(c, point=None if c.point is None else c.point * k) for pair, c in self.table.items()}
+        poses = {name: pose.scaled(k) for name, pose in self.poses.items()}
+        return replace(self, sheet=self.sheet.at(scales), poses=poses, table=table)
+
+    @property
+    def found(self) -> tuple[Centre, ...]:
+        """The centres in the order in which they are found, the permanent ones first."""
+        return tuple(sorted(self.table.values(), key=lambda c: c.number))
+
+    @property
+    def indeterminate(self) -> tuple[Centre, ...]:
+        """Those that Kennedy's theorem does not give."""
+        return tuple(c for c in self.found if c.way or c.kind == "undetermined")
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """What two superposed motions let fit, where the motion was found by trial: the bars or sliding pairs that the
+        trial polygons leave open."""
+        return tuple(name for group in self.sheet.groups if group.way == "superposition" for name in group.closing)
+
+    @property
+    def mm(self) -> float:
+        """Of paper for one m."""
+        return 1.0 / self.sheet.scales.length
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The links, the frame first, then in the order of the file."""
+        named = (self.scene.frame.name, *(link.name for link in self.scene.links))
+        return tuple(name for name in named if name in self.poses)
+
+    @cached_property
+    def pairs(self) -> tuple[LinkPair, ...]:
+        """All pairs, each written in the order of the file, the frame last."""
+        return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
+
+    def pair(self, a: str, b: str) -> LinkPair:
+        """Two links in the order in which their centre is written."""
+        order = self.scene.order
+        return (a, b) if order[a] < order[b] else (b, a)
+
+    @cached_property
+    def touching(self) -> Touching:
+        """What touches among the links."""
+        return Touching(self.scene, self.mm, self.poses)
+
+    def point(self, name: str) -> complex:
+        """A pin or a point of any link, or the point of a contact, on paper (mm)."""
+        contact = next((c for c in self.scene.contacts if c.name == name), None)
+        if contact is not None:
+            return self.touching.contact(contact)[0]
+        holder = next(n for n in self.scene.holders[name] if n in self.poses)
+        return self.touching.place(holder, self.scene.by_name[holder].points[name])
+
+    @cached_property
+    def chart(self) -> ProjectiveChart:
+        """The chart about the middle of all points and of all links' origins."""
+        spots = [self.point(p) for p, names in self.scene.holders.items() if any(n in self.poses for n in names)]
+        spots += [self.poses[n].origin for n in self.names]
+        left, right = min(z.real for z in spots), max(z.real for z in spots)
+        low, high = min(z.imag for z in spots), max(z.imag for z in spots)
+        half = abs(complex(right - left, high - low)) / 2
+        return ProjectiveChart(complex(left + right, low + high) / 2, half or self.scene.size * self.mm)
+
+
+def find_centres(
+    of: Mechanism | Structure, at: Mapping[str, float] | None = None, instrument: Instrument = EXACT,
+    sheet: Sheet | None = None, near: Centres | None = None,
+) -> Centres:  # fmt: skip
+    """Find every centre of every two links on the drawing board.
+
+    Parameters
+    ----------
+    of, at, instrument : a mechanism or its structure, and as for `draft`
+    sheet : the scene drawn at this position already; it is used if every link stands on it
+    near : the centres at other driver values, from which a scene with larger groups is followed; without them the
+        scene's own position is found first
+
+    Raises
+    ------
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    scene = of.scene if isinstance(of, Structure) else of
+    moving = _moving(scene)
+    if sheet is None or moving is not scene or not set(sheet.structure.links) <= set(sheet.poses):
+        sheet = draft(of if moving is scene else moving, at, (), instrument, near=None if near is None else near.sheet)
+    if scene.cams and scene.instead_of is None:
+        scene = sheet.scene  # with the pins on pitch curves and faces, which have normals
+    return _with_table(_placed(scene, sheet), instrument)
+
+
+def centres_on(sheet: Sheet, asked: Sequence[Symbol], instrument: Instrument = EXACT) -> Centres:
+    """The centres of what leads to the asked, on a sheet that shows it; errors as for `find_centres`."""
+    part = part_of(sheet.structure, asked)
+    if part is not sheet.scene:
+        sheet = replace(sheet, scene=part, structure=analyse(part))
+    return find_centres(part, {d.key: sheet.drivers[d.key] for d in part.drivers}, instrument, sheet)
+
+
+def _moving(scene: Mechanism) -> Mechanism:
+    """The scene itself, or at unit speed where its one driver stands still: centres do not depend on the speed."""
+    if len(scene.drivers) != 1 or scene.drivers[0].values[1] != 0.0:
+        return scene
+    driver = scene.drivers[0]
+    return replace(scene, drivers=(replace(driver, rate=driver.span(scene.size)),))
+
+
+def _placed(scene: Mechanism, sheet: Sheet) -> Centres:
+    """Links placed by the drawing, and those redundant ones that two turning pairs place."""
+    poses = {name: pose for name, pose in sheet.poses.items() if name in scene.by_name}
+    for link in scene.links:
+        if link.name in poses:
+            continue
+        so_far = Centres(scene, sheet, poses)
+        held = [p for p in link.points if any(n in poses for n in scene.holders[p])]
+        if len(held) >= 2 and link.points[held[0]] != link.points[held[1]]:
+            here, there = so_far.point(held[0]), so_far.point(held[1])
+            axis = (there - here) / ((link.points[held[1]] - link.points[held[0]]) * so_far.mm)
+            own = link.points[held[0]] * so_far.mm
+            poses = {**poses, link.name: Pose(here - axis * own, axis / abs(axis))}
+    return Centres(scene, sheet, poses)
+
+
+def measured(sheet: Sheet) -> dict[str, LinkMotion]:
+    """The motion of every link in the velocity polygon: one end point of it, and its angular velocity."""
+    per_mm = sheet.scales.velocity / sheet.scales.length
+    ends = sheet.ends["velocity"]
+    ground = sheet.scene.frame.name
+    found = {ground: LinkMotion(0j, 0j, 0.0)}
+    for name, rate in sheet.omega.items():
+        points = sheet.structure.links[name].points
+        for ref, end in ends.items():
+            if name != ground and (ref.link == name or (not ref.link and ref.point in points)):
+                found[name] = LinkMotion(sheet.points[PointRef(ref.point)], end * per_mm, rate.value)
+                break
+    return found
+
+
+# -- what joints give --------------------------------------------------------------------------------------------------
+
+
+def _permanent(links: Centres) -> Iterator[Centre]:
+    """The centres that turning, sliding and rolling pairs give; k links at one hinge share k (k - 1) / 2 of them."""
+    chart, poses = links.chart, links.poses
+    for point, holders in links.scene.holders.items():
+        for a, b in combinations([name for name in holders if name in poses], 2):
+            z = links.point(point)
+            yield Centre(links.pair(a, b), "permanent", chart.at(z), z, joint=point)
+    for s in links.scene.slidings:
+        if s.link in poses and s.on in poses:
+            place = chart.towards(1j * poses[s.on].axis * links.scene.by_name[s.on].guides[s.guide].direction)
+            far = chart.direction(place)
+            yield Centre(links.pair(s.link, s.on), "permanent", place, direction=far, joint=s.key)
+    for a, b, z, name in links.touching.rolling():
+        yield Centre(links.pair(a, b), "permanent", chart.at(z), z, joint=name, rolls=True)
+
+
+def _normals(links: Centres) -> Iterator[CentreRelation]:
+    """The common normals: of a pin in a slot the line through the pin square to the slot, and of sliding contacts."""
+    scene, poses, place = links.scene, links.poses, links.touching.place
+    for pin in scene.pins:
+        if pin.of in poses and pin.on in poses and pin.of != pin.on:
+            guide = scene.by_name[pin.on].guides[pin.guide]
+            along = poses[pin.on].axis * guide.direction
+            at, start = place(pin.of, scene.by_name[pin.of].points[pin.point]), place(pin.on, guide.through)
+            line = links.chart.line(start + along * dot(at - start, along), 1j * along)
+            yield CentreRelation(links.pair(pin.of, pin.on), line, ROUNDING, (pin.key,))
+    for contact in scene.contacts:
+        if not contact.rolling and set(contact.links) <= poses.keys():
+            line = links.chart.line(*links.touching.contact(contact))
+            yield CentreRelation(links.pair(*contact.links), line, ROUNDING, (contact.name,))
+
+
+# -- Kennedy's theorem -------------------------------------------------------------------------------------------------
+
+
+@dataclass
+class CircleDiagram:
+    """The circle diagram as it fills.
+
+    Parameters
+    ----------
+    links : whose centres are sought
+    normals : pairs with a common normal
+    table : the centres so far, in their order
+    lines : the lines known of each missing centre
+    best : the crossing of two of them that errs least
+    ranks : of those that are sure the error in powers of ten
+    """
+
+    links: Centres
+    normals: Counter[LinkPair]
+    table: dict[LinkPair, Centre]
+    lines: dict[LinkPair, list[CentreRelation]]
+    best: dict[LinkPair, Centre]
+    ranks: dict[LinkPair, int]
+
+    def known(self, a: str, b: str) -> Centre | None:
+        """The centre of two links, where its place is known."""
+        centre = self.table.get(self.links.pair(a, b))
+        return centre if centre is not None and centre.place is not None else None
+
+    def take(self, centre: Centre) -> None:
+        """Take in a centre, and with it all lines that it completes."""
+        self.table[centre.pair] = centre
+        if centre.place is None:
+            return
+        self.ranks.pop(centre.pair, None)
+        for a, b in (centre.pair, centre.pair[::-1]):
+            for via in self.links.names:
+                # the triangle a, b, via: the side from a to via is missing
+                if via in (a, b) or self.known(a, via) is not None:
+                    continue
+                other, missing = self.known(b, via), self.links.pair(a, via)
+                if other is None or other.place is None or len(self.lines[missing]) == MOST_LINES:
+                    continue
+                line, sine = wedge(centre.place, other.place)
+                if sine > TOGETHER:
+                    ends = (centre.pair, other.pair) if missing[0] in centre.pair else (other.pair, centre.pair)
+                    error = (centre.error + other.error + ROUNDING) / sine
+                    self.draw(CentreRelation(missing, line, error, ends))
+
+    def draw(self, relation: CentreRelation) -> None:
+        """A line for a missing centre: it crosses those that are there."""
+        pair, lines = relation.pair, self.lines[relation.pair]
+        for other in lines:
+            error, least = other.error + relation.error + ROUNDING, math.inf
+            if pair in self.best:
+                least = self.best[pair].error
+            if error >= least:
+                continue  # however well they cross
+            place, sine = wedge(other.line, relation.line)
+            if sine == 0.0 or error / sine >= least:
+                continue
+            if place[2] < 0.0:
+                place = -place[0], -place[1], -place[2]
+            self.best[pair] = Centre(pair, "found", place, lines=(other, relation), error=error / sine)
+            if error / sine <= SURE:
+                self.ranks[pair] = math.ceil(math.log10(error / sine))
+        lines.append(relation)
+
+    def crossing(self) -> Centre | None:
+        """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
+        those the first in the order of the links.  None where no two lines cross so well that the place errs by no
+        more than ``SURE`` (on the unit sphere)."""
+        sure = [pair for pair in self.links.pairs if pair in self.ranks]
+        return self.best[min(sure, key=lambda pair: self.ranks[pair])] if sure else None
+
+    def reached(self, more: Iterable[LinkPair] = ()) -> set[LinkPair]:
+        """The centres that two closed triangles of the circle diagram can give, one after the other, lines never
+        falling together; ``more`` are supposed to be known."""
+        bit = {name: 1 << i for i, name in enumerate(self.links.names)}
+        joined = dict.fromkeys(bit, 0)  # for each link, a bit for every other whose centre with it is known
+        fresh = [*(pair for pair, centre in self.table.items() if centre.place is not None), *more]
+        have: set[LinkPair] = set()
+        while fresh:
+            have.update(fresh)
+            for a, b in fresh:
+                joined[a] |= bit[b]
+                joined[b] |= bit[a]
+            fresh = [(a, b) for a, b in self.links.pairs if (a, b) not in have
+                     and self.normals[a, b] + (joined[a] & joined[b]).bit_count() >= 2]  # fmt: skip
+        return have
+
+    def to_measure(self, motions: Mapping[str, LinkMotion]) -> LinkPair:
+        """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
+        reached, frame = self.reached(), self.links.scene.frame.name
+        missing = [pair for pair in self.links.pairs if pair not in self.table]
+
+        def gain(pair: LinkPair) -> tuple[bool, int, bool]:
+            more = 0 if pair in reached else len(self.reached((pair,))) - len(reached)
+            return pair[0] in motions and pair[1] in motions, more, frame in pair
+
+        # of those that the triangles reach, if not surely, only the first: they give no more than the triangles do
+        return max([*(p for p in missing if p not in reached), *(p for p in missing if p in reached)], key=gain)
+
+
+def _with_table(links: Centres, instrument: Instrument) -> Centres:
+    """The centres of links on paper."""
+    normals, motions, chart = list(_normals(links)), measured(links.sheet), links.chart
+    diagram = CircleDiagram(links, Counter(line.pair for line in normals), {}, {p: [] for p in links.pairs}, {}, {})
+    for line in normals:
+        diagram.draw(line)
+    for centre in _permanent(links):
+        if centre.pair not in diagram.table:
+            diagram.take(centre)
+    strengths = (abs(chart.pole(chart.middle, m.of(chart.middle), m.omega)[1]) for m in motions.values())
+    largest = max(strengths, default=0.0)
+    number = 0
+    while len(diagram.table) < len(links.pairs):
+        number += 1
+        centre = diagram.crossing() or _otherwise(diagram, motions, largest)
+        if centre.place is not None:
+            point, place = chart.point(centre.place), centre.place
+            if point is not None and centre.lines and (pricked := instrument.point(point)) != point:
+                place, point = chart.at(pricked), pricked
+            direction = chart.direction(place) if point is None else None
+            centre = replace(centre, place=place, point=point, direction=direction)
+        diagram.take(replace(centre, number=number))
+    return replace(links, table={pair: diagram.table[pair] for pair in links.pairs})
+
+
+def _otherwise(diagram: CircleDiagram, motions: Mapping[str, LinkMotion], largest: float) -> Centre:
+    """A centre that Kennedy's theorem does not give now: where two links have the same velocity.
+
+    Parameters
+    ----------
+    largest : the strongest motion of a link, beside which two may not move relative to each other
+    """
+    pair = diagram.to_measure(motions)
+    # too few triangles, or lines that fall together
+    count = len(diagram.lines[pair])
+    why = Phrase("centre few lines", (*pair, count)) if count < 2 else Phrase("centre lines together", pair)
+    if not motions.keys() >= {*pair}:
+        return Centre(pair, "undetermined", why=why)
+    one, two = motions[pair[0]], motions[pair[1]]
+    chart, at = diagram.links.chart, diagram.links.chart.middle
+    place, strength = chart.pole(at, one.of(at) - two.of(at), one.omega - two.omega)
+    if abs(strength) <= AT_REST * largest:
+        return Centre(pair, "undetermined", why=Phrase("centre no motion", pair))
+    error = MEASURED * max(1.0, SLOW * largest / abs(strength))
+    way: Literal["superposition", "velocity polygon"] = "superposition" if diagram.links.kept else "velocity polygon"
+    return Centre(pair, "found", place, way=way, why=why, error=error)
