@@ -60,6 +60,7 @@ from graphkin.construction.steps import (
     Vector,
 )
 from graphkin.construction.touching import Touching
+from graphkin.construction.trains import rolled
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.cams import LawCam
@@ -127,11 +128,11 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
     turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
     known = {name: rate.value for name, rate in plot.rates[order].items()}
-    before = plot.wheels
-    plot.wheels, value, mm = before.found(
-        order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns, plot.board.instrument
-    )
-    for step in plot.wheels.steps(before, order):
+    plot.trains, value, mm, steps = rolled(
+        plot.structure, plot.trains, order, coordinate, known, lambda key: _travel_rate(plot, order, key), turns,
+        plot.board.instrument,
+    )  # fmt: skip
+    for step in steps:
         plot.board.do(step)
     had = plot.given.get(driver.key, (0.0, 0.0))
     plot.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)

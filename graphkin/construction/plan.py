@@ -196,7 +196,7 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         asked=task.asked,
         acting=task.acting,
         growing=task.growing,
-        trains=tuple(polygons.wheels.drawn.values()),
+        trains=tuple(polygons.trains.values()),
         limits=_limits(task, polygons.scales, board.instrument),
         readings=_readings(polygons),
     )

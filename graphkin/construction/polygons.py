@@ -22,7 +22,7 @@ from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
 from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Role, Size, Step, Vector
 from graphkin.construction.touching import Touching
-from graphkin.construction.trains import Wheels
+from graphkin.construction.trains import PlansDrawn
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import PlacedContact
@@ -83,7 +83,7 @@ class Polygons:
         self.ties: dict[tuple[Order, str], complex] = {}  # by a special point of two links: that of the second from it
         self.trial = 0  # number of the trial polygon that this is; 0: it is none
         self.tried: dict[tuple[Order, str], float] = {}  # rates of sliding pairs moved at a trial speed
-        self.wheels = Wheels.of(structure)
+        self.trains: PlansDrawn = {}
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
         # how each group is drawn: found once, for all drawings of a task
         self.chains: dict[Dyad, TwoUnknowns] = {}
