@@ -14,10 +14,11 @@ import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from graphkin.plane import added_up
-from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unreadable, stated
-from graphkin.scene.tables import Units
+from graphkin.scene.symbol import KINDS, Line, PointRef, Printed, Symbol, Unreadable, forms_of_names, stated
+from graphkin.scene.tables import FORCES, LENGTHS, Units
 from graphkin.words import Phrase
 
 __all__ = [
@@ -112,59 +113,33 @@ class Spelling:
             return
         if part:
             bare = f"a{ {'c': 'k', 'n': 'n', 't': 't', 'k': 'k', 'r': 'r'}.get(part, '?') }{bare[1:]}".replace(" ", "")
-        for kind in _SPOKEN:
-            if bare.startswith(kind) and len(bare) > len(kind):
-                rest = bare[len(kind) :]
-                joined = rest.lstrip("_")
-                for form in self._of_kind(_WRITTEN[kind], joined):
-                    if kind.endswith("R") and "/" not in form:
-                        continue  # a reaction is of two links
-                    yield self._usual(Symbol.parse(f"{form} at {place}" if place else form))
+        for spoken in _SPOKEN:
+            if bare.startswith(spoken) and len(bare) > len(spoken):
+                for symbol in self._of_kind(spoken, bare[len(spoken) :].lstrip("_")):
+                    yield self._usual(replace(symbol, at=place))
 
-    def _of_kind(self, kind: str, rest: str) -> Iterator[str]:
-        points = "|".join(sorted(map(re.escape, self.points), key=len, reverse=True))
-        links = "|".join(sorted(map(re.escape, self.links), key=len, reverse=True))
-        ways = {
-            "point": [rf"({points})"],
-            "points": [rf"({points})", rf"({points})@?({links})", rf"({points})/?({points})",
-                       rf"({points})@?({links})/?({points})@?({links})", rf"({points})@?({links})/?({points})",
-                       rf"({points})/?({points})@?({links})"],
-            "coincident": [rf"({points})@?({links})/?({points})@?({links})"],
-            "two points": [rf"({points})[/-]?({points})"],
-            "link": [rf"({links})"],
-            "of link": [rf"({links})"],
-            "link or joint": [rf"({links})", rf"({links})/?({links})"],
-            "link of link": [rf"({links})", rf"({links})/?({links})"],
-            "pair": [rf"({links})[/-]?({links})"],
-            "links": [rf"({links})[/-]?({links})"],
-        }.get(KINDS[kind].form, [])  # fmt: skip
-        for flags in (re.NOFLAG, re.IGNORECASE):
-            for way in ways:
-                match = re.fullmatch(way, rest, flags)
-                if match is None:
-                    continue
-                names = [self._own_case(g) for g in match.groups()]
-                if None in names:
-                    continue
-                yield f"{kind}_{self._joined(kind, [n for n in names if n])}"
+    @cached_property
+    def _forms(self) -> dict[str, str]:
+        """What may stand behind a kind, with the names that the scene has."""
+        points, links = (sorted(map(re.escape, names), key=len, reverse=True) for names in (self.points, self.links))
+        return forms_of_names("|".join(points), "|".join(links), lax=True)
 
-    def _own_case(self, name: str) -> str | None:
+    def _of_kind(self, spoken: str, names: str) -> Iterator[Symbol]:
+        """The quantities of a kind, as it is spoken of, that names behind it may mean: in their own case, or any."""
+        kind = _WRITTEN[spoken]
+        form = "pair" if spoken.endswith("R") else KINDS[kind].form  # a reaction is of two links
+        for flags in (re.NOFLAG, re.IGNORECASE) if form in self._forms else ():
+            match = re.fullmatch(self._forms[form], names, flags)
+            if match is not None:
+                found = {part: self._own_case(name) for part, name in match.groupdict().items() if name}
+                if "" not in found.values():
+                    yield Symbol.of_names(kind, found)
+
+    def _own_case(self, name: str) -> str:
+        """A name of the scene, written in any case; "" where several are alike."""
         known = [*self.points, *self.links]
-        if name in known:
-            return name
-        alike = [k for k in known if k.lower() == name.lower()]
-        return alike[0] if len(alike) == 1 else None
-
-    def _joined(self, kind: str, names: list[str]) -> str:
-        if KINDS[kind].form not in ("points", "coincident", "point", "two points"):
-            return KINDS[kind].sign.join(names)
-        refs: list[str] = []
-        for name in names:
-            if name in self.points and not (name in self.links and refs and "@" not in refs[-1]):
-                refs.append(name)
-            else:
-                refs[-1] += f"@{name}"
-        return "/".join(refs)
+        alike = [name] if name in known else [k for k in known if k.lower() == name.lower()]
+        return alike[0] if len(alike) == 1 else ""
 
     def _exists(self, symbol: Symbol) -> bool:
         refs = [r for r in (symbol.of, symbol.to) if r]
@@ -194,12 +169,10 @@ _WORDED_UNITS = (
     (r"radians?|rads(?!-)", "rad"), (r"per\s+|\bp(?=s\b)", "/"),
     (r"minutes?", "min"), (r"seconds?|secs", "s"), (r"newtons?", "n"), ("squared", "2"),
 )  # fmt: skip
-_LENGTHS = {"mm": 1e-3, "cm": 1e-2, "dm": 0.1, "m": 1.0, "km": 1e3, "um": 1e-6, "in": 0.0254, "inch": 0.0254,
-            "inches": 0.0254, "\"": 0.0254, "ft": 0.3048, "feet": 0.3048}  # fmt: skip
-_FORCES = {"kn": 1e3, "kgf": 9.80665, "lbf": 4.4482216152605, "lb": 4.4482216152605, "n": 1.0}
-_ANGLES = {"rad": 1.0, "": 1.0, "1": 1.0, "deg": 0.017453292519943295, "°": 0.017453292519943295,
-           "degrees": 0.017453292519943295, "r": 6.283185307179586, "rev": 6.283185307179586,
-           "turn": 6.283185307179586}  # fmt: skip
+_LENGTHS = {**LENGTHS, "dm": 0.1, "km": 1e3, "um": 1e-6, "inch": 0.0254, "inches": 0.0254, "\"": 0.0254, "feet": 0.3048}
+_FORCES = {**{force.lower(): newtons for force, newtons in FORCES.items()}, "lb": FORCES["lbf"]}
+_ANGLES = {**dict.fromkeys(("rad", "", "1"), 1.0), **dict.fromkeys(("deg", "°", "degrees"), math.radians(1.0)),
+           **dict.fromkeys(("r", "rev", "turn"), math.tau)}  # fmt: skip
 _TIMES = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0, "": 1.0}
 _RATE = re.compile(r"(?P<what>[a-z°\"1]*?)(?:/(?P<over>s|sec|min|h)(?P<power>2?)|/(?P<one>s|sec)/(?P<two>s|sec)"
                    r"|(?P<by>s|min)-(?P<times>[12]))?")  # fmt: skip
@@ -516,24 +489,22 @@ def _by_quadrant(text: str) -> tuple[Way, str] | None:
     return Way(math.atan2(up * math.sin(off), along * math.cos(off)), room), _QUADRANT_ASIDE.sub(" ", rest)
 
 
+_TURNS = {"above": 1, "over": 1, "上方": 1, "以上": 1, "之上": 1,
+          "below": -1, "under": -1, "下方": -1, "以下": -1, "之下": -1}  # fmt: skip
+_LEANS = {"left of": 1, "right of": -1}
+
+
 def _from_axis(match: re.Match[str]) -> tuple[float, float]:
     """An angle said from an axis: 12° above -x is 168°."""
     off, room = _degrees(match["deg"])
-    sign, side = (match["sign"] or "").strip().lower(), match["side"] or "above"
-    negative = sign in ("-", "negative", "负") or (match.groupdict().get("half") or "").startswith("负")
-    if match["axis"].lower() in ("x", "horizontal"):
-        base = math.pi if negative else 0.0
-        turns = {"above": 1, "over": 1, "below": -1, "under": -1}.get(side.lower())
-        if turns is None:
-            turns = 1 if side in ("上方", "以上", "之上", "成") else -1 if side in ("下方", "以下", "之下") else None
-        if turns is not None:
-            return base + (off if (turns > 0) != negative else -off), room
-    else:
-        base = -math.pi / 2 if negative else math.pi / 2
-        if side.lower() in ("left of", "right of"):
-            return base + (off if (side.lower() == "left of") != negative else -off), room
-    clockwise = side.lower().startswith(("clockwise", "cw"))
-    return base + (-off if clockwise else off), room
+    side, half = (match["side"] or "above").lower(), match.groupdict().get("half") or ""
+    sign = -1 if (match["sign"] or "").strip().lower() in ("-", "negative", "负") or half.startswith("负") else 1
+    level = match["axis"].lower() in ("x", "horizontal")
+    base = (math.pi if sign < 0 else 0.0) if level else sign * math.pi / 2
+    turn = (_TURNS if level else _LEANS).get(side)
+    if turn is None:
+        turn = sign * (-1 if side.startswith(("clockwise", "cw")) else 1)
+    return base + sign * turn * off, room
 
 
 _NOTHING = {"", "-", "--", "/", "?", "n/a", "na", "无", "未答", "缺", "空", "—", "none", "missing",

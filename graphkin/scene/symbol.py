@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal, InvalidOperation
 from typing import Literal, NamedTuple
@@ -19,7 +19,7 @@ from graphkin.words import Phrase, say
 
 __all__ = [
     "KINDS", "VECTORS", "Kind", "Line", "Measure", "PointRef", "Printed", "Symbol", "Unreadable", "Value",
-    "centre_links", "missing_names", "stated",
+    "centre_links", "forms_of_names", "missing_names", "stated",
 ]  # fmt: skip
 
 
@@ -29,24 +29,48 @@ Scope = Literal["motion", "position", "turn", "force", "cycle"]
 
 _POINT = r"[A-Z][A-Za-z0-9]*"
 _LINK = r"[A-Za-z0-9]+"
-_REF = rf"{_POINT}(?:@{_LINK})?"
-# what may stand behind the kind: groups "of" and "to" are points, "link" and "other" links
-_FORMS = {
-    "point": rf"(?P<of>{_POINT})",
-    "points": rf"(?P<of>{_REF})(?:/(?P<to>{_REF}))?",
-    "coincident": rf"(?P<of>{_REF})/(?P<to>{_REF})",
-    "two points": rf"(?P<of>{_POINT})/(?P<to>{_POINT})",
-    "link": rf"(?P<link>{_LINK})",
-    "link of link": rf"(?P<link>{_LINK})(?:/(?P<other>{_LINK}))?",
-    "pair": rf"(?P<link>{_LINK})/(?P<other>{_LINK})",
-    "links": rf"(?P<link>{_LINK})-(?P<other>{_LINK})",
-    "link or joint": rf"(?P<link>{_LINK})(?:/(?P<other>{_LINK})(?:@(?P<of>{_POINT}))?)?(?P<plus>\+)?",
-    "of link": rf"(?P<link>{_LINK})(?P<plus>\+)?",
-    "load": rf"(?P<name>{_LINK})(?P<plus>\+)?",
-    "force": rf"(?P<name>(?:F|Fi|G|P)_{_LINK})(?P<plus>\+)?",
-    "excess work": r"(?P<name>W)",
-    "flywheel": r"(?P<name>F)",
-}
+
+
+def forms_of_names(point: str, link: str, lax: bool = False) -> dict[str, str]:
+    """What may stand behind a kind, as patterns: groups "of" and "to" are points (of the links "of_link" and
+    "to_link"), "link" and "other" links.
+
+    Parameters
+    ----------
+    point, link : patterns of their names
+    lax : as people write them: signs between names may be left out, and nothing is said of a load
+    """
+    at, plus = ("@?", "") if lax else ("@", r"(?P<plus>\+)?")
+
+    def between(signs: str) -> str:
+        return f"[{signs}]?" if lax else signs[0]
+
+    def part(name: str, must: bool = False) -> str:
+        return rf"(?P<{name}>{point})(?:{at}(?P<{name}_link>{link})){'' if must else '?'}"
+
+    of, to, one, other = rf"(?P<of>{point})", rf"(?P<to>{point})", rf"(?P<link>{link})", rf"(?P<other>{link})"
+    forms = {
+        "point": of,
+        "points": rf"{part('of')}(?:{between('/')}{part('to')})?",
+        "coincident": rf"{part('of', lax)}{between('/')}{part('to', lax)}",
+        "two points": rf"{of}{between('/-')}{to}",
+        "link": one,
+        "link of link": rf"{one}(?:{between('/')}{other})?",
+        "pair": rf"{one}{between('/-')}{other}",
+        "links": rf"{one}{between('-/')}{other}",
+        "link or joint": rf"{one}(?:{between('/')}{other}(?:@{of})?)?{plus}",
+        "of link": rf"{one}{plus}",
+    }
+    named = {
+        "load": rf"(?P<name>{link}){plus}",
+        "force": rf"(?P<name>(?:F|Fi|G|P)_{link}){plus}",
+        "excess work": r"(?P<name>W)",
+        "flywheel": r"(?P<name>F)",
+    }
+    return forms if lax else forms | named
+
+
+_FORMS = forms_of_names(_POINT, _LINK)
 
 
 @dataclass(frozen=True)
@@ -168,10 +192,15 @@ class Symbol:
         match = re.fullmatch(_FORMS[kind.form], text[len(name) + 1 :])
         if match is None:
             raise ValueError(Phrase("write for example", text=text, missing=_MISSING[kind.form], example=kind.example))
-        found = {part: given for part, given in match.groupdict().items() if given}
-        points = {part: PointRef(*found[part].split("@")) for part in ("of", "to") if part in found}
-        words = {part: found.get(part, "") for part in ("link", "other", "name")}
-        return cls(name, **points, **words, plus="plus" in found)  # type: ignore[arg-type]
+        return cls.of_names(name, {part: given for part, given in match.groupdict().items() if given})
+
+    @classmethod
+    def of_names(cls, kind: str, found: Mapping[str, str]) -> Symbol:
+        """The quantity of a kind by the names behind it, as `forms_of_names` calls them."""
+        of, to = (PointRef(found[part], found.get(f"{part}_link", "")) if part in found else None
+                  for part in ("of", "to"))  # fmt: skip
+        link, other, name = (found.get(part, "") for part in ("link", "other", "name"))
+        return cls(kind, of, to, link, other, name=name, plus="plus" in found)
 
     @property
     def is_vector(self) -> bool:
