@@ -22,7 +22,7 @@ from graphkin.account.notation import as_vector
 from graphkin.errors import CallError, Problem
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
-from graphkin.scene.sheet import Convention
+from graphkin.scene.scene_tables import Convention
 from graphkin.structure.loops import Arrow, Loop, LoopBlock, Root, loops_in_numbers
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase, say, word

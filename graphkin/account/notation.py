@@ -16,7 +16,7 @@ from typing import Literal
 
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Direction, Size, Term
-from graphkin.scene.sheet import Convention
+from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words.written import true_minus
 

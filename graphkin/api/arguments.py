@@ -19,7 +19,7 @@ from graphkin.errors import CallError, Problem, as_list, did_you_mean, unfit
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.scene import SceneLike, mechanism_of
-from graphkin.scene.sheet import Convention
+from graphkin.scene.scene_tables import Convention
 from graphkin.scene.symbol import Symbol, missing_names
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import BOTH, LANGUAGES, Phrase, from_others

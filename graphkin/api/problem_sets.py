@@ -47,8 +47,8 @@ from graphkin.papers.variants import (
     make,
 )
 from graphkin.scene.model import Mechanism
+from graphkin.scene.reading import as_mapping
 from graphkin.scene.scene import safe_name, toml_text, written
-from graphkin.scene.scene_tables import as_mapping
 from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied

@@ -16,7 +16,7 @@ from graphkin.construction.cam_sheet import CamSheet, division_by_hand
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.scene.designs import DesignTask
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.solver.cams import cam_at
 
 __all__ = ["CamPoints", "FoundLength", "compare_cam", "compare_lengths", "predict_cam", "predict_lengths"]

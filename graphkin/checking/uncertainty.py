@@ -30,7 +30,7 @@ from graphkin.construction.instruments import ErringInstrument
 from graphkin.construction.steps import Cause, Order, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Phrase
 

@@ -12,7 +12,7 @@ import random
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.words.written import computed, on_paper
 
 __all__ = ["EXACT", "EXACT_NAME", "Cad", "ErringInstrument", "Instrument", "erring", "nudged", "pencil"]

@@ -21,7 +21,7 @@ from graphkin.drawing.place.piece import Piece, joined, layer_groups, moved_piec
 from graphkin.drawing.text import fitted, plain, rich, runs_width, wrapped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import added_up
-from graphkin.scene.sheet import Convention
+from graphkin.scene.scene_tables import Convention
 from graphkin.words import Phrase, Wording, in_all, languages, word
 from graphkin.words.written import in_markup
 

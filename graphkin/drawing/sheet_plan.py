@@ -15,7 +15,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
-from graphkin.scene.sheet import PAPERS
+from graphkin.scene.scene_tables import PAPERS
 
 __all__ = [
     "BLOCK", "CAPTION", "GUTTER", "MARGIN", "SheetPlan", "sheet_plan", "sheet_room", "with_less_mechanism",

@@ -11,7 +11,7 @@ from graphkin.construction.scales import Scales
 from graphkin.drawing.box import Box
 from graphkin.drawing.parts.polygon import extent
 from graphkin.scene.model import Mechanism
-from graphkin.scene.sheet import PAPERS
+from graphkin.scene.scene_tables import PAPERS
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure
 

@@ -35,23 +35,46 @@ Where the format leaves something open, the reader decides as follows.
 from __future__ import annotations
 
 from graphkin.files import Json
-from graphkin.scene.asked import Positions, PrintedTable, StrokeStart
-from graphkin.scene.bodies import Compass, Disc, Frame, Guide, Link, Pin, Polar
-from graphkin.scene.cams import AllowedPressure, BaseCircle, Cam
-from graphkin.scene.drivers import DrivenSlide, Driver
-from graphkin.scene.laws import LawPiece
-from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
 from graphkin.scene.scene import Scene, library, library_text, mechanism_of, mechanism_of_text, read
-from graphkin.scene.scene_tables import SCENE
-from graphkin.scene.sheet import Background, SheetWishes, Tools, Vary
+from graphkin.scene.scene_tables import (
+    SCENE,
+    AllowedPressure,
+    Background,
+    Balance,
+    BaseCircle,
+    Cam,
+    Compass,
+    Contact,
+    Disc,
+    DrivenSlide,
+    Driver,
+    Flywheel,
+    Frame,
+    Gear,
+    Gravity,
+    Guide,
+    LawPiece,
+    Link,
+    Load,
+    LoadPhase,
+    Mass,
+    Pin,
+    Polar,
+    Positions,
+    PrintedTable,
+    SheetWishes,
+    Spring,
+    StrokeStart,
+    Tools,
+    Vary,
+)
 from graphkin.scene.tables import Units
-from graphkin.scene.touching import Contact, Gear
 
 __all__ = [
     "AllowedPressure", "Background", "Balance", "BaseCircle", "Cam", "Compass", "Contact", "Disc", "DrivenSlide",
-    "Driver", "Flywheel", "Frame", "Gear", "Gravity", "Guide", "LawPiece", "Link", "Load", "LoadPhase", "Mass", "Pin",
-    "Polar", "Positions", "PrintedTable", "Scene", "SheetWishes", "Spring", "StrokeStart", "Tools", "Units", "Vary",
-    "library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema",
+    "Driver", "Flywheel", "Frame", "Gear", "Gravity", "Guide", "LawPiece", "Link", "Load", "LoadPhase", "Mass",
+    "Pin", "Polar", "Positions", "PrintedTable", "Scene", "SheetWishes", "Spring", "StrokeStart", "Tools", "Units",
+    "Vary", "library", "library_text", "mechanism_of", "mechanism_of_text", "read", "schema",
 ]  # fmt: skip
 
 

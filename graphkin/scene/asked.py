@@ -6,88 +6,24 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
-from typing import TYPE_CHECKING, Annotated, Literal
-
-from pydantic import Tag
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
 from graphkin.scene.model import Mechanism, NamedPositions, OnStroke, StatedValues
+from graphkin.scene.scene_tables import Positions, PrintedTable, StrokeStart
 from graphkin.scene.symbol import Printed, Symbol, missing_names, stated
-from graphkin.scene.tables import (
-    Count,
-    FileTable,
-    Number,
-    PositionName,
-    Share,
-    ShownName,
-    SlideRef,
-    Text,
-    Units,
-    file_table,
-    forms,
-    key,
-    path_name,
-)
+from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     # all the ways in which people write are loaded where somebody wrote otherwise than a symbol and its number
     from graphkin.scene.spelling import Spelling
 
-__all__ = [
-    "Positions", "PrintedTable", "StrokeStart", "asked", "loops_named", "names_of_positions", "positions_named",
-    "spelling_of", "stated_values",
-]  # fmt: skip
+__all__ = ["asked", "loops_named", "names_of_positions", "positions_named", "spelling_of", "stated_values"]
 
 BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
-
-
-@file_table
-class StrokeStart(FileTable):
-    """A place on the stroke of a slide."""
-
-    stroke: SlideRef = key('The sliding pair: "5/6".')
-    at: Share = key("Part of the stroke that is done, 0 to 1.", default=0.0)
-    sense: Literal[1, -1] = key("1: of the stroke that goes along the guide's sense, -1: against it.", default=1)
-
-
-Start = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
-    forms("write a driver value or stroke 5 6"),
-]
-
-
-@file_table
-class Positions(FileTable):
-    """Positions with names."""
-
-    count: Count | None = key(
-        "So many positions over a turn, numbered from 1 in the sense of the driver.", default=None
-    )
-    first: Start | None = key(
-        "Position 1: a driver value, or the start of a stroke; the driver's own value.", default=None
-    )
-    also: dict[PositionName, Start] = key(
-        "Further positions by name, each a driver value or a place of a stroke.", closed=True, default_factory=dict
-    )
-    show: tuple[ShownName, ...] = key(
-        'On the figure: "limits", "all", or names of positions.', default=("limits", "all")
-    )
-    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = key(
-        "What is drawn and dimensioned there.", default=("theta", "stroke", "K", "gamma")
-    )
-
-
-@file_table
-class PrintedTable(FileTable):
-    """A table of published values in a file beside the scene."""
-
-    file: Text = key("A CSV file: heads are symbols, one column is called at.")
-    by: Literal["drawing", "computation"] = key(
-        "How the values were found; computed ones are judged by their digits.", default="drawing"
-    )
 
 
 # -- quantities --------------------------------------------------------------------------------------------------------

@@ -12,168 +12,18 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from typing import Annotated, Literal
-
-from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import OwnTables
 from graphkin.plane import direction
-from graphkin.scene.tables import (
-    FileTable,
-    GuideRefs,
-    KeyPath,
-    LinkName,
-    Magnitude,
-    NameOrPlace,
-    Number,
-    Numbers,
-    Place,
-    PointName,
-    PointNames,
-    Switch,
-    TwoLengths,
-    TwoPoints,
-    Units,
-    file_table,
-    forms,
-    key,
-)
+from graphkin.scene.scene_tables import Compass, Frame, Guide, Link, Pin, Place, Polar, references
+from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "CircularSlot", "Compass", "Disc", "Flaws", "Frame", "Guide", "Link", "Pin", "PinInSlot", "Polar", "Reading",
-    "SlidingPair", "check_own_points", "check_references", "islands", "not_held", "pins_in_slots", "references",
-    "sliding_pairs", "with_bars", "with_carriages",
+    "CircularSlot", "Flaws", "PinInSlot", "Reading", "SlidingPair", "check_own_points", "check_references",
+    "islands", "not_held", "pins_in_slots", "sliding_pairs", "with_bars", "with_carriages",
 ]  # fmt: skip
-
-
-@file_table
-class Polar(FileTable):
-    """A point at a distance and an angle from another point of the link."""
-
-    origin: PointName = key("The point of the link from which r is measured.", name="from")
-    r: Magnitude = key("Distance.", unit="length")
-    angle: Number = key("Degrees from the link's own x axis, or from the direction given by toward.", default=0.0)
-    toward: PointName | None = key("The point of the link at which angle is 0.", default=None)
-
-
-@file_table
-class Compass(FileTable):
-    """A point by its distances from two others of the link: the corner of a plate by its sides."""
-
-    origins: TwoPoints = key("The two points of the link.", name="from")
-    r: TwoLengths = key("The two distances.", unit="length")
-    side: Literal["left", "right"] = key("Side of the directed line from the first to the second.")
-
-
-FramePlace = Annotated[
-    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")] | Annotated[Compass, Tag("<compass>")],
-    forms("write x y from a r 400 angle"),
-]
-At = Annotated[
-    Annotated[Place, Tag("<list>")]
-    | Annotated[Polar, Tag("<polar>")]
-    | Annotated[Compass, Tag("<compass>")]
-    | Annotated[Literal["drawn"], Tag("<name>")],
-    forms("write x y from c r 65 angle"),
-]
-
-
-@file_table
-class Guide(FileTable):
-    """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
-
-    through: NameOrPlace | None = key(
-        "A point of the link by name, or [x, y] in the link's own axes.", unit="length", default=None
-    )
-    angle: Number | None = key("Direction in degrees from the link's own x axis.", default=None)
-    toward: PointName | None = key(
-        "Instead of angle: the point that the guide points to (of the link, fixed or drawn).", default=None
-    )
-    centre: NameOrPlace | None = key(
-        "Of a circular slot: a point of the link, or [x, y] in the link's own axes.", unit="length", default=None
-    )
-    r: Magnitude | None = key("Radius of a circular slot.", unit="length", default=None)
-    ends: Place | None = key(
-        "Where a circular slot is drawn: from one to the other, degrees from the link's own x axis.", unit="angle",
-        default=None,
-    )  # fmt: skip
-
-
-@file_table
-class Disc(FileTable):
-    """A round outline that a link carries."""
-
-    centre: PointName = key("A point of the link.")
-    r: Number = key("Its radius; negative: hollow, the body lies outside (a ring).", unit="length")
-
-
-@file_table
-class Frame(FileTable):
-    """The fixed link."""
-
-    name: LinkName = key('Name of the fixed link, "0" if not given.', default="0")
-    points: dict[PointName, FramePlace] = key(
-        "Fixed pivots, [x, y] each, or polar from another, or by the distances from two others.", unit="length",
-        closed=True, default_factory=dict,
-    )  # fmt: skip
-    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
-
-
-@file_table
-class Link(FileTable):
-    """A moving link."""
-
-    points: PointNames = key(
-        "Own points: two for a bar, one for a bar of no fixed length or a block, or none.", default=()
-    )
-    length: Magnitude | None = key("Distance of the two own points.", unit="length", default=None)
-    on: GuideRefs | None = key(
-        'What the link slides on: "3" (own axis of link 3), "6.h" (a guide), or two of them.', default=None
-    )
-    angle_on: Numbers | None = key(
-        "Degrees from the guide to the link's own x axis; one number for each guide.", default=None
-    )
-    at: dict[PointName, At] = key("Further points.", unit="length", closed=True, default_factory=dict)
-    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
-    start: Number | None = key(
-        "Where rolling leaves it open: degrees of its own axis (of a link with on, its travel) at the "
-        "scene's own driver value; 0 if left out.", default=None,
-    )  # fmt: skip
-    redundant: Switch = key("The link only repeats what others already hold.", default=False)
-
-    @property
-    def guide_refs(self) -> list[str]:
-        """What it slides on."""
-        return _as_list(self.on)
-
-
-@file_table
-class Pin(FileTable):
-    """A pin that runs in slots."""
-
-    of: LinkName = key("The link that has the pin.")
-    slots: GuideRefs = key('The guide it runs in ("3.s"), or a list of guides.', name="in")
-
-    @property
-    def guide_refs(self) -> list[str]:
-        """What it runs in."""
-        return _as_list(self.slots)
-
-
-def _as_list(refs: str | Sequence[str] | None) -> list[str]:
-    """Names of guides, written alone or in a list."""
-    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
-
-
-def references(entry: object) -> tuple[str, ...]:
-    """The points of a link from which one is placed."""
-    if isinstance(entry, Polar):
-        return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
-    return tuple(entry.origins) if isinstance(entry, Compass) else ()
 
 
 @dataclass(frozen=True)

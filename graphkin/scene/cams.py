@@ -11,60 +11,20 @@ import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal, NamedTuple
+from typing import ClassVar, NamedTuple
 
 from graphkin.plane import Values, cross, dot
 from graphkin.scene.bodies import Reading
-from graphkin.scene.laws import FollowerLaw, LawPiece, Lift, follower_law
-from graphkin.scene.tables import FileTable, LinkName, List, Magnitude, Number, Switch, file_table, in_si, key
+from graphkin.scene.laws import FollowerLaw, Lift, follower_law
+from graphkin.scene.scene_tables import Cam
+from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = [
-    "AllowedPressure", "BaseCircle", "Cam", "Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of",
-]  # fmt: skip
+__all__ = ["Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of"]
 
 AGREES = 1e-6
 
 # -- tables of the file ------------------------------------------------------------------------------------------------
-
-
-@file_table
-class BaseCircle(FileTable):
-    """The base circle of a cam."""
-
-    r: Magnitude = key("Its radius.", unit="length")
-    of: Literal["profile", "pitch"] = key(
-        "Of the profile, or of the pitch curve, on which the roller's centre runs.", default="profile"
-    )
-
-
-@file_table
-class AllowedPressure(FileTable):
-    """Greatest pressure angles that are allowed."""
-
-    rise: Number | None = key("Degrees, while the follower rises.", unit="angle", default=None)
-    fall: Number | None = key("Degrees, while it falls.", unit="angle", default=None)
-
-
-@file_table
-class Cam(FileTable):
-    """A cam that turns about its first point, given by the law of its follower."""
-
-    follower: LinkName = key(
-        "The link that it moves: on a guide of the frame, or swinging about a point of the frame."
-    )
-    law: List[LawPiece] = key('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].')
-    base: BaseCircle = key('The base circle: { r = 30, of = "profile" }.')
-    sense: Literal[1, -1] = key(
-        "The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.", default=1
-    )
-    offset: Number | None = key(
-        "Distance of a sliding follower's line from the axis, positive where the axis is to its left.", unit="length",
-        default=None,
-    )  # fmt: skip
-    roller: Magnitude | None = key("Radius of the roller; a knife edge if left out.", unit="length", default=None)
-    flat: Switch = key("A flat face square to the line of a sliding follower.", default=False)
-    allow: AllowedPressure | None = key("Greatest pressure angles, judged.", default=None)
 
 
 # -- cams as they are --------------------------------------------------------------------------------------------------

@@ -23,30 +23,14 @@ from graphkin.errors import Problem, SceneError, did_you_mean, unfit
 from graphkin.files import Json, OwnTables, Tables
 from graphkin.plane import degrees, direction
 from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
-from graphkin.scene.sheet import SheetWishes
-from graphkin.scene.tables import (
-    SMALLEST,
-    FileTable,
-    Form,
-    List,
-    Magnitude,
-    NotNegative,
-    Number,
-    Place,
-    Text,
-    Units,
-    file_table,
-    file_table_by_name,
-    key,
-    plain,
-    shown,
-    xy,
-)
+from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, Number, Place, SheetWishes, Text
+from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key, plain, shown, xy
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "KINDS", "BarPlace", "BarPositionsTask", "CrankRockerTask", "Design", "DesignLike", "DesignTask", "FunctionTask",
-    "GuideBarTask", "LimitsTask", "SliderCrankTask", "design_of", "designs", "is_design", "scene_table",
+    "KINDS", "BarPlace", "BarPositionsTask", "CrankRockerTask", "Design", "DesignLike", "DesignTask",
+    "FunctionTask", "GuideBarTask", "LimitsTask", "SliderCrankTask", "design_of", "designs", "is_design",
+    "scene_table",
 ]  # fmt: skip
 
 SAME_BAR = 1e-3

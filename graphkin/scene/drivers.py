@@ -12,98 +12,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Annotated, Literal
-
-from pydantic import Discriminator, Tag
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
 from graphkin.scene.bodies import PinInSlot, Reading, SlidingPair
-from graphkin.scene.laws import DriverLaw, MotionLaw, motion_law
+from graphkin.scene.laws import MotionLaw, motion_law
 from graphkin.scene.model import FromDeadPoint, Mechanism
-from graphkin.scene.tables import (
-    SMALLEST,
-    FileTable,
-    LinkName,
-    List,
-    Number,
-    PointName,
-    ShownName,
-    SlideRef,
-    Units,
-    file_table,
-    form_of_driver,
-    form_of_list,
-    in_si,
-    in_units,
-    key,
-)
+from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver
+from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, alternatives
 
-__all__ = [
-    "DrivenSlide", "Driver", "Drivers", "asked_time", "at_time", "drives", "moments", "moves_by_law", "placed_driver",
-    "stated_driver", "time_span",
-]  # fmt: skip
-
-
-@file_table
-class Driver(FileTable):
-    """A driven angle."""
-
-    link: LinkName = key("The driven link.")
-    angle: Number | None = key(
-        "Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None
-    )
-    omega: Number | None = key("rad/s, counter-clockwise positive.", unit="angular velocity", default=None)
-    rpm: Number | None = key("Instead of omega: turns per minute.", default=None)
-    speed: Number | None = key(
-        "Instead of omega: the speed of the point named by of, with the sign of the driver's turning.",
-        unit="velocity", default=None,
-    )  # fmt: skip
-    of: PointName | None = key("The point whose speed is given.", default=None)
-    alpha: Number = key("rad/s2.", unit="angular acceleration", default=0.0)
-    sense: Literal["clockwise", "counter-clockwise"] | None = key(
-        "The sense of omega, rpm or speed, which then is a size, and in which alpha counts.", default=None
-    )
-    relative_to: LinkName | None = key("Angle from this link's own axis, not the frame's.", default=None)
-    origin: Literal["dead point"] | None = key(
-        '"dead point": the angle counts from a dead point of the mechanism.', name="from", default=None
-    )
-    near: Number | None = key("Degrees: which dead point, where there are several.", unit="angle", default=None)
-    position: ShownName | None = key("Instead of angle: the name of a position of [positions].", default=None)
-    law: DriverLaw | None = key("Instead of omega and alpha: how the driver moves over the time.", default=None)
-    time: Number | None = key("Instead of angle: the moment of the law that is asked, in s.", default=None)
-
-
-@file_table
-class DrivenSlide(FileTable):
-    """A driven sliding pair."""
-
-    slide: SlideRef = key('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").')
-    travel: Number | None = key(
-        "From the guide's origin to the sliding link's own; may be left out with [drawn].", unit="length", default=None
-    )
-    velocity: Number | None = key("Unit of speed, along the guide's sense.", unit="velocity", default=None)
-    acceleration: Number = key(
-        "Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0
-    )
-    relative_to: LinkName | None = key("The guiding link, where there are two.", default=None)
-    origin: Literal["dead point"] | None = key(
-        '"dead point": the travel counts from a dead point of the mechanism.', name="from", default=None
-    )
-    near: Number | None = key("Travel: which dead point, where there are several.", unit="length", default=None)
-    law: DriverLaw | None = key(
-        "Instead of velocity and acceleration: how the driver moves over the time.", default=None
-    )
-    time: Number | None = key("Instead of travel: the moment of the law that is asked, in s.", default=None)
-
-
-OneDriver = Annotated[
-    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(form_of_driver)
-]
-Drivers = Annotated[
-    Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")], Discriminator(form_of_list)
-]
+__all__ = ["asked_time", "at_time", "drives", "moments", "moves_by_law", "placed_driver", "stated_driver", "time_span"]
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 

@@ -11,18 +11,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from types import ModuleType
-from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
-
-from pydantic import Field as Rule
+from typing import NamedTuple
 
 from graphkin.errors import Problem
 from graphkin.plane import Values
-from graphkin.scene.tables import FileTable, List, Magnitude, Number, Place, file_table, key
+from graphkin.scene.scene_tables import DriverLaw, LawPiece
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "LAWS", "SEAM", "TURN", "CubicPart", "DriverLaw", "FollowerLaw", "LawPiece", "Lift", "LiftPiece", "MotionLaw",
-    "SmoothPart", "TimePiece", "follower_law", "form_of", "motion_law",
+    "LAWS", "SEAM", "TURN", "CubicPart", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "SmoothPart",
+    "follower_law", "form_of", "motion_law",
 ]  # fmt: skip
 
 ROUNDING = 1e-12
@@ -316,50 +314,6 @@ class MotionLaw:
 
 
 # -- tables of the file ------------------------------------------------------------------------------------------------
-
-if TYPE_CHECKING:
-    LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"] | str
-else:
-    LawName = Literal[SPELLINGS]  # as many as there are laws
-
-
-@file_table
-class LawPiece(FileTable):
-    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
-
-    to: Number = key("Degrees of the cam at which it ends; the last piece ends at 360.")
-    rise: Number | None = key("By how much the follower rises: length, or degrees of one that swings.", default=None)
-    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
-    by: LawName | None = key("The law of a rise or fall.", default=None)
-
-
-@file_table
-class TimePiece(FileTable):
-    """A piece of the law of a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
-
-    to: Number = key("Seconds at which it ends.")
-    rise: Number | None = key("By how much the driver's value grows: degrees, travel.", default=None)
-    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
-    by: LawName | None = key("The law of a rise or fall.", default=None)
-
-
-@file_table
-class DriverLaw(FileTable):
-    """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
-
-    origin: Number | None = key("The driver's value at 0 s: degrees, or travel.", name="from", default=None)
-    to: Number | None = key("The driver's value at the end.", default=None)
-    rise: Number | None = key(
-        "Instead of to: by how much the value grows; negative where it falls.", default=None
-    )
-    duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
-    by: LawName | None = key("The law by which it goes from one to the other.", default=None)
-    pieces: Annotated[List[TimePiece], Rule(max_length=1000)] = key(
-        'Several, with dwells: [{ to = 0.5, rise = 90, by = "cycloidal" }, { to = 0.8 }].', default=()
-    )
-    table: Annotated[List[Place], Rule(max_length=5000)] = key(
-        "Instead of laws: [[time, value], ...], joined by a cubic without acceleration at its ends.", default=()
-    )
 
 
 # -- reading ---------------------------------------------------------------------------------------------------------

@@ -14,122 +14,14 @@ from typing import Literal
 from graphkin.errors import did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
-from graphkin.scene.tables import (
-    FileTable,
-    LinkName,
-    LinkNames,
-    Magnitude,
-    NameOrPlace,
-    NotNegative,
-    Number,
-    NumberOrSquare,
-    Place,
-    PointNames,
-    SlideRef,
-    file_table,
-    in_si,
-    key,
-)
+from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
+from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = [
-    "Balance", "BalanceAt", "Flywheel", "Gravity", "LinkMass", "Load", "LoadOn", "LoadPhase", "Loading", "Mass",
-    "Phase", "Spring", "SpringOn", "loading_of",
-]  # fmt: skip
-
-STANDARD_GRAVITY = 9.80665
-"""m/s2."""
+__all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "SpringOn", "loading_of"]
 TURN = math.tau * (1 + 1e-12)
 
 # -- tables of the file ------------------------------------------------------------------------------------------------
-
-
-@file_table
-class Gravity(FileTable):
-    """Where weights pull, and how much."""
-
-    g: Magnitude = key("Acceleration of gravity, m/s2.", default=STANDARD_GRAVITY)
-    angle: Number = key("Its direction in degrees in the frame.", default=-90.0)
-
-
-@file_table
-class Mass(FileTable):
-    """Mass of a moving link."""
-
-    at: NameOrPlace = key("The centre of mass: a point of the link, or [x, y] in its own axes.", unit="length")
-    mass: Magnitude | None = key("Its mass.", unit="mass", default=None)
-    weight: Magnitude | None = key("Instead of mass: its weight, a force.", unit="force", default=None)
-    inertia: NotNegative = key("Moment of inertia about the centre of mass.", unit="inertia", default=0.0)
-
-
-@file_table
-class LoadPhase(FileTable):
-    """When a load acts: on a part of a stroke, or between two values of the driver."""
-
-    stroke: SlideRef | None = key("The sliding pair on whose stroke it acts.", default=None)
-    sense: Number = key("1: while it slides along the guide's sense; -1: against it.", default=1.0)
-    start: NotNegative = key("Part of that stroke at which it begins.", name="from", default=0.0)
-    end: NotNegative = key("Part of that stroke at which it ends.", name="to", default=1.0)
-    driver: Place | None = key(
-        "Instead of stroke: two values of the first driver, growing between them.", default=None
-    )
-
-
-@file_table
-class Load(FileTable):
-    """A force or a moment on a moving link."""
-
-    on: LinkName = key("The link.")
-    at: NameOrPlace | None = key(
-        "Where a force acts: a point of the link, or [x, y] in its own axes.", unit="length", default=None
-    )
-    force: Number | None = key("Size of a force.", unit="force", default=None)
-    moment: Number | None = key(
-        "Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None
-    )
-    angle: Number | None = key(
-        "Direction of a force in degrees in the frame, or from the axis of follows.", default=None
-    )
-    follows: LinkName | None = key("The link with whose own axis the force turns.", default=None)
-    against: SlideRef | None = key(
-        "Instead of angle: along this pair's guide, opposite to its sliding velocity.", default=None
-    )
-    when: LoadPhase | None = key("When it acts; always if left out.", default=None)
-
-
-@file_table
-class Spring(FileTable):
-    """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
-
-    between: PointNames = key("The two points that it joins, of two links.")
-    rate: Magnitude = key("Its rate: force unit per length unit of the scene.", unit="stiffness")
-    free: NotNegative = key("Its free length.", unit="length")
-    preload: Number = key("Its pull at the free length (wound-in tension).", unit="force", default=0.0)
-    links: LinkNames | None = key(
-        "The links of the two points, where several have them; the first that has it.", default=None
-    )
-
-
-@file_table
-class Balance(FileTable):
-    """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
-
-    on: LinkName = key("The link.")
-    at: NameOrPlace | None = key(
-        "Where a balancing force acts; a moment balances if left out.", unit="length", default=None
-    )
-    angle: NumberOrSquare | None = key(
-        'Its line in degrees in the frame, or "square" to the link\'s own axis.', default=None
-    )
-
-
-@file_table
-class Flywheel(FileTable):
-    """A flywheel for a wished evenness of the turn."""
-
-    on: LinkName = key("The link that carries it.")
-    delta: Magnitude = key("Coefficient of speed fluctuation.")
-    driving: Literal["constant"] = key("The driving moment over the turn.", default="constant")
 
 
 # -- what acts ---------------------------------------------------------------------------------------------------------

@@ -19,7 +19,8 @@ from graphkin.scene.bodies import CircularSlot, PinInSlot, SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
 from graphkin.scene.loads import Loading
-from graphkin.scene.sheet import PlacedBackground, PlacedScan, SheetWishes, Vary
+from graphkin.scene.scene_tables import SheetWishes, Vary
+from graphkin.scene.sheet import PlacedBackground, PlacedScan
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 

@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
-from graphkin.scene.bodies import Compass, Guide, Link, PinInSlot, Polar, Reading, SlidingPair, references
+from graphkin.scene.bodies import PinInSlot, Reading, SlidingPair
 from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
+from graphkin.scene.scene_tables import Compass, Guide, Link, Polar, references
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, Wording
 

@@ -21,7 +21,8 @@ from typing import Any
 from graphkin.errors import CallError, Problem, SceneError, as_text, did_you_mean
 from graphkin.files import OwnTables, Tables, opened, path_of, whole_file
 from graphkin.scene.model import Mechanism
-from graphkin.scene.scene_tables import SCENE, SceneTables, as_mapping, mechanism_said
+from graphkin.scene.reading import as_mapping, mechanism_said
+from graphkin.scene.scene_tables import SCENE, SceneTables
 from graphkin.scene.tables import item_of, plain
 from graphkin.words import Phrase, Wording, from_others
 
@@ -258,7 +259,7 @@ class Scene(SceneTables):
 
     Examples
     --------
-    >>> from graphkin import Driver, Frame, Guide, Link, Scene
+    >>> from graphkin.scene import Driver, Frame, Guide, Link, Scene
     >>> slider_crank = Scene(
     ...     title="Offset slider-crank",
     ...     frame=Frame(points={"A": (0, 0)}, guides={"h": Guide(through=(0, -16), angle=0)}),

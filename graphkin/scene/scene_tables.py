@@ -1,87 +1,680 @@
-"""The whole scene file: its tables, the mechanism that they say or all that is wrong, and the tables that say a
-mechanism.
+"""The scene file, table by table: every key that may stand in it, its meaning, its unit, what holds without it.
 
-Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
+What a table says is read where the mechanism gets it (`graphkin.scene.reading`).  Where the format leaves something
+open, the docstring of `graphkin.scene` says how it is read.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import unicodedata
-from collections.abc import Iterable, Mapping
-from typing import Annotated, TypeVar
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Literal
 
+from pydantic import Discriminator, Strict, StringConstraints, Tag
 from pydantic import Field as Rule
 
-from graphkin.errors import Problem, SceneError
-from graphkin.files import OwnTables
-from graphkin.plane import degrees
-from graphkin.scene import position as places
-from graphkin.scene.asked import (
-    Positions,
-    PrintedTable,
-    asked,
-    loops_named,
-    names_of_positions,
-    positions_named,
-    stated_values,
-)
-from graphkin.scene.bodies import (
-    Flaws,
-    Frame,
-    Guide,
-    Link,
-    Pin,
-    Reading,
-    check_own_points,
-    check_references,
-    islands,
-    not_held,
-    pins_in_slots,
-    sliding_pairs,
-    with_bars,
-    with_carriages,
-)
-from graphkin.scene.cams import Cam, LawCam, cams_of
-from graphkin.scene.drivers import DrivenSlide, Driver, Drivers, drives, placed_driver, stated_driver
-from graphkin.scene.force_names import no_force
-from graphkin.scene.loads import Balance, Flywheel, Gravity, Load, Loading, Mass, Spring, loading_of
-from graphkin.scene.model import Mechanism, PlacedDisc, PlacedLink, Question
-from graphkin.scene.sheet import Drawing, ReadScan, SheetWishes, Vary, background_of, scans_of
-from graphkin.scene.tables import (
-    FileTable,
-    Form,
-    KeyPath,
-    LinkName,
-    NotNegative,
-    Place,
-    PointName,
-    PointNames,
-    Stated,
-    Symbols,
-    Text,
-    Units,
-    file_table_by_name,
-    key,
-    path_name,
-    plain,
-    tidy,
-)
-from graphkin.scene.touching import (
-    Contact,
-    Gear,
-    contacts_of,
-    discs_of,
-    gears_of,
-    wrong_distances,
-)
-from graphkin.words import Phrase
+from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key
+from graphkin.words import LANGUAGES
 
-__all__ = ["SCENE", "SceneTables", "as_mapping", "mechanism_said"]
+__all__ = [
+    "PAPERS", "SCENE", "STANDARD_GRAVITY", "AllowedPressure", "At", "Background", "Balance", "BaseCircle", "Cam",
+    "Compass", "Contact", "Convention", "Disc", "Drawing", "DrivenSlide", "Driver", "DriverLaw", "Drivers",
+    "EndName", "Flywheel", "Frame", "FramePlace", "Gear", "Gravity", "Guide", "Keys", "LawName", "LawPiece",
+    "Level", "Link", "Load", "LoadPhase", "Mass", "OneDriver", "Pin", "Polar", "Positions", "PrintedTable", "Range",
+    "ReadScan", "SceneTables", "SheetWishes", "Spring", "Start", "StrokeStart", "TimePiece", "Tools", "TwoOutlines",
+    "TwoTeeth", "Vary", "references",
+]  # fmt: skip
 
-MOST_LINKS = 200
-MOST_POINTS = 100
-AnyBody = TypeVar("AnyBody", Link, Frame)
+SMALLEST, LARGEST = 1e-15, 1e15
+"""The smallest length, and the smallest rate that is not 0; the largest number."""
+LONGEST_TEXT = 300
+
+# -- kinds of values ---------------------------------------------------------------------------------------------------
+
+if TYPE_CHECKING:
+    List = Sequence  # what a caller may give; the reader makes lists of it
+    Language = str
+else:
+    List = list
+    Language = Literal[LANGUAGES]  # as many as there are tables of words
+
+Switch = Annotated[bool, Strict()]
+Number = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
+Magnitude = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
+Tool = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=10)]
+NotNegative = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=LARGEST)]
+Share = Annotated[float, Rule(strict=True, ge=0, le=1)]
+Least = Annotated[Number, Rule(ge=0, le=90)]
+Part = Annotated[Number, Rule(gt=0, le=0.5)]
+Count = Annotated[int, Rule(strict=True, ge=1, le=720)]
+Asked = Annotated[int, Rule(strict=True, ge=1, le=100)]
+Text = Annotated[str, Rule(strict=True, max_length=LONGEST_TEXT)]
+PointName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
+LinkName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+$", max_length=40)]
+GuideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(\.[A-Za-z0-9]+)?$", max_length=81)]
+SlideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(/[A-Za-z0-9]+)?$", max_length=81)]
+PositionName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9'*._-]+$", max_length=20)]
+ShownName = Annotated[str, StringConstraints(strict=True, max_length=20)] | Annotated[int, Rule(strict=True, ge=0)]
+Place = Annotated[List[Number], Rule(min_length=2, max_length=2, description="[x, y]")]
+TwoLengths = Annotated[List[Magnitude], Rule(min_length=2, max_length=2)]
+TwoPoints = Annotated[List[PointName], Rule(min_length=2, max_length=2)]
+PointNames = List[PointName]
+LinkNames = List[LinkName]
+Symbols = List[Annotated[str, Strict()]]
+
+
+def _form(value: object) -> str | None:
+    """Which of the forms of a value that may be written in several ways this is."""
+    if isinstance(value, str):
+        return "<name>"
+    if isinstance(value, list):
+        return "<list>"
+    if isinstance(value, dict):
+        return "<compass>" if isinstance(value.get("from"), list) else "<polar>"
+    return "<number>" if isinstance(value, int | float) and not isinstance(value, bool) else None
+
+
+def forms(wanted: str) -> Discriminator:
+    """What tells the forms of a value apart; ``wanted`` is the key of the phrase that says which there are."""
+    return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
+
+
+def form_of_driver(value: object) -> str:
+    """Whether a table drives a slide or an angle."""
+    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
+
+
+def form_of_list(value: object) -> str:
+    """Whether there is one table or a list of them."""
+    return "<list>" if isinstance(value, list) else "<one>"
+
+
+NameOrPlace = Annotated[
+    Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")], forms("write the name of a point b or")
+]
+GuideRefs = Annotated[
+    Annotated[GuideRef, Tag("<name>")] | Annotated[List[GuideRef], Rule(min_length=1, max_length=2), Tag("<list>")],
+    forms("write a guide as link or link.guide or"),
+]
+Numbers = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[List[Number], Rule(min_length=1, max_length=2), Tag("<list>")],
+    forms("write a number or a list with one"),
+]
+NumberOrSquare = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
+    forms("write degrees or square for square to the"),
+]
+Stated = Annotated[
+    Annotated[Number, Tag("<number>")]
+    | Annotated[Place, Tag("<list>")]
+    | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
+    forms("write a number 1.0 for its digits as"),
+]
+
+# -- bodies of the scene: frame, links, pins ---------------------------------------------------------------------------
+
+
+@file_table
+class Polar(FileTable):
+    """A point at a distance and an angle from another point of the link."""
+
+    origin: PointName = key("The point of the link from which r is measured.", name="from")
+    r: Magnitude = key("Distance.", unit="length")
+    angle: Number = key("Degrees from the link's own x axis, or from the direction given by toward.", default=0.0)
+    toward: PointName | None = key("The point of the link at which angle is 0.", default=None)
+
+
+@file_table
+class Compass(FileTable):
+    """A point by its distances from two others of the link: the corner of a plate by its sides."""
+
+    origins: TwoPoints = key("The two points of the link.", name="from")
+    r: TwoLengths = key("The two distances.", unit="length")
+    side: Literal["left", "right"] = key("Side of the directed line from the first to the second.")
+
+
+FramePlace = Annotated[
+    Annotated[Place, Tag("<list>")] | Annotated[Polar, Tag("<polar>")] | Annotated[Compass, Tag("<compass>")],
+    forms("write x y from a r 400 angle"),
+]
+At = Annotated[
+    Annotated[Place, Tag("<list>")]
+    | Annotated[Polar, Tag("<polar>")]
+    | Annotated[Compass, Tag("<compass>")]
+    | Annotated[Literal["drawn"], Tag("<name>")],
+    forms("write x y from c r 65 angle"),
+]
+
+
+@file_table
+class Guide(FileTable):
+    """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
+
+    through: NameOrPlace | None = key(
+        "A point of the link by name, or [x, y] in the link's own axes.", unit="length", default=None
+    )
+    angle: Number | None = key("Direction in degrees from the link's own x axis.", default=None)
+    toward: PointName | None = key(
+        "Instead of angle: the point that the guide points to (of the link, fixed or drawn).", default=None
+    )
+    centre: NameOrPlace | None = key(
+        "Of a circular slot: a point of the link, or [x, y] in the link's own axes.", unit="length", default=None
+    )
+    r: Magnitude | None = key("Radius of a circular slot.", unit="length", default=None)
+    ends: Place | None = key(
+        "Where a circular slot is drawn: from one to the other, degrees from the link's own x axis.", unit="angle",
+        default=None,
+    )  # fmt: skip
+
+
+@file_table
+class Disc(FileTable):
+    """A round outline that a link carries."""
+
+    centre: PointName = key("A point of the link.")
+    r: Number = key("Its radius; negative: hollow, the body lies outside (a ring).", unit="length")
+
+
+@file_table
+class Frame(FileTable):
+    """The fixed link."""
+
+    name: LinkName = key('Name of the fixed link, "0" if not given.', default="0")
+    points: dict[PointName, FramePlace] = key(
+        "Fixed pivots, [x, y] each, or polar from another, or by the distances from two others.", unit="length",
+        closed=True, default_factory=dict,
+    )  # fmt: skip
+    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
+    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
+
+
+@file_table
+class Link(FileTable):
+    """A moving link."""
+
+    points: PointNames = key(
+        "Own points: two for a bar, one for a bar of no fixed length or a block, or none.", default=()
+    )
+    length: Magnitude | None = key("Distance of the two own points.", unit="length", default=None)
+    on: GuideRefs | None = key(
+        'What the link slides on: "3" (own axis of link 3), "6.h" (a guide), or two of them.', default=None
+    )
+    angle_on: Numbers | None = key(
+        "Degrees from the guide to the link's own x axis; one number for each guide.", default=None
+    )
+    at: dict[PointName, At] = key("Further points.", unit="length", closed=True, default_factory=dict)
+    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
+    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
+    start: Number | None = key(
+        "Where rolling leaves it open: degrees of its own axis (of a link with on, its travel) at the "
+        "scene's own driver value; 0 if left out.", default=None,
+    )  # fmt: skip
+    redundant: Switch = key("The link only repeats what others already hold.", default=False)
+
+    @property
+    def guide_refs(self) -> list[str]:
+        """What it slides on."""
+        return _as_list(self.on)
+
+
+@file_table
+class Pin(FileTable):
+    """A pin that runs in slots."""
+
+    of: LinkName = key("The link that has the pin.")
+    slots: GuideRefs = key('The guide it runs in ("3.s"), or a list of guides.', name="in")
+
+    @property
+    def guide_refs(self) -> list[str]:
+        """What it runs in."""
+        return _as_list(self.slots)
+
+
+def _as_list(refs: str | Sequence[str] | None) -> list[str]:
+    """Names of guides, written alone or in a list."""
+    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
+
+
+def references(entry: object) -> tuple[str, ...]:
+    """The points of a link from which one is placed."""
+    if isinstance(entry, Polar):
+        return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
+    return tuple(entry.origins) if isinstance(entry, Compass) else ()
+
+
+# -- what touches, cams ------------------------------------------------------------------------------------------------
+
+
+TwoOutlines = Annotated[List[GuideRef], Rule(min_length=2, max_length=2)]
+TwoTeeth = Annotated[
+    List[
+        Annotated[
+            Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
+            forms("write a number of teeth or rack"),
+        ]
+    ],
+    Rule(min_length=2, max_length=2),
+]
+
+
+@file_table
+class Contact(FileTable):
+    """Two outlines that touch."""
+
+    between: TwoOutlines = key(
+        'Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").'
+    )
+    side: Literal["left", "right", "outside", "inside"] | None = key(
+        "Of a face: the side of the directed guide on which the disc lies, left if left out. "
+        "Of two discs: outside (if left out), or inside, the smaller in the larger.", default=None,
+    )  # fmt: skip
+    rolling: Switch = key("true: rolls without slip; false: slides.", default=False)
+
+
+@file_table
+class Gear(FileTable):
+    """Two wheels with teeth, or a wheel and a rack."""
+
+    between: TwoOutlines = key('The two wheels ("2", "4"); a rack, second, or a guide of it ("3.r").')
+    teeth: TwoTeeth = key('Numbers of teeth; negative: internal teeth; "rack" for the second.')
+    carrier: LinkName | None = key(
+        "The link that holds both axes (the wheel's axis and the rack's slide); found if left out.", default=None
+    )
+
+
+LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567", "3-4-5", "4-5-6-7"]
+
+
+@file_table
+class LawPiece(FileTable):
+    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = key("Degrees of the cam at which it ends; the last piece ends at 360.")
+    rise: Number | None = key("By how much the follower rises: length, or degrees of one that swings.", default=None)
+    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
+    by: LawName | None = key("The law of a rise or fall.", default=None)
+
+
+@file_table
+class TimePiece(FileTable):
+    """A piece of the law of a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
+
+    to: Number = key("Seconds at which it ends.")
+    rise: Number | None = key("By how much the driver's value grows: degrees, travel.", default=None)
+    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
+    by: LawName | None = key("The law of a rise or fall.", default=None)
+
+
+@file_table
+class DriverLaw(FileTable):
+    """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
+
+    origin: Number | None = key("The driver's value at 0 s: degrees, or travel.", name="from", default=None)
+    to: Number | None = key("The driver's value at the end.", default=None)
+    rise: Number | None = key(
+        "Instead of to: by how much the value grows; negative where it falls.", default=None
+    )
+    duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
+    by: LawName | None = key("The law by which it goes from one to the other.", default=None)
+    pieces: Annotated[List[TimePiece], Rule(max_length=1000)] = key(
+        'Several, with dwells: [{ to = 0.5, rise = 90, by = "cycloidal" }, { to = 0.8 }].', default=()
+    )
+    table: Annotated[List[Place], Rule(max_length=5000)] = key(
+        "Instead of laws: [[time, value], ...], joined by a cubic without acceleration at its ends.", default=()
+    )
+
+
+@file_table
+class BaseCircle(FileTable):
+    """The base circle of a cam."""
+
+    r: Magnitude = key("Its radius.", unit="length")
+    of: Literal["profile", "pitch"] = key(
+        "Of the profile, or of the pitch curve, on which the roller's centre runs.", default="profile"
+    )
+
+
+@file_table
+class AllowedPressure(FileTable):
+    """Greatest pressure angles that are allowed."""
+
+    rise: Number | None = key("Degrees, while the follower rises.", unit="angle", default=None)
+    fall: Number | None = key("Degrees, while it falls.", unit="angle", default=None)
+
+
+@file_table
+class Cam(FileTable):
+    """A cam that turns about its first point, given by the law of its follower."""
+
+    follower: LinkName = key(
+        "The link that it moves: on a guide of the frame, or swinging about a point of the frame."
+    )
+    law: List[LawPiece] = key('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].')
+    base: BaseCircle = key('The base circle: { r = 30, of = "profile" }.')
+    sense: Literal[1, -1] = key(
+        "The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.", default=1
+    )
+    offset: Number | None = key(
+        "Distance of a sliding follower's line from the axis, positive where the axis is to its left.", unit="length",
+        default=None,
+    )  # fmt: skip
+    roller: Magnitude | None = key("Radius of the roller; a knife edge if left out.", unit="length", default=None)
+    flat: Switch = key("A flat face square to the line of a sliding follower.", default=False)
+    allow: AllowedPressure | None = key("Greatest pressure angles, judged.", default=None)
+
+
+# -- what drives -------------------------------------------------------------------------------------------------------
+
+
+@file_table
+class Driver(FileTable):
+    """A driven angle."""
+
+    link: LinkName = key("The driven link.")
+    angle: Number | None = key(
+        "Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None
+    )
+    omega: Number | None = key("rad/s, counter-clockwise positive.", unit="angular velocity", default=None)
+    rpm: Number | None = key("Instead of omega: turns per minute.", default=None)
+    speed: Number | None = key(
+        "Instead of omega: the speed of the point named by of, with the sign of the driver's turning.",
+        unit="velocity", default=None,
+    )  # fmt: skip
+    of: PointName | None = key("The point whose speed is given.", default=None)
+    alpha: Number = key("rad/s2.", unit="angular acceleration", default=0.0)
+    sense: Literal["clockwise", "counter-clockwise"] | None = key(
+        "The sense of omega, rpm or speed, which then is a size, and in which alpha counts.", default=None
+    )
+    relative_to: LinkName | None = key("Angle from this link's own axis, not the frame's.", default=None)
+    origin: Literal["dead point"] | None = key(
+        '"dead point": the angle counts from a dead point of the mechanism.', name="from", default=None
+    )
+    near: Number | None = key("Degrees: which dead point, where there are several.", unit="angle", default=None)
+    position: ShownName | None = key("Instead of angle: the name of a position of [positions].", default=None)
+    law: DriverLaw | None = key("Instead of omega and alpha: how the driver moves over the time.", default=None)
+    time: Number | None = key("Instead of angle: the moment of the law that is asked, in s.", default=None)
+
+
+@file_table
+class DrivenSlide(FileTable):
+    """A driven sliding pair."""
+
+    slide: SlideRef = key('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").')
+    travel: Number | None = key(
+        "From the guide's origin to the sliding link's own; may be left out with [drawn].", unit="length", default=None
+    )
+    velocity: Number | None = key("Unit of speed, along the guide's sense.", unit="velocity", default=None)
+    acceleration: Number = key(
+        "Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0
+    )
+    relative_to: LinkName | None = key("The guiding link, where there are two.", default=None)
+    origin: Literal["dead point"] | None = key(
+        '"dead point": the travel counts from a dead point of the mechanism.', name="from", default=None
+    )
+    near: Number | None = key("Travel: which dead point, where there are several.", unit="length", default=None)
+    law: DriverLaw | None = key(
+        "Instead of velocity and acceleration: how the driver moves over the time.", default=None
+    )
+    time: Number | None = key("Instead of travel: the moment of the law that is asked, in s.", default=None)
+
+
+OneDriver = Annotated[
+    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(form_of_driver)
+]
+Drivers = Annotated[
+    Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")], Discriminator(form_of_list)
+]
+
+
+# -- what acts ---------------------------------------------------------------------------------------------------------
+
+
+STANDARD_GRAVITY = 9.80665
+"""m/s2."""
+
+
+@file_table
+class Gravity(FileTable):
+    """Where weights pull, and how much."""
+
+    g: Magnitude = key("Acceleration of gravity, m/s2.", default=STANDARD_GRAVITY)
+    angle: Number = key("Its direction in degrees in the frame.", default=-90.0)
+
+
+@file_table
+class Mass(FileTable):
+    """Mass of a moving link."""
+
+    at: NameOrPlace = key("The centre of mass: a point of the link, or [x, y] in its own axes.", unit="length")
+    mass: Magnitude | None = key("Its mass.", unit="mass", default=None)
+    weight: Magnitude | None = key("Instead of mass: its weight, a force.", unit="force", default=None)
+    inertia: NotNegative = key("Moment of inertia about the centre of mass.", unit="inertia", default=0.0)
+
+
+@file_table
+class LoadPhase(FileTable):
+    """When a load acts: on a part of a stroke, or between two values of the driver."""
+
+    stroke: SlideRef | None = key("The sliding pair on whose stroke it acts.", default=None)
+    sense: Number = key("1: while it slides along the guide's sense; -1: against it.", default=1.0)
+    start: NotNegative = key("Part of that stroke at which it begins.", name="from", default=0.0)
+    end: NotNegative = key("Part of that stroke at which it ends.", name="to", default=1.0)
+    driver: Place | None = key(
+        "Instead of stroke: two values of the first driver, growing between them.", default=None
+    )
+
+
+@file_table
+class Load(FileTable):
+    """A force or a moment on a moving link."""
+
+    on: LinkName = key("The link.")
+    at: NameOrPlace | None = key(
+        "Where a force acts: a point of the link, or [x, y] in its own axes.", unit="length", default=None
+    )
+    force: Number | None = key("Size of a force.", unit="force", default=None)
+    moment: Number | None = key(
+        "Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None
+    )
+    angle: Number | None = key(
+        "Direction of a force in degrees in the frame, or from the axis of follows.", default=None
+    )
+    follows: LinkName | None = key("The link with whose own axis the force turns.", default=None)
+    against: SlideRef | None = key(
+        "Instead of angle: along this pair's guide, opposite to its sliding velocity.", default=None
+    )
+    when: LoadPhase | None = key("When it acts; always if left out.", default=None)
+
+
+@file_table
+class Spring(FileTable):
+    """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
+
+    between: PointNames = key("The two points that it joins, of two links.")
+    rate: Magnitude = key("Its rate: force unit per length unit of the scene.", unit="stiffness")
+    free: NotNegative = key("Its free length.", unit="length")
+    preload: Number = key("Its pull at the free length (wound-in tension).", unit="force", default=0.0)
+    links: LinkNames | None = key(
+        "The links of the two points, where several have them; the first that has it.", default=None
+    )
+
+
+@file_table
+class Balance(FileTable):
+    """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
+
+    on: LinkName = key("The link.")
+    at: NameOrPlace | None = key(
+        "Where a balancing force acts; a moment balances if left out.", unit="length", default=None
+    )
+    angle: NumberOrSquare | None = key(
+        'Its line in degrees in the frame, or "square" to the link\'s own axis.', default=None
+    )
+
+
+@file_table
+class Flywheel(FileTable):
+    """A flywheel for a wished evenness of the turn."""
+
+    on: LinkName = key("The link that carries it.")
+    delta: Magnitude = key("Coefficient of speed fluctuation.")
+    driving: Literal["constant"] = key("The driving moment over the turn.", default="constant")
+
+
+# -- what is asked and stated ------------------------------------------------------------------------------------------
+
+
+@file_table
+class StrokeStart(FileTable):
+    """A place on the stroke of a slide."""
+
+    stroke: SlideRef = key('The sliding pair: "5/6".')
+    at: Share = key("Part of the stroke that is done, 0 to 1.", default=0.0)
+    sense: Literal[1, -1] = key("1: of the stroke that goes along the guide's sense, -1: against it.", default=1)
+
+
+Start = Annotated[
+    Annotated[Number, Tag("<number>")] | Annotated[StrokeStart, Tag("<polar>")],
+    forms("write a driver value or stroke 5 6"),
+]
+
+
+@file_table
+class Positions(FileTable):
+    """Positions with names."""
+
+    count: Count | None = key(
+        "So many positions over a turn, numbered from 1 in the sense of the driver.", default=None
+    )
+    first: Start | None = key(
+        "Position 1: a driver value, or the start of a stroke; the driver's own value.", default=None
+    )
+    also: dict[PositionName, Start] = key(
+        "Further positions by name, each a driver value or a place of a stroke.", closed=True, default_factory=dict
+    )
+    show: tuple[ShownName, ...] = key(
+        'On the figure: "limits", "all", or names of positions.', default=("limits", "all")
+    )
+    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = key(
+        "What is drawn and dimensioned there.", default=("theta", "stroke", "K", "gamma")
+    )
+
+
+@file_table
+class PrintedTable(FileTable):
+    """A table of published values in a file beside the scene."""
+
+    file: Text = key("A CSV file: heads are symbols, one column is called at.")
+    by: Literal["drawing", "computation"] = key(
+        "How the values were found; computed ones are judged by their digits.", default="drawing"
+    )
+
+
+# -- the sheet, pictures, sets of problems -----------------------------------------------------------------------------
+
+
+Convention = Literal["chinese", "us", "british", "russian"]
+EndName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9@/_]*$", max_length=80)]
+Range = Annotated[List[Number], Rule(min_length=2, max_length=2)]
+Keys = List[Annotated[str, StringConstraints(strict=True, max_length=80)]]
+Drawing = Literal["mechanism", "velocity", "acceleration"]
+Level = Literal["easy", "usual", "hard"]
+PAPERS = {
+    "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
+    "A0": (841.0, 1189.0),
+}  # fmt: skip
+
+
+@file_table
+class Tools(FileTable):
+    """What the tools of a pencil drawing can do; used with --instrument pencil.
+
+    A step is that to which a value is read or laid off; the others are standard deviations.
+    """
+
+    line_width: Tool = key("Width of a pencil line (mm); a point is pricked within half of it.", default=0.2)
+    ruler: Tool = key("Step of the ruler (mm): 0.5, or 0.1 interpolated.", default=0.1)
+    compass: Tool = key("Standard deviation of a compass radius (mm).", default=0.1)
+    set_square: Tool = key("Standard deviation of a direction set (degrees).", default=0.1)
+    protractor: Tool = key("Step of the protractor (degrees).", default=0.5)
+
+
+@file_table
+class Background(FileTable):
+    """A photograph or scan to lie under the mechanism."""
+
+    file: Text = key("A PNG or JPEG, by its path from the scene file.")
+    points: dict[PointName, Place] = key(
+        "Two points of the frame or of [drawn], with their pixels [x, y] from the left upper corner.", closed=True
+    )
+
+
+@file_table
+class ReadScan(FileTable):
+    """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
+
+    points: dict[EndName, Place] = key(
+        "Two ends that lie right, and so set scale and direction: of a polygon pole, B, B@3 or the symbol of a "
+        "part whose tip it is (an_C/B); of the mechanism points. Pixels [x, y] from the left upper corner."
+    )
+    read: dict[EndName, Place] = key("The other ends as they were read off, in pixels.")
+    file: Text | None = key(
+        "The scan itself, under the exact figure: PNG or JPEG, from the scene file.", default=None
+    )
+    within: Magnitude = key("What a line may be off, as a part of the longest: 0.01 if left out.", default=0.01)
+
+
+@file_table
+class SheetWishes(FileTable):
+    """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
+
+    paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
+    orientation: Literal["portrait", "landscape"] = "portrait"
+    length_scale: Magnitude | None = key("mm of mechanism per mm of paper.", default=None)
+    velocity_scale: Magnitude | None = key("Units of speed per mm of paper.", default=None)
+    acceleration_scale: Magnitude | None = key("(unit of speed/s) per mm of paper.", default=None)
+    force_scale: Magnitude | None = key("Force units per mm of paper.", default=None)
+    loops: bool = key("Vector loops as a further page of the sheet.", default=False)
+    convention: Convention = "chinese"
+    language: Language = "en"
+    tools: Tools = key("Tools of a pencil drawing.", name="instrument", default=Tools())
+    background: Background | None = key("A photograph or scan under the mechanism, at true scale.", default=None)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper (mm, ISO 216)."""
+        short, long = PAPERS[self.paper]
+        return (long, short) if self.orientation == "landscape" else (short, long)
+
+
+@file_table
+class Vary(FileTable):
+    """How a set of problems is drawn from a scene."""
+
+    ranges: dict[str, Range] = key(
+        'Least and greatest value by key of the scene: "links.2.length" = [80, 120].', default_factory=dict
+    )
+    only: bool = key("Nothing varies but what has a range or is tied to it.", default=False)
+    keep: Keys = key("Keys that stay as they are: driver.omega.", default=())
+    ratios: List[Keys] = key("Lists of keys that keep their ratios: the others follow the first.", default=())
+    find: Symbols = key("Quantities of which each variant asks some.", default=())
+    ask: Asked | None = key("How many of them; all if left out.", default=None)
+    level: Level = key(
+        "easy: lines cross well, transmission is good; hard: the lines may cross flatter.", default="usual"
+    )
+    crossing: Least | None = key(
+        "Degrees at which lines cross at least; that of the level if left out.", default=None
+    )
+    transmission: Least | None = key(
+        "Least transmission angle of two bars at the position, degrees.", default=None
+    )
+    pressure: Least | None = key("Greatest pressure angle of a slide at the position, degrees.", default=None)
+    tolerance: Part | None = key(
+        "Part of an answer that a drawing may miss it by at most; 0.05 if left out.", default=None
+    )
+
+
+# -- the whole file ----------------------------------------------------------------------------------------------------
 
 
 @file_table_by_name
@@ -156,207 +749,3 @@ class SceneTables(FileTable):
 
 SCENE = Form(SceneTables, "graphkin scene", needed="links")
 """What may stand in a scene file."""
-
-# -- what a file says --------------------------------------------------------------------------------------------------
-
-
-def mechanism_said(
-    file: SceneTables, name: str, problems: list[Problem], lost: frozenset[KeyPath]
-) -> Mechanism:
-    """The mechanism that a file describes.
-
-    Parameters
-    ----------
-    file : what is valid in the file
-    name : the scene's name
-    problems : what was found wrong with the file's form so far
-    lost : the paths of what was taken out for it
-
-    Raises
-    ------
-    SceneError : with everything that is wrong, the form first
-    """
-    problems, flaws, metres = list(problems), Flaws(lost), file.units.metres
-    _refuse_too_much(file, problems)
-    links = with_carriages(file.frame, file.links, file.drawn)
-    frame, links, pin_tables, slots = with_bars(file.frame, links, file.pins, metres, flaws, problems)
-    reading = Reading.of(frame, links, file.contacts, file.units, flaws, problems)
-    _check_texts(file, reading)
-    check_own_points(reading)
-    slidings = sliding_pairs(reading)
-    pins = pins_in_slots(pin_tables, reading, slidings)
-    pairs = [*(s.key for s in slidings), *(p.key for p in pins)]
-    discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
-    contacts = contacts_of(file.contacts, reading, discs) if file.contacts else ()
-    gears = gears_of(file.gears, reading, slidings) if file.gears else ()
-    sliding = [isinstance(table, DrivenSlide) for table in file.drivers.values()]
-    numbered, also = names_of_positions(file.positions)
-    first = file.positions is not None and file.positions.first is not None
-    driven = drives(file.drivers, reading, slidings, pins, bool(file.drawn), numbered, also, first)
-    for table in ("sketch", "drawn"):
-        reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
-    find = asked(file.find or (), reading, (*numbered, *also))
-    stated = stated_values(file.printed, file.printed_rows, file.printed_table, reading, (*numbered, *also))
-    by_law = any(table.law is not None for table in file.drivers.values())
-    positions = positions_named(file.positions, reading, pairs, sliding[:1] == [True], by_law)
-    loops = loops_named(file.loops, reading)
-    check_references(reading, file.drawn)
-    if not reading.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
-        bare = {p.where for p in problems}
-        touching = [*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())]
-        apart = (group for group in islands(reading, pin_tables, touching) if f"links.{group[0]}" not in bare)
-        reading.wrong(*(not_held(group, frame.name) for group in apart))
-
-    drawn = {p: complex(*place) * metres for p, place in file.drawn.items()}
-    position = places.drawn_position(reading, drawn, slidings, pins, driven.values())
-    places.check_placed_twice(position)
-    if not problems:
-        places.check_starts(links, position)
-    if not problems and drawn:
-        places.check_agreement(position)
-        places.check_contacts(contacts, position)
-    if not problems:
-        places.check_all_found(position)
-        places.check_distances(position)
-    local, fixed = {n: b.local for n, b in position.bodies.items()}, position.bodies[frame.name].local
-    cams = _cams(file, reading, position) if file.cams else ()
-    if (contacts or gears) and not problems:
-        guides = {n: b.guides for n, b in position.bodies.items()}
-        wrong_distances(contacts, gears, slidings, local, guides, reading)
-    loading = Loading()
-    if file.masses or file.loads or file.springs or file.balance or file.flywheel:
-        loading = loading_of(reading, file.gravity, file.masses, file.loads, file.springs, file.balance, file.flywheel,
-                             local, pairs, sliding)  # fmt: skip
-    wish = file.sheet.background
-    under = background_of(wish, {**drawn, **fixed}, reading) if wish else None
-    scans = scans_of(file.scans, reading) if file.scans else ()
-    hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
-    drivers = [placed_driver(where, d, position.value_of(d), metres, [] if hopeless else problems)
-               for where, d in driven.items()]
-    if positions is not None and drivers and drivers[0].turns and drivers[0].position:
-        drivers[0] = positions.placed(drivers[0])
-    if problems:
-        raise SceneError(*dict.fromkeys(problems))
-    question = Question(
-        title=file.title or name, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh, find=find,
-        sheet=file.sheet, stated=stated, positions=positions, loops=loops, vary=file.vary, grading=dict(file.grading),
-        background=under, scans=scans, written=file,
-    )  # fmt: skip
-    made = Mechanism(
-        name=name, frame=_placed(frame.name, position, discs),
-        links=tuple(_placed(n, position, discs, link) for n, link in links.items()),
-        slidings=slidings, pins=pins, drivers=tuple(drivers), units=file.units,
-        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, loading=loading,
-        cams=cams, contacts=contacts, gears=gears,
-        starts=places.starts_of(links, position, contacts) if contacts or gears else {}, slots=slots,
-        question=question,
-    )  # fmt: skip
-    _check_forces(made)
-    return made
-
-
-def _refuse_too_much(file: SceneTables, problems: list[Problem]) -> None:
-    """Raises SceneError for a file with too many links, or too many points of a link."""
-    before = len(problems)
-    if len(file.links) > MOST_LINKS:
-        found = Phrase("found moving links", count=len(file.links))
-        problems.append(Problem("links", found, Phrase("at most are possible", limit=MOST_LINKS)))
-    for name, link in file.links.items():
-        if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
-            found = Phrase("has too many points and guides")
-            problems.append(Problem(f"links.{name}", found, Phrase("at most", most=MOST_POINTS)))
-    if len(problems) > before:
-        raise SceneError(*problems)
-
-
-def _check_texts(file: SceneTables, reading: Reading) -> None:
-    """Note texts that cannot be written on one line of a sheet."""
-    for where in ("title", "title_zh", "source", "source_zh"):
-        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(file, where)):
-            found = Phrase("holds a control character or a line break")
-            reading.say(where, found, Phrase("write one line of plain text"))
-
-
-def _check_forces(made: Mechanism) -> None:
-    """Raises SceneError for symbols of forces that the mechanism does not have."""
-    wanted = [("find", made.question.find), *(("printed", tuple(own.values)) for own in made.question.stated)]
-    wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in wanted for symbol in symbols)
-    problems = [problem for problem in wrong if problem is not None]
-    if problems:
-        raise SceneError(*dict.fromkeys(problems))
-
-
-def _cams(file: SceneTables, reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
-    """The cams, with the lines of the frame on which followers slide."""
-    frame = position.bodies[reading.frame.name]
-    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in position.slidings if s.on == frame.name}
-    lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
-    seen = {p: complex(*place) * position.metres for p, place in file.sketch.items()} | dict(position.drawn)
-    return cams_of(file.cams, reading, lines, frame.local, seen)
-
-
-def _placed(
-    name: str, position: places.DrawnPosition, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None = None
-) -> PlacedLink:
-    """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
-    body = position.bodies[name]
-    points = dict.fromkeys((*body.own, *link.at)) if link else body.local
-    guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
-    outlines = tuple(disc for disc in discs.values() if disc.link == name)
-    redundant = link is not None and link.redundant
-    return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
-
-
-# -- what says a mechanism ---------------------------------------------------------------------------------------------
-
-
-def as_mapping(scene: Mechanism) -> OwnTables:
-    """The mapping of a scene file that reads as this mechanism: the file that it was read from, with its drivers as
-    they are now and everything placed in the links' own axes.
-
-    What was given by drawn points, arcs or polar entries stands there as lengths and places.
-    """
-    file = scene.question.written
-    assert isinstance(file, SceneTables)  # a mechanism is made by reading
-    held = {contact.round[0].centre for contact in scene.contacts if contact.rolling and contact.flat}
-    sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
-    drivers = [stated_driver(*pair, scene.units) for pair in zip(file.drivers.values(), scene.drivers, strict=False)]
-    made = plain(dataclasses.replace(
-        file, driver=drivers, frame=_body(scene, scene.frame, file.frame, file.frame.points, "points"),
-        links={name: _link(scene, scene.by_name[name], table) for name, table in file.links.items()
-               if name in scene.by_name},
-        sketch={point: _place(scene, z) for point, z in sketch.items()},
-        drawn={point: place for point, place in file.drawn.items() if point in held},
-    ))  # fmt: skip
-    head: OwnTables = {}
-    for text in ("title", "title_zh", "source", "source_zh", "find"):
-        if text in made:
-            head[text] = made.pop(text)
-    return {**head, "units": {"length": scene.units.length, **made.pop("units", {})}, **made}  # always with its unit
-
-
-def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
-    """The table of a link with all its places in its own axes; where it rolls, with where it stands."""
-    pairs = [pair for pair in scene.slidings if pair.link == link.name]
-    start, angle_on = table.start, table.angle_on
-    if scene.gears or any(contact.rolling for contact in scene.contacts):
-        begun = scene.starts.get(pairs[0].key if pairs else link.name)
-        start = None if begun is None else tidy(scene.units.of("length" if pairs else "angle").of(begun))
-    if angle_on is None and len(pairs) == 1 and pairs[0].turn != 1.0:  # as it was drawn
-        angle_on = tidy(degrees(pairs[0].turn))
-    length = None if link.length is None else tidy(link.length / scene.units.metres)
-    made = dataclasses.replace(table, points=list(link.bar), length=length, angle_on=angle_on, start=start)
-    return _body(scene, link, made, [point for point in (*table.points, *table.at) if point not in link.bar], "at")
-
-
-def _body(scene: Mechanism, link: PlacedLink, table: AnyBody, points: Iterable[str], key: str) -> AnyBody:
-    """The table of a link or the frame with these points, under a key, and its straight guides placed."""
-    guides = {name: guide for name, guide in link.guides.items() if name}
-    straight = {name: Guide(_place(scene, g.through), tidy(degrees(g.direction))) for name, g in guides.items()}
-    placed = {point: _place(scene, link.points[point]) for point in points}
-    return dataclasses.replace(table, guides={**table.guides, **straight}, **{key: placed})  # type: ignore[arg-type]
-
-
-def _place(scene: Mechanism, z: complex) -> list[float]:
-    """A place in the scene's unit of length."""
-    return [tidy(part / scene.units.metres) for part in (z.real, z.imag)]

@@ -8,142 +8,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
-from typing import Annotated, Literal
-
-from pydantic import Field as Rule
-from pydantic import StringConstraints
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import opened
 from graphkin.scene.bodies import Reading
-from graphkin.scene.tables import (
-    Asked,
-    FileTable,
-    Language,
-    Least,
-    List,
-    Magnitude,
-    Number,
-    Part,
-    Place,
-    PointName,
-    Symbols,
-    Text,
-    Tool,
-    file_table,
-    key,
-)
+from graphkin.scene.scene_tables import Background, Drawing, ReadScan
 from graphkin.words import Phrase, from_others
 
-__all__ = [
-    "PAPERS", "Background", "Convention", "Drawing", "Level", "PlacedBackground", "PlacedScan", "ReadScan",
-    "SheetWishes", "Tools", "Vary", "background_of", "scans_of",
-]  # fmt: skip
-
-Convention = Literal["chinese", "us", "british", "russian"]
-EndName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0-9@/_]*$", max_length=80)]
-Range = Annotated[List[Number], Rule(min_length=2, max_length=2)]
-Keys = List[Annotated[str, StringConstraints(strict=True, max_length=80)]]
-Drawing = Literal["mechanism", "velocity", "acceleration"]
-Level = Literal["easy", "usual", "hard"]
-
-PAPERS = {
-    "A5": (148.0, 210.0), "A4": (210.0, 297.0), "A3": (297.0, 420.0), "A2": (420.0, 594.0), "A1": (594.0, 841.0),
-    "A0": (841.0, 1189.0),
-}  # fmt: skip
+__all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
 LARGEST, MOST_PIXELS = 10_000_000, 50_000_000
 KINDS = {"PNG": "image/png", "JPEG": "image/jpeg"}
 TURNED = 0x0112
 """The note in a picture that says how it is turned; 1 where it is upright."""
-
-
-@file_table
-class Tools(FileTable):
-    """What the tools of a pencil drawing can do; used with --instrument pencil.
-
-    A step is that to which a value is read or laid off; the others are standard deviations.
-    """
-
-    line_width: Tool = key("Width of a pencil line (mm); a point is pricked within half of it.", default=0.2)
-    ruler: Tool = key("Step of the ruler (mm): 0.5, or 0.1 interpolated.", default=0.1)
-    compass: Tool = key("Standard deviation of a compass radius (mm).", default=0.1)
-    set_square: Tool = key("Standard deviation of a direction set (degrees).", default=0.1)
-    protractor: Tool = key("Step of the protractor (degrees).", default=0.5)
-
-
-@file_table
-class Background(FileTable):
-    """A photograph or scan to lie under the mechanism."""
-
-    file: Text = key("A PNG or JPEG, by its path from the scene file.")
-    points: dict[PointName, Place] = key(
-        "Two points of the frame or of [drawn], with their pixels [x, y] from the left upper corner.", closed=True
-    )
-
-
-@file_table
-class ReadScan(FileTable):
-    """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
-
-    points: dict[EndName, Place] = key(
-        "Two ends that lie right, and so set scale and direction: of a polygon pole, B, B@3 or the symbol of a "
-        "part whose tip it is (an_C/B); of the mechanism points. Pixels [x, y] from the left upper corner."
-    )
-    read: dict[EndName, Place] = key("The other ends as they were read off, in pixels.")
-    file: Text | None = key(
-        "The scan itself, under the exact figure: PNG or JPEG, from the scene file.", default=None
-    )
-    within: Magnitude = key("What a line may be off, as a part of the longest: 0.01 if left out.", default=0.01)
-
-
-@file_table
-class SheetWishes(FileTable):
-    """Wishes for the drawn sheet; scales are None where graphkin is to choose."""
-
-    paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
-    orientation: Literal["portrait", "landscape"] = "portrait"
-    length_scale: Magnitude | None = key("mm of mechanism per mm of paper.", default=None)
-    velocity_scale: Magnitude | None = key("Units of speed per mm of paper.", default=None)
-    acceleration_scale: Magnitude | None = key("(unit of speed/s) per mm of paper.", default=None)
-    force_scale: Magnitude | None = key("Force units per mm of paper.", default=None)
-    loops: bool = key("Vector loops as a further page of the sheet.", default=False)
-    convention: Convention = "chinese"
-    language: Language = "en"
-    tools: Tools = key("Tools of a pencil drawing.", name="instrument", default=Tools())
-    background: Background | None = key("A photograph or scan under the mechanism, at true scale.", default=None)
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height of the paper (mm, ISO 216)."""
-        short, long = PAPERS[self.paper]
-        return (long, short) if self.orientation == "landscape" else (short, long)
-
-
-@file_table
-class Vary(FileTable):
-    """How a set of problems is drawn from a scene."""
-
-    ranges: dict[str, Range] = key(
-        'Least and greatest value by key of the scene: "links.2.length" = [80, 120].', default_factory=dict
-    )
-    only: bool = key("Nothing varies but what has a range or is tied to it.", default=False)
-    keep: Keys = key("Keys that stay as they are: driver.omega.", default=())
-    ratios: List[Keys] = key("Lists of keys that keep their ratios: the others follow the first.", default=())
-    find: Symbols = key("Quantities of which each variant asks some.", default=())
-    ask: Asked | None = key("How many of them; all if left out.", default=None)
-    level: Level = key(
-        "easy: lines cross well, transmission is good; hard: the lines may cross flatter.", default="usual"
-    )
-    crossing: Least | None = key(
-        "Degrees at which lines cross at least; that of the level if left out.", default=None
-    )
-    transmission: Least | None = key(
-        "Least transmission angle of two bars at the position, degrees.", default=None
-    )
-    pressure: Least | None = key("Greatest pressure angle of a slide at the position, degrees.", default=None)
-    tolerance: Part | None = key(
-        "Part of an answer that a drawing may miss it by at most; 0.05 if left out.", default=None
-    )
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ from graphkin.scene.tables import Measure, Unit, Units
 from graphkin.words import Phrase, say
 
 __all__ = [
-    "KINDS", "VECTORS", "Kind", "Line", "Measure", "PointRef", "Printed", "Symbol", "Unreadable", "Value",
-    "centre_links", "forms_of_names", "missing_names", "stated",
+    "KINDS", "VECTORS", "Kind", "Line", "PointRef", "Printed", "Symbol", "Unreadable", "Value", "centre_links",
+    "forms_of_names", "missing_names", "stated",
 ]  # fmt: skip
 
 

@@ -22,7 +22,6 @@ from difflib import get_close_matches
 from functools import cache, cached_property
 from numbers import Integral, Real
 from typing import (
-    TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
@@ -36,112 +35,21 @@ from typing import (
     get_type_hints,
 )
 
-from pydantic import Discriminator, Strict, StringConstraints, Tag, TypeAdapter, ValidationError
-from pydantic import Field as Rule
+from pydantic import Tag, TypeAdapter, ValidationError
 from pydantic_core.core_schema import CoreSchema, no_info_plain_validator_function
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
-from graphkin.words import LANGUAGES, Phrase, Wording, from_others
+from graphkin.words import Phrase, Wording, from_others
 
 __all__ = [
-    "SMALLEST", "Asked", "Count", "FileTable", "Form", "GuideRef", "GuideRefs", "KeyPath", "Language", "Least",
-    "LinkName", "LinkNames", "List", "Magnitude", "Measure", "NameOrPlace", "NotNegative", "Number",
-    "NumberOrSquare", "Numbers", "Part", "Place", "PointName", "PointNames", "PositionName", "Share", "ShownName",
-    "SlideRef", "Stated", "Switch", "Symbols", "Text", "Tool", "TwoLengths", "TwoPoints", "Unit", "Units",
-    "clause_of", "entries", "file_table", "file_table_by_name", "form_of_driver", "form_of_list", "forms", "in_si",
-    "in_units", "item_of", "key", "key_of", "keys_of", "path_name", "path_of_key", "plain", "put_at", "shown",
-    "tidy", "value_at", "xy",
+    "FileTable", "Form", "KeyPath", "Measure", "Unit", "Units", "clause_of", "entries", "file_table",
+    "file_table_by_name", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "path_name", "path_of_key",
+    "plain", "put_at", "shown", "tidy", "value_at", "xy",
 ]  # fmt: skip
 
 
 AnyTable = TypeVar("AnyTable", bound="FileTable")
-
-SMALLEST, LARGEST = 1e-15, 1e15
-"""The smallest length, and the smallest rate that is not 0; the largest number."""
-LONGEST_TEXT = 300
-
-# -- kinds of values ---------------------------------------------------------------------------------------------------
-
-if TYPE_CHECKING:
-    List = Sequence  # what a caller may give; the reader makes lists of it
-    Language = str
-else:
-    List = list
-    Language = Literal[LANGUAGES]  # as many as there are tables of words
-
-Switch = Annotated[bool, Strict()]
-Number = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST)]
-Magnitude = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=SMALLEST, le=LARGEST)]
-Tool = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=10)]
-NotNegative = Annotated[float, Rule(strict=True, allow_inf_nan=False, ge=0, le=LARGEST)]
-Share = Annotated[float, Rule(strict=True, ge=0, le=1)]
-Least = Annotated[Number, Rule(ge=0, le=90)]
-Part = Annotated[Number, Rule(gt=0, le=0.5)]
-Count = Annotated[int, Rule(strict=True, ge=1, le=720)]
-Asked = Annotated[int, Rule(strict=True, ge=1, le=100)]
-Text = Annotated[str, Rule(strict=True, max_length=LONGEST_TEXT)]
-PointName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Z][A-Za-z0-9]*$", max_length=40)]
-LinkName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+$", max_length=40)]
-GuideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(\.[A-Za-z0-9]+)?$", max_length=81)]
-SlideRef = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9]+(/[A-Za-z0-9]+)?$", max_length=81)]
-PositionName = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z0-9'*._-]+$", max_length=20)]
-ShownName = Annotated[str, StringConstraints(strict=True, max_length=20)] | Annotated[int, Rule(strict=True, ge=0)]
-Place = Annotated[List[Number], Rule(min_length=2, max_length=2, description="[x, y]")]
-TwoLengths = Annotated[List[Magnitude], Rule(min_length=2, max_length=2)]
-TwoPoints = Annotated[List[PointName], Rule(min_length=2, max_length=2)]
-PointNames = List[PointName]
-LinkNames = List[LinkName]
-Symbols = List[Annotated[str, Strict()]]
-
-
-def _form(value: object) -> str | None:
-    """Which of the forms of a value that may be written in several ways this is."""
-    if isinstance(value, str):
-        return "<name>"
-    if isinstance(value, list):
-        return "<list>"
-    if isinstance(value, dict):
-        return "<compass>" if isinstance(value.get("from"), list) else "<polar>"
-    return "<number>" if isinstance(value, int | float) and not isinstance(value, bool) else None
-
-
-def forms(wanted: str) -> Discriminator:
-    """What tells the forms of a value apart; ``wanted`` is the key of the phrase that says which there are."""
-    return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
-
-
-def form_of_driver(value: object) -> str:
-    """Whether a table drives a slide or an angle."""
-    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
-
-
-def form_of_list(value: object) -> str:
-    """Whether there is one table or a list of them."""
-    return "<list>" if isinstance(value, list) else "<one>"
-
-
-NameOrPlace = Annotated[
-    Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")], forms("write the name of a point b or")
-]
-GuideRefs = Annotated[
-    Annotated[GuideRef, Tag("<name>")] | Annotated[List[GuideRef], Rule(min_length=1, max_length=2), Tag("<list>")],
-    forms("write a guide as link or link.guide or"),
-]
-Numbers = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[List[Number], Rule(min_length=1, max_length=2), Tag("<list>")],
-    forms("write a number or a list with one"),
-]
-NumberOrSquare = Annotated[
-    Annotated[Number, Tag("<number>")] | Annotated[Literal["square"], Tag("<name>")],
-    forms("write degrees or square for square to the"),
-]
-Stated = Annotated[
-    Annotated[Number, Tag("<number>")]
-    | Annotated[Place, Tag("<list>")]
-    | Annotated[str, StringConstraints(strict=True, max_length=80), Tag("<name>")],
-    forms("write a number 1.0 for its digits as"),
-]
 
 # -- tables and keys ---------------------------------------------------------------------------------------------------
 

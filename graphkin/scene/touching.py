@@ -5,59 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, Literal
-
-from pydantic import Field as Rule
-from pydantic import Tag
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross
 from graphkin.scene.bodies import Reading, SlidingPair
 from graphkin.scene.model import PlacedContact, PlacedDisc, PlacedGear, PlacedGuide
-from graphkin.scene.tables import FileTable, GuideRef, LinkName, List, Number, Switch, file_table, forms, key
+from graphkin.scene.scene_tables import Contact, Gear
 from graphkin.words import Phrase
 
-__all__ = [
-    "Contact", "Gear", "contacts_of", "discs_of", "gears_of", "rack_place", "wrong_distances",
-]  # fmt: skip
+__all__ = ["contacts_of", "discs_of", "gears_of", "rack_place", "wrong_distances"]
 
 AGREE = 1e-6
-
-TwoOutlines = Annotated[List[GuideRef], Rule(min_length=2, max_length=2)]
-TwoTeeth = Annotated[
-    List[
-        Annotated[
-            Annotated[Number, Tag("<number>")] | Annotated[Literal["rack"], Tag("<name>")],
-            forms("write a number of teeth or rack"),
-        ]
-    ],
-    Rule(min_length=2, max_length=2),
-]
-
-
-@file_table
-class Contact(FileTable):
-    """Two outlines that touch."""
-
-    between: TwoOutlines = key(
-        'Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").'
-    )
-    side: Literal["left", "right", "outside", "inside"] | None = key(
-        "Of a face: the side of the directed guide on which the disc lies, left if left out. "
-        "Of two discs: outside (if left out), or inside, the smaller in the larger.", default=None,
-    )  # fmt: skip
-    rolling: Switch = key("true: rolls without slip; false: slides.", default=False)
-
-
-@file_table
-class Gear(FileTable):
-    """Two wheels with teeth, or a wheel and a rack."""
-
-    between: TwoOutlines = key('The two wheels ("2", "4"); a rack, second, or a guide of it ("3.r").')
-    teeth: TwoTeeth = key('Numbers of teeth; negative: internal teeth; "rack" for the second.')
-    carrier: LinkName | None = key(
-        "The link that holds both axes (the wheel's axis and the rack's slide); found if left out.", default=None
-    )
 
 
 # -- contacts ----------------------------------------------------------------------------------------------------------

@@ -32,7 +32,7 @@ from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, cross_arcs
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.scene.model import FromDeadPoint, Mechanism
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.assemblies import choose_forms

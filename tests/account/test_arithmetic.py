@@ -36,7 +36,7 @@ from graphkin.construction.steps import Aid, Direction, RateTrial, Size, Step, S
 from graphkin.drawing.ink.primitives import Text, walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
 from graphkin.words.written import amount, on_paper, product

@@ -17,7 +17,7 @@ from graphkin.drawing import Text
 from graphkin.drawing.ink.primitives import walk
 from graphkin.plane import direction
 from graphkin.scene.designs import design_of, designs
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.solver.synthesis import synthesise
 from graphkin.words.rich_text import as_plain, rich_text
 from tests.command import run

@@ -15,7 +15,7 @@ from graphkin.construction import execute, pencil, plan
 from graphkin.construction.links_on_paper import PlacedLinks, Pose
 from graphkin.scene import library, library_text, mechanism_of, mechanism_of_text
 from graphkin.scene.model import PlacedLink
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 
 SIXBAR = "sixbar-guide-40deg"

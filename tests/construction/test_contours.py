@@ -17,7 +17,7 @@ from graphkin.construction.instruments import EXACT, nudged
 from graphkin.construction.plan import Redrawn, positioned
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.scene import mechanism_of
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import say
 from tests.construction.test_groups import everything

@@ -18,7 +18,7 @@ from graphkin.construction.steps import Aid, RateTrial, Superposed, TrialCurve, 
 from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene import mechanism_of
-from graphkin.scene.sheet import Tools
+from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from tests import EVERYTHING
 from tests.bench.digits import random_driven, worst

@@ -19,7 +19,7 @@ from graphkin.drawing.ink.primitives import walk
 from graphkin.drawing.sheet_plan import sheet_room
 from graphkin.drawing.text import text_box
 from graphkin.scene import library, mechanism_of
-from graphkin.scene.sheet import PAPERS
+from graphkin.scene.scene_tables import PAPERS
 from tests.drawn import drafted, drawn, figures
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -11,7 +11,7 @@ import pytest
 import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of
-from graphkin.scene.scene_tables import as_mapping
+from graphkin.scene.reading import as_mapping
 
 pytestmark = pytest.mark.quick
 

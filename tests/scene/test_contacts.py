@@ -9,8 +9,8 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
+from graphkin.scene.reading import as_mapping
 from graphkin.scene.scene import mechanism_of, read
-from graphkin.scene.scene_tables import as_mapping
 
 LIBRARY = Path(graphkin.__file__).parent / "scene" / "library"
 DISC = {

@@ -1,0 +1,251 @@
+"""The whole scene file: its tables, the mechanism that they say or all that is wrong, and the tables that say a
+mechanism.
+
+Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import unicodedata
+from collections.abc import Iterable, Mapping
+from typing import TypeVar
+
+from graphkin.errors import Problem, SceneError
+from graphkin.files import OwnTables
+from graphkin.plane import degrees
+from graphkin.scene import position as places
+from graphkin.scene.asked import asked, loops_named, names_of_positions, positions_named, stated_values
+from graphkin.scene.bodies import (
+    Flaws,
+    Reading,
+    check_own_points,
+    check_references,
+    islands,
+    not_held,
+    pins_in_slots,
+    sliding_pairs,
+    with_bars,
+    with_carriages,
+)
+from graphkin.scene.cams import LawCam, cams_of
+from graphkin.scene.drivers import drives, placed_driver, stated_driver
+from graphkin.scene.force_names import no_force
+from graphkin.scene.loads import Loading, loading_of
+from graphkin.scene.model import Mechanism, PlacedDisc, PlacedLink, Question
+from graphkin.scene.scene_tables import DrivenSlide, Frame, Guide, Link, SceneTables
+from graphkin.scene.sheet import background_of, scans_of
+from graphkin.scene.tables import KeyPath, path_name, plain, tidy
+from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
+from graphkin.words import Phrase
+
+__all__ = ["as_mapping", "mechanism_said"]
+
+MOST_LINKS = 200
+MOST_POINTS = 100
+AnyBody = TypeVar("AnyBody", Link, Frame)
+
+
+# -- what a file says --------------------------------------------------------------------------------------------------
+
+
+def mechanism_said(
+    file: SceneTables, name: str, problems: list[Problem], lost: frozenset[KeyPath]
+) -> Mechanism:
+    """The mechanism that a file describes.
+
+    Parameters
+    ----------
+    file : what is valid in the file
+    name : the scene's name
+    problems : what was found wrong with the file's form so far
+    lost : the paths of what was taken out for it
+
+    Raises
+    ------
+    SceneError : with everything that is wrong, the form first
+    """
+    problems, flaws, metres = list(problems), Flaws(lost), file.units.metres
+    _refuse_too_much(file, problems)
+    links = with_carriages(file.frame, file.links, file.drawn)
+    frame, links, pin_tables, slots = with_bars(file.frame, links, file.pins, metres, flaws, problems)
+    reading = Reading.of(frame, links, file.contacts, file.units, flaws, problems)
+    _check_texts(file, reading)
+    check_own_points(reading)
+    slidings = sliding_pairs(reading)
+    pins = pins_in_slots(pin_tables, reading, slidings)
+    pairs = [*(s.key for s in slidings), *(p.key for p in pins)]
+    discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
+    contacts = contacts_of(file.contacts, reading, discs) if file.contacts else ()
+    gears = gears_of(file.gears, reading, slidings) if file.gears else ()
+    sliding = [isinstance(table, DrivenSlide) for table in file.drivers.values()]
+    numbered, also = names_of_positions(file.positions)
+    first = file.positions is not None and file.positions.first is not None
+    driven = drives(file.drivers, reading, slidings, pins, bool(file.drawn), numbered, also, first)
+    for table in ("sketch", "drawn"):
+        reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
+    find = asked(file.find or (), reading, (*numbered, *also))
+    stated = stated_values(file.printed, file.printed_rows, file.printed_table, reading, (*numbered, *also))
+    by_law = any(table.law is not None for table in file.drivers.values())
+    positions = positions_named(file.positions, reading, pairs, sliding[:1] == [True], by_law)
+    loops = loops_named(file.loops, reading)
+    check_references(reading, file.drawn)
+    if not reading.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
+        bare = {p.where for p in problems}
+        touching = [*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())]
+        apart = (group for group in islands(reading, pin_tables, touching) if f"links.{group[0]}" not in bare)
+        reading.wrong(*(not_held(group, frame.name) for group in apart))
+
+    drawn = {p: complex(*place) * metres for p, place in file.drawn.items()}
+    position = places.drawn_position(reading, drawn, slidings, pins, driven.values())
+    places.check_placed_twice(position)
+    if not problems:
+        places.check_starts(links, position)
+    if not problems and drawn:
+        places.check_agreement(position)
+        places.check_contacts(contacts, position)
+    if not problems:
+        places.check_all_found(position)
+        places.check_distances(position)
+    local, fixed = {n: b.local for n, b in position.bodies.items()}, position.bodies[frame.name].local
+    cams = _cams(file, reading, position) if file.cams else ()
+    if (contacts or gears) and not problems:
+        guides = {n: b.guides for n, b in position.bodies.items()}
+        wrong_distances(contacts, gears, slidings, local, guides, reading)
+    loading = Loading()
+    if file.masses or file.loads or file.springs or file.balance or file.flywheel:
+        loading = loading_of(reading, file.gravity, file.masses, file.loads, file.springs, file.balance, file.flywheel,
+                             local, pairs, sliding)  # fmt: skip
+    wish = file.sheet.background
+    under = background_of(wish, {**drawn, **fixed}, reading) if wish else None
+    scans = scans_of(file.scans, reading) if file.scans else ()
+    hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
+    drivers = [placed_driver(where, d, position.value_of(d), metres, [] if hopeless else problems)
+               for where, d in driven.items()]
+    if positions is not None and drivers and drivers[0].turns and drivers[0].position:
+        drivers[0] = positions.placed(drivers[0])
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
+    question = Question(
+        title=file.title or name, title_zh=file.title_zh, source=file.source, source_zh=file.source_zh, find=find,
+        sheet=file.sheet, stated=stated, positions=positions, loops=loops, vary=file.vary, grading=dict(file.grading),
+        background=under, scans=scans, written=file,
+    )  # fmt: skip
+    made = Mechanism(
+        name=name, frame=_placed(frame.name, position, discs),
+        links=tuple(_placed(n, position, discs, link) for n, link in links.items()),
+        slidings=slidings, pins=pins, drivers=tuple(drivers), units=file.units,
+        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, loading=loading,
+        cams=cams, contacts=contacts, gears=gears,
+        starts=places.starts_of(links, position, contacts) if contacts or gears else {}, slots=slots,
+        question=question,
+    )  # fmt: skip
+    _check_forces(made)
+    return made
+
+
+def _refuse_too_much(file: SceneTables, problems: list[Problem]) -> None:
+    """Raises SceneError for a file with too many links, or too many points of a link."""
+    before = len(problems)
+    if len(file.links) > MOST_LINKS:
+        found = Phrase("found moving links", count=len(file.links))
+        problems.append(Problem("links", found, Phrase("at most are possible", limit=MOST_LINKS)))
+    for name, link in file.links.items():
+        if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
+            found = Phrase("has too many points and guides")
+            problems.append(Problem(f"links.{name}", found, Phrase("at most", most=MOST_POINTS)))
+    if len(problems) > before:
+        raise SceneError(*problems)
+
+
+def _check_texts(file: SceneTables, reading: Reading) -> None:
+    """Note texts that cannot be written on one line of a sheet."""
+    for where in ("title", "title_zh", "source", "source_zh"):
+        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(file, where)):
+            found = Phrase("holds a control character or a line break")
+            reading.say(where, found, Phrase("write one line of plain text"))
+
+
+def _check_forces(made: Mechanism) -> None:
+    """Raises SceneError for symbols of forces that the mechanism does not have."""
+    wanted = [("find", made.question.find), *(("printed", tuple(own.values)) for own in made.question.stated)]
+    wrong = (no_force(made, path_name((table, str(symbol))), symbol) for table, symbols in wanted for symbol in symbols)
+    problems = [problem for problem in wrong if problem is not None]
+    if problems:
+        raise SceneError(*dict.fromkeys(problems))
+
+
+def _cams(file: SceneTables, reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
+    """The cams, with the lines of the frame on which followers slide."""
+    frame = position.bodies[reading.frame.name]
+    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in position.slidings if s.on == frame.name}
+    lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
+    seen = {p: complex(*place) * position.metres for p, place in file.sketch.items()} | dict(position.drawn)
+    return cams_of(file.cams, reading, lines, frame.local, seen)
+
+
+def _placed(
+    name: str, position: places.DrawnPosition, discs: Mapping[tuple[str, str], PlacedDisc], link: Link | None = None
+) -> PlacedLink:
+    """A link with everything in its own axes, in the order of the file; the frame where no table is given."""
+    body = position.bodies[name]
+    points = dict.fromkeys((*body.own, *link.at)) if link else body.local
+    guides = {guide: body.guides[guide] for guide in ("", *body.rails)}
+    outlines = tuple(disc for disc in discs.values() if disc.link == name)
+    redundant = link is not None and link.redundant
+    return PlacedLink(name, {p: body.local[p] for p in points}, body.own, guides, redundant, outlines)
+
+
+# -- what says a mechanism ---------------------------------------------------------------------------------------------
+
+
+def as_mapping(scene: Mechanism) -> OwnTables:
+    """The mapping of a scene file that reads as this mechanism: the file that it was read from, with its drivers as
+    they are now and everything placed in the links' own axes.
+
+    What was given by drawn points, arcs or polar entries stands there as lengths and places.
+    """
+    file = scene.question.written
+    assert isinstance(file, SceneTables)  # a mechanism is made by reading
+    held = {contact.round[0].centre for contact in scene.contacts if contact.rolling and contact.flat}
+    sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
+    drivers = [stated_driver(*pair, scene.units) for pair in zip(file.drivers.values(), scene.drivers, strict=False)]
+    made = plain(dataclasses.replace(
+        file, driver=drivers, frame=_body(scene, scene.frame, file.frame, file.frame.points, "points"),
+        links={name: _link(scene, scene.by_name[name], table) for name, table in file.links.items()
+               if name in scene.by_name},
+        sketch={point: _place(scene, z) for point, z in sketch.items()},
+        drawn={point: place for point, place in file.drawn.items() if point in held},
+    ))  # fmt: skip
+    head: OwnTables = {}
+    for text in ("title", "title_zh", "source", "source_zh", "find"):
+        if text in made:
+            head[text] = made.pop(text)
+    return {**head, "units": {"length": scene.units.length, **made.pop("units", {})}, **made}  # always with its unit
+
+
+def _link(scene: Mechanism, link: PlacedLink, table: Link) -> Link:
+    """The table of a link with all its places in its own axes; where it rolls, with where it stands."""
+    pairs = [pair for pair in scene.slidings if pair.link == link.name]
+    start, angle_on = table.start, table.angle_on
+    if scene.gears or any(contact.rolling for contact in scene.contacts):
+        begun = scene.starts.get(pairs[0].key if pairs else link.name)
+        start = None if begun is None else tidy(scene.units.of("length" if pairs else "angle").of(begun))
+    if angle_on is None and len(pairs) == 1 and pairs[0].turn != 1.0:  # as it was drawn
+        angle_on = tidy(degrees(pairs[0].turn))
+    length = None if link.length is None else tidy(link.length / scene.units.metres)
+    made = dataclasses.replace(table, points=list(link.bar), length=length, angle_on=angle_on, start=start)
+    return _body(scene, link, made, [point for point in (*table.points, *table.at) if point not in link.bar], "at")
+
+
+def _body(scene: Mechanism, link: PlacedLink, table: AnyBody, points: Iterable[str], key: str) -> AnyBody:
+    """The table of a link or the frame with these points, under a key, and its straight guides placed."""
+    guides = {name: guide for name, guide in link.guides.items() if name}
+    straight = {name: Guide(_place(scene, g.through), tidy(degrees(g.direction))) for name, g in guides.items()}
+    placed = {point: _place(scene, link.points[point]) for point in points}
+    return dataclasses.replace(table, guides={**table.guides, **straight}, **{key: placed})  # type: ignore[arg-type]
+
+
+def _place(scene: Mechanism, z: complex) -> list[float]:
+    """A place in the scene's unit of length."""
+    return [tidy(part / scene.units.metres) for part in (z.real, z.imag)]
