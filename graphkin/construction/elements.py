@@ -44,7 +44,7 @@ from graphkin.construction.net import (
 )
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
-from graphkin.construction.seen_from import Joint, contours, copy_steps, with_held
+from graphkin.construction.seen_from import Joint, contours
 from graphkin.construction.sheet import DrawnGroup, Rate
 from graphkin.construction.steps import (
     Aid,
@@ -133,7 +133,7 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
         plot.board.instrument,
     )  # fmt: skip
     for step in steps:
-        plot.board.do(step)
+        plot.do(step)
     had = plot.given.get(driver.key, (0.0, 0.0))
     plot.given[driver.key] = (value, had[1]) if which == 0 else (had[0], value)
     return mm
@@ -262,11 +262,11 @@ def _draw_move(plot: Polygons, order: Order, group: LargerGroup, step: Move) -> 
     """Draw a move of a plan."""
     for edge in (e for path in step.sides for e in path if e.held):
         # the point of the contour that the equation needs
-        apart = plot.seen_from(edge.held)
-        before = len(apart.board.steps), len(apart.board.equations)
+        apart = plot.seen[edge.held]
+        before = len(apart.board.steps)
         apart.end(order, edge.end if edge.forward else edge.start)
-        if not plot.trial:
-            copy_steps(plot, order, group, edge.held, *before)
+        for drawn in apart.board.steps[before:] if not plot.trial else ():
+            plot.do(drawn)
     if isinstance(step, Special):
         _special_point(plot, order, group, step)
     else:
@@ -292,7 +292,7 @@ def _left_over(plot: Polygons, order: Order, net: Net) -> list[Edge]:
             s = edge.slide
             if not edge.forward or not (edge.contact or (s is not None and edge.start.point == s.pin)):
                 continue
-            symbol = Symbol(letter(order), plot.label(edge.labels[1]), plot.label(edge.labels[0]))
+            symbol = plot.symbol(letter(order), edge.labels[1], edge.labels[0])
             if symbol not in plot.drawn[order] and not plot.fixed(edge.start):
                 found.append(edge)
     return found
@@ -317,7 +317,7 @@ def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Speci
         before = _to_special(plot, group, leg, leg[0].start, base, move.base)
         after = _to_special(plot, group, leg, leg[-1].end, ref, link)
         paths.append((*(e.reversed() for e in before), *leg, *after))
-    symbol = Symbol(letter(order), plot.label(ref), plot.label(base))
+    symbol = plot.symbol(letter(order), ref, base)
     plot.ties[order, name] = draw_relative(plot, order, group, symbol, paths)
 
 
@@ -348,7 +348,7 @@ def _mark_special(plot: Polygons, move: Special) -> None:
     driven = any(not e.unknown and (e.slide or e.joint) for leg in move.sides for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
     step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
-    plot.board.do(replace(step, base=move.base, kind="driven" if driven else ""))
+    plot.do(replace(step, base=move.base, kind="driven" if driven else ""))
 
 
 def _leg_line(plot: Polygons, leg: Path) -> tuple[complex, complex]:
@@ -410,7 +410,7 @@ def _mark_pitch_point(plot: Polygons, name: str) -> str:
     plot.special.add(letter)
     plot.places[letter] = at
     wheels = next(g.wheels for g in plot.structure.scene.gears if g.name == name)
-    plot.board.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=wheels))
+    plot.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=wheels))
     return letter
 
 
@@ -484,7 +484,7 @@ def _rests_on(plot: Polygons, group: LargerGroup, contour: Sequence[str]) -> lis
     found = []
     for held in sorted((n for n in contour if "/" not in n), key=lambda n: -outer.count(n)):
         rest = _on(group, held, contour)
-        made = with_held(plot, group, held)
+        made = plot.fork(0).holding(group, held)
         plan = next(_plans(made, rest), None)
         if plan is not None and not plan.tried:
             plot.plans[rest] = plan
@@ -507,33 +507,25 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
     """Draw the contours of a group, each as it moves seen from one of its links."""
     for held, rest in plot.contours.get(group, ()):
-        if held not in plot.seen:
-            plot.seen[held] = with_held(plot, group, held)
-        apart = plot.seen_from(held)
+        apart = plot.seen[held] if held in plot.seen else plot.holding(group, held)
         if rest.members[0] in apart.rates[order]:
             continue
-        before = len(apart.board.steps), len(apart.board.equations)
+        before, equations = len(apart.board.steps), len(plot.board.equations)
         spread(apart, order, held, rest)
         _turn_driven(apart, order, rest)
         _draw_group(apart, order, rest)
         for name in rest.members:
             apart.complete(order, name)
-        _take_special_points(plot, apart, before[0])
-        first = len(plot.board.equations) + 1 if len(apart.board.equations) > before[1] else None
-        plot.board.do(Step("carry over", "seen from", order, (), first, held=held, links=rest.links))
-        copy_steps(plot, order, group, held, *before)
+        first = equations + 1 if len(plot.board.equations) > equations else None
+        drawn = apart.board.steps[before:]
+        points = [step for step in drawn if step.diagram == "mechanism"]
+        seen = Step("carry over", "seen from", order, (), first, held=held, links=rest.links)
+        for step in (*points, seen, *(step for step in drawn if step.diagram != "mechanism")):
+            plot.do(step)
     for held, rest in plot.contours.get(group, ()):
         for name in (held, *rest.members):
             if name in plot.rates[order]:
                 spread(plot, order, name, group)
-
-
-def _take_special_points(plot: Polygons, other: Polygons, since: int = 0) -> None:
-    """The special points that other polygons have marked on the mechanism, where these met them first."""
-    plot.special, plot.places, plot.links = other.special, other.places, other.links
-    for step in other.board.steps[since:]:
-        if step.diagram == "mechanism":
-            plot.board.do(step)
 
 
 def _on(group: LargerGroup, held: str, contour: Sequence[str]) -> LargerGroup:
@@ -699,11 +691,16 @@ def _true_rates(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPla
         trial = _trial_polygon(plot, order, group, plan, number, assumed)
         apart.append([plot.board.instrument.read(mm) for mm in _gaps(plot, order, plan, trial)])
         ends.append(trial.ends[order])
-        _take_special_points(plot, trial)
+        plot.links.update(trial.links)
+        plot.places.update(trial.places)
+        plot.special |= trial.special
+        for step in trial.board.steps:
+            if step.diagram == "mechanism":  # special points met with first
+                plot.do(step)
         steps = [step for step in trial.board.steps if step.diagram == order]
         strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
         told = RateTrial(number, _as_symbols(plot, order, plan, assumed), far)
-        plot.board.do(Step("trial", "polygon", order, tuple(strokes), data=told))
+        plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
     shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
     places = [[end[ref] for ref in shared] for end in ends]
     plot.board.notice(order, "magnified", ", ".join(group.links), size=magnified(places, apart))
@@ -714,7 +711,7 @@ def _true_rates(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPla
     less = tuple(tuple(_taken_off(trial, order, *one)) for one in plan.open_ends)
     named = _as_symbols(plot, order, plan, found)
     divided = Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less)
-    plot.board.do(Step("divide", "open ends", order, data=divided))
+    plot.do(Step("divide", "open ends", order, data=divided))
     return found
 
 

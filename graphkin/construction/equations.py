@@ -8,6 +8,7 @@ lines along them cross in the end point.  The angular rates follow from the vect
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Literal
 
 from graphkin.construction.net import (
     ClosingVector,
@@ -112,7 +113,7 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
                     told = _told_apart(plot, order, a, b) if a in plot.seen else add != 0.0
                     if isinstance(group, LargerGroup) and at != plot.ground and told:
                         value = plot.rates[order][at].value
-                        plot.board.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
+                        plot.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
                                            value=value, other=add))  # fmt: skip
                     queue.append(new)
 
@@ -168,14 +169,14 @@ def _written(side: Side) -> tuple[Term, ...]:
 def _from_pole(plot: Polygons, order: Order, side: Side) -> tuple[Term, ...]:
     """A side as it is written, with the vector from the pole to its start."""
     start = side[0][0].start
-    first = () if plot.fixed(start) else (Term(Symbol(letter(order), plot.label(start)), True, True),)
+    first = () if plot.fixed(start) else (Term(plot.symbol(letter(order), start), True, True),)
     return (*first, *_written(side))
 
 
 def _write(plot: Polygons, order: Order, element: Element, *sides: tuple[Term, ...]) -> int:
     """Write an equation; returns its number."""
     number = len(plot.board.equations) + 1
-    plot.board.equations.append(Equation(number, order, sides, element))
+    plot.board.equations.append(Equation(number, order, sides, plot.part_of or element))
     return number
 
 
@@ -191,7 +192,7 @@ def draw_equation(
         _draw_parallel_legs(plot, order, element, equation)
         return
     end = equation.end
-    whole = Symbol(letter(order), plot.label(end))
+    whole = plot.symbol(letter(order), end)
     sides = [_side_of(plot, order, path) for path in equation.sides]
     stands = isinstance(equation, ClosingVector) and (plot.fixed(end) or end in plot.ends[order])
     terms = [_from_pole(plot, order, side) for side in sides]
@@ -245,10 +246,10 @@ def _cross(plot: Polygons, order: Order, end: PointRef, sides: Sequence[Side], e
         at = _carry(plot, order, parts[open_at + 1 :], at, equation)
         lines.append((at, parts[open_at]))
         carried.append(at - before)
-    whole = Symbol(letter(order), plot.label(end))
+    whole = plot.symbol(letter(order), end)
     meeting = _lines_meet(plot, order, whole, 0j, lines, equation)
     mark = Mark(plot.label(end), meeting)
-    plot.board.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
+    plot.do(Step("cross", "lines", order, (mark,), equation, ref=mark.ref))
     for side, (start, _), behind in zip(sides, lines, carried, strict=True):
         if len(_open(side)) == 1:
             _fill(plot, order, side, meeting - behind, start - behind, equation)
@@ -260,7 +261,7 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Component], at: complex
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
-            plot.board.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol))
+            plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol))
             at += part.span
     return at
 
@@ -276,7 +277,7 @@ def _lines_meet(
     for through, part in lines:
         ray = Ray(through, part.along, meeting, part.written, part.symbol)
         step = Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.written)
-        plot.board.do(step)
+        plot.do(step)
     return meeting
 
 
@@ -294,7 +295,7 @@ def draw_relative(
         lines.append((at, _open(side)[0]))
     meeting = _lines_meet(plot, order, symbol, 0j, lines, number)
     found = Aid(symbol, 0j, meeting, plot.trial)
-    plot.board.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
+    plot.do(Step("read", "vector", order, (found,), number, symbol=symbol, mm=abs(meeting)))
     return meeting
 
 
@@ -302,7 +303,7 @@ def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: 
     """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the joints,
     from the other's along the direction that both leave free."""
     side = _side_of(plot, order, legs.path)
-    head = Term(Symbol(letter(order), plot.label(legs.end)), True, True)
+    head = Term(plot.symbol(letter(order), legs.end), True, True)
     number = _write(plot, order, group, (head,), _from_pole(plot, order, side))
     own = same_turn(plot, group).get(legs.link, legs.link)
     at, goal = plot.end(order, legs.path[0].start), plot.end(order, legs.end)
@@ -313,7 +314,7 @@ def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: 
     meeting = _lines_meet(plot, order, turning.symbol, start, [(start, turning), (goal, free)], number)
     found = Aid(turning.symbol, start, meeting, 0)
     mm = plot.found_mm(turning.symbol, meeting - start)
-    plot.board.do(Step("read", "vector", order, (found,), number, symbol=turning.symbol, mm=mm))
+    plot.do(Step("read", "vector", order, (found,), number, symbol=turning.symbol, mm=mm))
     _rate(plot, order, edge, turning.symbol, meeting - start, group)
 
 
@@ -373,9 +374,8 @@ def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: comple
         plot.believed.add((order, edge.link))
     source = symbol if symbol in plot.drawn[order] else None
     plot.rates[order][edge.link] = Rate(edge.link, value if own is None else own, source, read, abs(arm))
-    plot.board.do(
-        Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=edge.bar, value=value, mm=read)
-    )
+    plot.do(Step("read", "rate", order, kind=rate, link=edge.link, symbol=symbol, points=edge.bar, value=value, mm=read,
+                 held=plot.held))  # fmt: skip
     assert not isinstance(group, Driven)
     spread(plot, order, edge.link, group)
 
@@ -404,10 +404,9 @@ def parts_of(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
 
 def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
     """The motion of an edge's end relative to its start, or a part of it, by its letters."""
-    start, end = plot.label(edge.labels[0]), plot.label(edge.labels[1])
     if kind in ("v", "a") and plot.fixed(edge.start):
-        return Symbol(kind, plot.label(edge.end))
-    return Symbol(kind, end, start)
+        return plot.symbol(kind, edge.end)
+    return plot.symbol(kind, edge.labels[1], edge.labels[0])
 
 
 ROLES: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
@@ -432,9 +431,18 @@ def _term(
     return Component(symbol_of(plot, kind, edge), role, along, None if mm is None else along * mm, written, size)
 
 
+def _by_rate(
+    plot: Polygons, links: tuple[str, ...], factor: tuple[str, str] | Symbol, rate: Literal["omega", "alpha"] = "omega",
+    square: bool = False, twice: bool = False,
+) -> Size:  # fmt: skip
+    """The size that a rate gives; with a link held still that of one link is meant from it."""
+    links = (*links, plot.held) if plot.held and len(links) == 1 else links
+    return Size("rate", links, factor, rate, square, twice)
+
+
 def _coriolis(plot: Polygons, edge: Edge, link: str, along: complex, mm: float, written: Direction) -> Component:
     """The term of Coriolis: twice the rate of a link times the relative velocity of the edge."""
-    size = Size("rate", (link,), symbol_of(plot, "v", edge), twice=True)
+    size = _by_rate(plot, (link,), symbol_of(plot, "v", edge), twice=True)
     return _term(plot, edge, "ak", along, mm, written, size)
 
 
@@ -445,12 +453,12 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.scales.of(order), edge.bar
     square = 1j * unit(arm)
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
-    rule = None if rate is None else Size("rate", (edge.link,), bar, RATE[order])
+    rule = None if rate is None else _by_rate(plot, (edge.link,), bar, RATE[order])
     if order == "velocity":
         mm = None if rate is None else rate.value * plot.length(arm, bar) / per
         return [_term(plot, edge, "v", square, mm, edge.direction, rule)]
     omega, length = plot.rates["velocity"][edge.link].value, plot.length(arm, bar)
-    squared = Size("rate", (edge.link,), bar, square=True)
+    squared = _by_rate(plot, (edge.link,), bar, square=True)
     normal = _term(plot, edge, "an", -unit(arm), omega**2 * length / per, Direction("towards", bar[::-1]), squared)
     if rate is not None and rate.value == 0.0:
         return [normal]
@@ -467,13 +475,13 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJ
     name, both = (hinge, edge.end.point), (joint.b, joint.a)
     length, square = plot.length(arm, name), 1j * unit(arm)
     if order == "velocity":
-        return [_term(plot, edge, "v", square, omega * length / per, edge.direction, Size("rate", both, name))]
+        return [_term(plot, edge, "v", square, omega * length / per, edge.direction, _by_rate(plot, both, name))]
     base = joint.a if edge.forward else joint.b
     turn, inward = plot.rates["velocity"][base].value, -unit(arm)
-    squared = Size("rate", both, name, square=True)
+    squared = _by_rate(plot, both, name, square=True)
     return [
         _term(plot, edge, "an", inward, omega**2 * length / per, Direction("towards", name[::-1]), squared),
-        _term(plot, edge, "at", square, alpha * length / per, edge.direction, Size("rate", both, name, "alpha")),
+        _term(plot, edge, "at", square, alpha * length / per, edge.direction, _by_rate(plot, both, name, "alpha")),
         _coriolis(plot, edge, base, inward, 2 * turn * omega * length / per, Direction("along", name)),
     ]
 
@@ -481,14 +489,14 @@ def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJ
 def _contour_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     """The point of one link of a contour relative to that of another, as a polygon with one of them held still gave it;
     with the term of Coriolis, for that one turns."""
-    seen = plot.seen_from(edge.held)
+    seen = plot.seen[edge.held]
     way, moving = (1, edge.end) if edge.forward else (-1, edge.start)
     slip = way * seen.end("velocity", moving)
     if order == "velocity":
         return [_term(plot, edge, "v", unit(slip or 1.0), abs(slip), edge.direction)]
     held, turns = edge.labels[0].link, plot.rates["velocity"]
     # seen from a link that turns itself as seen from the held one, the rest has another share of Coriolis
-    read = seen.slip_mm(Symbol("v", seen.label(moving)), slip)
+    read = seen.slip_mm(seen.symbol("v", moving), slip)
     speed = unit(slip) * read * plot.scales.velocity / plot.scales.acceleration if slip else 0j
     rest = way * seen.end("acceleration", moving) + 2j * (turns[edge.held].value - turns[held].value) * speed
     coriolis = 2j * turns[held].value * speed
@@ -549,7 +557,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
         curves = (one, two) if two in centres else (one,)
         size = Size("slip on curves", (two, one), symbol_of(plot, "v", edge), curves=curves)
     else:
-        size = Size("rate", (two, one), (contact.round[0].centre, contact.name), square=True)
+        size = _by_rate(plot, (two, one), (contact.round[0].centre, contact.name), square=True)
     turned = Direction("turned", edge.direction.names)
     parts = [
         _coriolis(plot, edge, one, normal, 2 * omega * speed / per, turned),
@@ -575,7 +583,7 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     if len(centres) == 1:
         ((link, centre),) = centres.items()
         names = plot.centre_letter(edge.rolling, link), edge.start.point
-        size = Size("rate", links, names, square=True)
+        size = _by_rate(plot, links, names, square=True)
         way = Direction("towards", names if off * dot(normal, place - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0

@@ -19,8 +19,7 @@ from graphkin.construction.net import TwoUnknowns, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
-from graphkin.construction.seen_from import seen
-from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, either_way, without_residues
+from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order, Step
 from graphkin.construction.triangles import (
     Inversion,
@@ -198,18 +197,9 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         growing=task.growing,
         trains=tuple(polygons.trains.values()),
         limits=_limits(task, polygons.scales, board.instrument),
-        readings=_readings(polygons),
+        readings=dict(board.readings),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
-
-
-def _readings(polygons: Polygons) -> Mapping[Symbol | frozenset[str], float]:
-    read: tuple[Mapping[frozenset[str], float] | Mapping[Symbol, float], ...]
-    read = polygons.board.arms, polygons.board.lengths
-    found: dict[Symbol | frozenset[str], float] = {thing: mm for kept in read for thing, mm in kept.items()}
-    for held, apart in polygons.seen.items():
-        found |= {either_way(seen(symbol, held)): mm for symbol, mm in apart.board.lengths.items()}
-    return found
 
 
 def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits]:

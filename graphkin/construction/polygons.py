@@ -20,7 +20,7 @@ from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import TwoUnknowns, node
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
-from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Role, Size, Step, Vector
+from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Ray, Role, Size, Step, Vector
 from graphkin.construction.touching import Touching
 from graphkin.construction.trains import PlansDrawn
 from graphkin.errors import CallError, Problem, Unsolvable
@@ -95,7 +95,8 @@ class Polygons:
         self.touching = {c.name for c in structure.scene.contacts}
         self.block_of = {p.key: p.of for p in structure.scene.pins}
         self.block_of |= {c.block: c.round[0].link for c in structure.scene.contacts if c.flat}
-        self.part_of: LargerGroup | None = None  # the group of what is drawn with a link of it held still
+        self.held = ""  # the link that is held still, and the group whose it is
+        self.part_of: LargerGroup | None = None
         self.begin(structure.scene.frame.name)
 
     def begin(self, ground: str) -> None:
@@ -113,27 +114,49 @@ class Polygons:
         made = copy.copy(self)
         for name in vars(self).keys() - SHARED:
             setattr(made, name, _copied(getattr(self, name)))
-        made.board = self.board.again(hand)
         made.seen = {held: seen.again(hand) for held, seen in self.seen.items()}
-        for seen in made.seen.values():
-            seen.board.arms = made.board.arms
-        return made
+        return made._on(self.board.again(hand))
 
     def fork(self, trial: int) -> Polygons:
         """The same polygons on a board of their own, with the same hands, which do not read twice what they have read:
         the trial polygons of that number."""
         made = self.again(self.board.instrument)
-        made.board, made.trial = Board(self.board.instrument), trial
-        made.board.arms, made.board.lengths = self.board.arms, self.board.lengths
-        for held, seen in made.seen.items():
-            seen.board.arms, seen.board.lengths = self.board.arms, self.seen[held].board.lengths
+        made.trial = trial
+        return made._on(Board(self.board.instrument, readings=self.board.readings))
+
+    def holding(self, group: LargerGroup, held: str) -> Polygons:
+        """Empty polygons with a link of a group held still, as if it were the frame; drawn on the same mechanism."""
+        made = self.fork(0)
+        made.part_of, made.held, made.contours, made.slip = group, held, {}, Slip(line=self.slip.line)
+        made.begin(held)
+        self.seen[held] = made
+        self._on(self.board)
         return made
 
-    def seen_from(self, held: str) -> Polygons:
-        """The polygons with a link of a contour held still, with the special points that were marked since."""
-        seen = self.seen[held]
-        seen.special, seen.places, seen.links = self.special, self.places, self.links
-        return seen
+    def _on(self, board: Board) -> Polygons:
+        """These on a board; those with a link held still share its equations and readings, and special points."""
+        self.board = board
+        for seen in self.seen.values():
+            seen.links, seen.places, seen.special = self.links, self.places, self.special
+            seen.board.readings, seen.board.equations = board.readings, board.equations
+        return self
+
+    def do(self, step: Step) -> None:
+        """Record a step.  Seen from a held link only vectors are shown: end points get their letters in the polygon of
+        the mechanism itself."""
+        if not self.held or step.diagram == "mechanism":
+            self.board.do(step)
+        elif step.symbol.kind:
+            strokes = (s for s in step.strokes if isinstance(s, Aid | Ray) or step.reason == "before its turn")
+            self.board.do(replace(step, strokes=tuple(strokes)))
+
+    def symbol(self, kind: str, end: PointRef, start: PointRef | None = None) -> Symbol:
+        """The motion of a point, or a part of it, from the pole or from that of another point, by its letters.  Seen
+        from a held link a point's own is that relative to the coincident point of it; others bear its name."""
+        symbol = Symbol(kind, self.label(end), start and self.label(start))
+        if self.held and start is None:
+            return replace(symbol, to=PointRef(end.point, self.held))
+        return replace(symbol, seen=self.held) if self.held else symbol
 
     def centre_letter(self, name: str, link: str) -> str:
         """The centre of what is round on a link in a contact, or the axis of a wheel."""
@@ -199,7 +222,7 @@ class Polygons:
         pushed = pushed_by_driver(self.structure, self.paper.values, between)
         if pushed is not None:
             return pushed[1]
-        read = self.board.read_arm(between, abs(arm))
+        read = self.board.read(frozenset(between), abs(arm))
         if read == 0.0:
             found = Phrase("mm on paper are too short to be", length=f'{abs(arm):.2g}')
             raise Unsolvable("not drawn", Problem("".join(between), found, Phrase("draw the mechanism larger")))
@@ -207,20 +230,20 @@ class Polygons:
 
     def found_mm(self, symbol: Symbol, span: complex) -> float:
         """How long a vector is that was found (mm), as it is measured; not where the next trial has one of its name."""
-        return abs(self.board.read_vector(symbol, abs(span))) if span and not self.trial else abs(span)
+        return abs(self.board.read(symbol, abs(span))) if span and not self.trial else abs(span)
 
     def slip_mm(self, symbol: Symbol, slip: complex) -> float:
         """The length (mm) of a relative velocity, as it is read off its polygon when it is first needed."""
         if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
-            symbol = Symbol(symbol.kind, symbol.to)
-        return self.board.read_vector(symbol, abs(slip))
+            symbol = self.symbol(symbol.kind, symbol.to)
+        return self.board.read(symbol, abs(slip))
 
     def rate_of(
         self, order: Order, symbol: Symbol, mm: float, arm: complex, between: tuple[str, str]
     ) -> tuple[float, float]:
         """The size of a rate (rad/s, rad/s2), by the length of a vector on paper and the bar it belongs to, and that
         length as read (mm)."""
-        read = abs(self.board.instrument.read(mm) if self.trial else self.board.read_vector(symbol, mm))
+        read = abs(self.board.instrument.read(mm) if self.trial else self.board.read(symbol, mm))
         value = read * self.scales.of(order) / self.length(arm, between)
         return self.board.instrument.noted(value, min(MOST - 1, figures(on_paper(read)))), read
 
@@ -246,17 +269,15 @@ class Polygons:
         """Put a vector into a polygon, with the step that drew it and its further strokes."""
         if step.diagram in ORDERS:
             self.drawn[step.diagram][vector.symbol] = vector
-        self.board.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
+        self.do(replace(step, strokes=(self.shown(vector), *step.strokes)))
 
     def shown(self, vector: Vector) -> Vector | Aid:
-        """A vector as it is drawn: one of a trial polygon or to a special point only leads on."""
-        if self.trial or self.is_aid(vector.symbol):
+        """A vector as it is drawn: one of a trial polygon, seen from a held link or to a special point only leads on.
+        """
+        of_special = any(ref is not None and ref.point in self.special for ref in (vector.symbol.of, vector.symbol.to))
+        if self.trial or self.held or of_special:
             return Aid(vector.symbol, vector.tail, vector.tip, self.trial)
         return vector
-
-    def is_aid(self, symbol: Symbol) -> bool:
-        """Whether a vector belongs to a special point."""
-        return any(ref is not None and ref.point in self.special for ref in (symbol.of, symbol.to))
 
     def reach(self, order: Order, ref: PointRef, at: complex, equation: int | None) -> None:
         """Name an end point, and draw the vector to it from the pole."""
@@ -264,10 +285,10 @@ class Polygons:
             return
         self.ends[order][ref] = at
         mark = Mark(self.label(ref), at)
-        symbol = Symbol(letter(order), self.label(ref))
+        symbol = self.symbol(letter(order), ref)
         if symbol in self.drawn[order]:
-            if not self.board.pricked(order, mark):
-                self.board.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
+            if not self.held and not self.board.pricked(order, mark):
+                self.do(Step("mark", "letter", order, (mark,), equation, ref=mark.ref))
             return
         step = Step("join", "pole to end", order, (mark,), equation, symbol=symbol)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
@@ -330,11 +351,17 @@ class Polygons:
     def _reach_by(self, ref: PointRef, at: complex, step: Step) -> None:
         """An end point that follows from others of its link."""
         order: Order = "velocity" if step.diagram == "velocity" else "acceleration"
-        label = self.label(ref)
-        symbol = Symbol(letter(order), label)
+        symbol, label = self.symbol(letter(order), ref), self.label(ref)
         at = self.slip.found(symbol, 0j, at)
         self.ends[order][ref] = at
-        step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))
+        if not self.held:
+            step = replace(step, ref=label, strokes=(Mark(label, at), *step.strokes))
+        elif step.reason in ("same place", "translation"):
+            step = Step("join", "pole to end", order, symbol=symbol)
+        else:
+            begins = tuple(None if self.fixed(start) else self.symbol(letter(order), start) for start in step.refs)
+            corners = tuple(corner.point for corner in (*step.refs, label))
+            step = replace(step, ref=label, symbol=symbol, begins=begins, points=corners, held=self.held)
         self.record(Vector(symbol, 0j, at, "resultant"), step)
 
     def on(self, ref: PointRef, name: str) -> bool:

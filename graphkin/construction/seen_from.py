@@ -9,18 +9,12 @@ other vectors bear its name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphkin.construction.polygons import Polygons, Slip, letter
-from graphkin.construction.sheet import Equation
-from graphkin.construction.steps import Aid, Bar, Order, Ray, Size, Step, Stroke, Term, Vector
-from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import LargerGroup
-
-__all__ = ["Joint", "contours", "copy_steps", "seen", "with_held"]
+__all__ = ["Joint", "contours"]
 
 ALIKE = 1e-9  # of unit motions: what differs less moves alike
 Rows = list[np.ndarray]
@@ -95,83 +89,3 @@ def _one_already(links: Sequence[str], held: Sequence[set[str]]) -> bool:
             if both & reached and not both <= reached:
                 reached, grown = reached | both, True
     return reached >= set(links)
-
-
-# -- the polygons drawn so ---------------------------------------------------------------------------------------------
-
-
-def with_held(plot: Polygons, group: LargerGroup, held: str) -> Polygons:
-    """Empty polygons with a link of a group for the frame."""
-    made = plot.fork(0)
-    made.part_of, made.contours = group, {}
-    made.board.lengths = {}
-    made.slip = Slip(line=lambda symbol, along: plot.slip.line(seen(symbol, held), along))
-    made.begin(held)
-    return made
-
-
-def copy_steps(plot: Polygons, order: Order, group: LargerGroup, held: str, steps: int, equations: int) -> None:
-    """Put into the polygons of the mechanism what has been drawn with a link held still, after so many steps and
-    equations."""
-    apart = plot.seen[held]
-    further = len(plot.board.equations) - equations
-    for one in apart.board.equations[equations:]:
-        sides = tuple(tuple(_term(term, held) for term in side) for side in one.sides)
-        plot.board.equations.append(Equation(one.number + further, one.diagram, sides, group))
-    for step in apart.board.steps[steps:]:
-        told = _step(apart, step, held) if step.diagram != "mechanism" else None
-        if told is not None:
-            number = None if step.equation is None else step.equation + further
-            plot.board.do(replace(told, diagram=order, equation=number))
-
-
-def seen(symbol: Symbol, held: str) -> Symbol:
-    """A vector as it is seen from a held link."""
-    if symbol.of is None:
-        return symbol
-    if symbol.kind in ("v", "a") and symbol.to is None:
-        return Symbol(symbol.kind, symbol.of, PointRef(symbol.of.point, held))
-    return replace(symbol, seen=held)
-
-
-def _term(term: Term, held: str) -> Term:
-    return replace(term, symbol=seen(term.symbol, held), size=_size(term.size, held))
-
-
-def _size(size: Size | None, held: str) -> Size | None:
-    if size is None:
-        return None
-    factor = seen(size.factor, held) if isinstance(size.factor, Symbol) else size.factor
-    links = (*size.links, held) if size.rule == "rate" and len(size.links) == 1 else size.links
-    return replace(size, links=links, factor=factor)
-
-
-def _strokes(step: Step, held: str) -> Iterator[Stroke]:
-    for stroke in step.strokes:
-        if isinstance(stroke, Vector | Aid):
-            yield Aid(seen(stroke.symbol, held), stroke.tail, stroke.tip, 0)
-        elif isinstance(stroke, Ray):
-            yield replace(stroke, symbol=seen(stroke.symbol, held))
-        elif isinstance(stroke, Bar) and step.reason == "before its turn":
-            yield stroke
-
-
-def _step(plot: Polygons, step: Step, held: str) -> Step | None:
-    """A step as it is said of what is seen from a link; None for end points that get a letter in the polygon itself."""
-    kind, strokes = letter("velocity" if step.diagram == "velocity" else "acceleration"), tuple(_strokes(step, held))
-
-    def to(ref: PointRef) -> Symbol | None:
-        return None if plot.fixed(ref) else seen(Symbol(kind, ref), held)
-
-    match step.reason:
-        case "same place" | "translation":
-            drawn = [v.symbol for v in strokes if isinstance(v, Aid)]
-            return Step("join", "pole to end", step.diagram, strokes, symbol=drawn[0]) if drawn else None
-        case "similar" | "division" | "rates":
-            symbol, begins = seen(Symbol(kind, step.ref), held), tuple(map(to, step.refs))
-            corners = tuple(ref.point for ref in (*step.refs, step.ref))
-            return replace(step, symbol=symbol, begins=begins, points=corners, held=held, strokes=strokes)
-    if not step.symbol.kind:
-        return None
-    told = replace(step, symbol=seen(step.symbol, held), size=_size(step.size, held), strokes=strokes)
-    return replace(told, held=held) if step.reason == "rate" else told

@@ -8,11 +8,11 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, Literal
 
 from graphkin.construction.instruments import EXACT_NAME, ErringInstrument, Instrument
 from graphkin.construction.links_on_paper import Pose
@@ -47,7 +47,6 @@ __all__ = [
     "without_residues",
 ]  # fmt: skip
 
-_Thing = TypeVar("_Thing")
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
 REACH = 2000.0  # mm to either side: how far a construction line is drawn
 SHARP = math.sin(math.radians(15.0))
@@ -488,8 +487,7 @@ def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) ->
 class Board:
     """Steps in the order in which they are done, and what was read; the one thing in this room that grows.
 
-    ``arms`` are the lengths (mm) read between two points of the mechanism, ``lengths`` those of vectors: what has been
-    read once is used at each later use.
+    ``readings`` are the lengths (mm) that hands which err have read, as in `Sheet`: they are used at each later use.
     """
 
     instrument: Instrument
@@ -497,8 +495,7 @@ class Board:
     equations: list[Equation] = field(default_factory=list)
     noticed: list[Remark] = field(default_factory=list)
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
-    arms: dict[frozenset[str], float] = field(default_factory=dict)
-    lengths: dict[Symbol, float] = field(default_factory=dict)
+    readings: dict[Symbol | frozenset[str], float] = field(default_factory=dict)
 
     def again(self, hand: Instrument) -> Board:
         """What stands on the board, to go on with by other hands."""
@@ -511,20 +508,15 @@ class Board:
         self.steps.append(step)
         self.causes.append((self.instrument.acts, step))
 
-    def read_arm(self, between: Sequence[str], mm: float) -> float:
-        """The distance of two points on paper (mm), read when it is first needed."""
-        return self._read(self.arms, frozenset(between), mm)
-
-    def read_vector(self, symbol: Symbol, mm: float) -> float:
-        """The length of a vector on paper (mm), read when it is first needed."""
-        return self._read(self.lengths, either_way(symbol), mm)
-
-    def _read(self, kept: dict[_Thing, float], thing: _Thing, mm: float) -> float:
+    def read(self, between: Symbol | frozenset[str], mm: float) -> float:
+        """The length of a vector, or of what lies between two points of the mechanism (mm), read when it is first
+        needed."""
+        thing = either_way(between) if isinstance(between, Symbol) else between
         if not isinstance(self.instrument, ErringInstrument):
             return self.instrument.read(mm)  # it shows the same each time
-        if thing not in kept:
-            kept[thing] = self.instrument.read(mm)
-        return kept[thing]
+        if thing not in self.readings:
+            self.readings[thing] = self.instrument.read(mm)
+        return self.readings[thing]
 
     def pricked(self, diagram: DiagramName, mark: Mark) -> bool:
         """Whether an end point stands there already: two lines have met in it, or the last vector ends in it and now

@@ -293,11 +293,11 @@ def test_a_vector_that_an_equation_says_to_be_another_is_read_with_it():
 
 def test_a_pencil_reads_the_same_thing_once_whichever_way_it_is_named():
     board = Board(pencil(Tools(), 1))
-    arm, speed = board.read_arm("AB", 41.37), board.read_vector(Symbol.parse("v_C/B"), 12.0)
-    assert (arm, speed) == (board.read_arm("BA", 41.37), board.read_vector(Symbol.parse("v_B/C"), 12.0))
+    arm, speed = board.read(frozenset("AB"), 41.37), board.read(Symbol.parse("v_C/B"), 12.0)
+    assert (arm, speed) == (board.read(frozenset("BA"), 41.37), board.read(Symbol.parse("v_B/C"), 12.0))
     assert 2 == board.instrument.acts
     assert (arm, speed) == (round(arm, 2), round(speed, 2))
-    assert arm != board.read_arm("AC", 41.37)
+    assert arm != board.read(frozenset("AC"), 41.37)
 
 
 def test_a_given_length_has_all_its_figures_in_what_is_given_on_the_figure_and_in_every_sum():
