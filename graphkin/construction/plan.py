@@ -43,7 +43,6 @@ from graphkin.structure import (
     needed,
     pins_on_circles,
 )
-from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -389,7 +388,7 @@ def plan(
 
     With ``bars`` these stand for rollers and edges of cams, else pins on the pitch curves.
     """
-    structure = analyse(with_cams(scene))
+    structure = analyse(scene.whole)
     scene = structure.scene
     asked = tuple(scene.question.find if find is None else find)
     if scene.cams:

@@ -30,7 +30,6 @@ from graphkin.solver.redundant import Fit, fit
 from graphkin.solver.sentences import driver_text
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse, mobility_of, pick
 from graphkin.structure.assembly import TOUCH
-from graphkin.structure.replacement import with_cams
 from graphkin.words import Phrase, Wording, clauses, listed
 
 __all__ = ["from_dead_point", "structure_of"]
@@ -47,7 +46,7 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
         status "mobility", with the diagnosis: where the count fails, each link is left out in turn, the rest is solved,
         and the link is laid back into it, in position, velocity and acceleration, here and at a position nearby
     """
-    scene = with_cams(scene)
+    scene = scene.whole
     if isinstance(scene, Structure):
         return scene
     try:

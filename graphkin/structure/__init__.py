@@ -21,11 +21,12 @@ from graphkin.structure.model import (
     greatest_before,
     in_stages,
     links_for,
+    named_with_contact,
     needed,
     part_of,
     without,
 )
-from graphkin.structure.replacement import named_with_contact, pins_on_circles, replacement_told
+from graphkin.structure.replacement import pins_on_circles, replacement_told
 from graphkin.structure.rolling import Mesh, meshes_of, unrolled
 
 __all__ = [

@@ -1,102 +1,49 @@
 """From a scene to its structure: mobility, and the elements in the order of solution; or why there is no such order.
 
-A scene has none with too many or too few drivers, and where parts are held too much beside parts left free.
+Hinges, slides, drivers and what rolls are equations between coordinates of links and points.  A matching gives each
+equation a coordinate of its own; strongly connected components of what needs what are solved together, and are driven
+links, dyads of one of their kinds, or larger groups.  A scene has no such order with too many or too few drivers, and
+where parts are held too much beside parts left free.
+
+The matching and the components are our own 60 lines: a graph of some ten nodes does not call for one more dependency
+(networkx), or for scipy.sparse.csgraph, which takes longer to import than a mechanism to solve.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
-from itertools import islice, product
+from itertools import pairwise, product
+from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
-from graphkin.scene.model import Driver, Mechanism, PlacedLink
-from graphkin.structure.groups import Constraints, Node, Unknown, components, element_of, match
-from graphkin.structure.model import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Mobility, Pair, Structure
-from graphkin.structure.rolling import start_drivers, unrolled
+from graphkin.scene.cams import SlidingFollower
+from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.structure.model import (
+    Body,
+    Driven,
+    DrivenJoint,
+    DrivenTriangle,
+    Dyad,
+    DyadKind,
+    Element,
+    LargerGroup,
+    Mobility,
+    Pair,
+    RollingRelation,
+    Structure,
+    driver_pair,
+)
+from graphkin.structure.replacement import replacing_link
+from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
 from graphkin.words import Phrase, Wording, about, clauses
 
-__all__ = ["analyse", "driven_by", "mobility_of", "regrouped", "started"]
+__all__ = ["analyse", "components", "driven_by", "match", "mobility_of", "regrouped", "started"]
 
 
-def _wrong_count(system: Constraints, mobility: Mobility) -> Problem:
-    scene = system.scene
-    found = len(scene.drivers)
-    higher = f" - {mobility.higher}" if mobility.higher else ""
-    count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
-    wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
-    if found > mobility.value > 0:
-        names = ", ".join(d.key for d in scene.drivers)
-        wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
-    idle = [link.name for link in scene.links if link.redundant]
-    if idle and mobility.value > found:
-        wanted.append(Phrase(about("marked redundant is not counted", idle), links=", ".join(idle)))
-    if found == 0:
-        wanted.append(Phrase("write in the file driver with"))
-    if mobility.value <= 0:
-        wanted = [Phrase("it is a structure no driver can move")]
-        loop = _sliding_loop(system)
-        if loop:
-            wanted = [Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop))]
-    drivers = (
-        Phrase("no driver") if found == 0 else Phrase("drivers counted" if found > 1 else "driver counted", count=found)
-    )
-    return Problem(Phrase("status mobility"), Phrase("but given", count=count, drivers=drivers), clauses(wanted))
-
-
-def _sliding_loop(system: Constraints) -> list[str]:
-    """Links of a closed loop of sliding pairs only, if there is one."""
-    group: dict[str, set[str]] = {name: {name} for name in system.links}
-    for s in system.slides:
-        if group[s.a] is group[s.b]:
-            ends = [t for t in system.slides if group[t.a] is group[s.a]]
-            return sorted({n for t in ends for n in (t.a, t.b)}, key=lambda n: system.place(("link", n)))
-        merged = group[s.a] | group[s.b]
-        for name in merged:
-            group[name] = merged
-    return []
-
-
-def _wrong_part(system: Constraints, unknowns: list[list[Unknown]], given: dict[int, Unknown]) -> Problem:
-    """Name the links that are held too much and those that are free."""
-    users: dict[Unknown, list[int]] = {}
-    for i, row in enumerate(unknowns):
-        for u in row:
-            users.setdefault(u, []).append(i)
-    owner = {u: i for i, u in given.items()}
-    over: set[str] = set()
-    queue = [i for i in range(len(unknowns)) if i not in given]
-    seen = set(queue)
-    while queue:
-        for u in unknowns[queue.pop()]:
-            if u[0][0] == "link":
-                over.add(u[0][1])
-            if u in owner and owner[u] not in seen:
-                seen.add(owner[u])
-                queue.append(owner[u])
-    free: set[str] = set()
-    todo = [(n, a) for n in system.nodes() for a in ("xyt" if n[0] == "link" else "xy") if (n, a) not in owner]
-    done = set(todo)
-    while todo:
-        u = todo.pop()
-        if u[0][0] == "link":
-            free.add(u[0][1])
-        for i in users.get(u, []):
-            if i in given and given[i] not in done:
-                done.add(given[i])
-                todo.append(given[i])
-
-    def names(found: set[str]) -> str:
-        return ", ".join(sorted(found, key=lambda n: system.place(("link", n)))) or "none"
-
-    loop = _sliding_loop(system)
-    wanted = Phrase("each part of the mechanism needs as many")
-    if loop:
-        wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
-    return Problem(
-        "mobility", Phrase("links held too much links left free", names=names(over), other=names(free)), wanted
-    )
+Node = tuple[str, str]  # ("link" | "point", name)
+Unknown = tuple[Node, str]  # a node and one of its coordinates x, y, t
 
 
 def analyse(scene: Mechanism | Structure) -> Structure:
@@ -116,55 +63,360 @@ def analyse(scene: Mechanism | Structure) -> Structure:
     """
     if isinstance(scene, Structure):
         return scene
-    system = Constraints(scene)
-    mobility = system.mobility()
-    if mobility.value != len(scene.drivers):
-        loose = _loose_ends(system) if mobility.value > len(scene.drivers) else ()
-        refusal = Unsolvable if scene.drivers or mobility.value <= 0 else NoDriver
-        raise refusal("mobility", _wrong_count(system, mobility), *loose)
-    equations = system.equations()
-    unknowns = [sorted(e) for e in equations]
+    structure = _placed(scene)
+    mobility = structure.mobility.value
+    if mobility != len(scene.drivers):
+        loose = _loose_ends(structure) if mobility > len(scene.drivers) else ()
+        refusal = Unsolvable if scene.drivers or mobility <= 0 else NoDriver
+        raise refusal("mobility", _wrong_count(structure), *loose)
+    unknowns = [sorted(row) for row in _equations(structure)]
     given = match(unknowns)
-    if len(given) < len(equations):
-        raise Unsolvable("mobility", _wrong_part(system, unknowns, given), *_loose_ends(system))
-    elements = _in_order(system, system.nodes(), unknowns, given, {scene.frame.name})
-    return _with_starts(_in_parts(Structure(
-        scene, system.links, system.slides, system.hinges, mobility, elements, system.followers
-    )))
+    if len(given) < len(unknowns):
+        raise Unsolvable("mobility", _wrong_part(structure, unknowns, given), *_loose_ends(structure))
+    elements = _in_order(structure, _nodes(structure), unknowns, given, {scene.frame.name})
+    return _with_starts(_in_parts(replace(structure, elements=elements)))
+
+
+def mobility_of(scene: Mechanism) -> Mobility:
+    """Links, pairs and F of a scene, whatever its drivers are."""
+    return _placed(scene).mobility
+
+
+# -- what holds the links ----------------------------------------------------------------------------------------------
+
+
+def _placed(scene: Mechanism) -> Structure:
+    """The links and blocks of a scene with the pairs that hold them, in no order of solution yet."""
+    links: dict[str, PlacedLink] = {scene.frame.name: scene.frame}
+    links.update({link.name: link for link in scene.links if not link.redundant})
+    slides = [
+        Pair(s.key, s.link, s.on, links[s.on].guides[s.guide], s.turn, s.pin)
+        for s in scene.slidings if s.link in links and s.on in links
+    ]  # fmt: skip
+    for pin in scene.pins:
+        if pin.of in links and pin.on in links:
+            links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
+            slides.append(Pair(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
+    contacts = [c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys()]
+    gears = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
+    cams = [c for c in scene.cams if scene.instead_of is None and {c.link, c.follower} <= links.keys()]
+    for contact in contacts:
+        link, slide = replacing_link(contact, links)
+        links[link.name] = link
+        slides += [slide] if slide else []
+    hinges: dict[str, list[str]] = {}
+    for link in links.values():
+        for point in link.points:
+            hinges.setdefault(point, []).append(link.name)
+    relations = relations_of(scene, meshes_of(scene, contacts, gears, links)) if contacts or gears else ()
+    followers, relations = followers_of(scene, relations, links, slides) if relations else ((), ())
+    # F counts no blocks, nor bars that stand for pins in slots; what rolls has two constraints, as a lower pair
+    bars = {s.bar for s in scene.slots if not s.block and s.bar in links}
+    real = {name for name in links if name in scene.by_name and name not in bars}
+    rolling = sum(c.rolling and not c.carrier for c in contacts)
+    turns = (len(real.intersection(names)) for names in hinges.values())
+    lower = sum(n - 1 for n in turns if n) + sum(not s.slot for s in slides) + rolling
+    blocks = sum(s.slot for s in slides) - sum(c.flat for c in contacts)
+    higher = blocks + len(bars) + len(contacts) - rolling + len(gears) + len(cams)
+    mobility = Mobility(len(real - {scene.frame.name}), lower, higher)
+    shared = {p: tuple(names) for p, names in hinges.items() if len(names) > 1}
+    return Structure(scene, links, tuple(slides), shared, mobility, (), followers, relations, tuple(cams))
+
+
+def _nodes(structure: Structure) -> list[Node]:
+    moving = [name for name in structure.links if name != structure.scene.frame.name]
+    return [("link", name) for name in moving] + [("point", name) for name in structure.hinges]
+
+
+def _ranks(structure: Structure) -> Callable[[str], int]:
+    """The order of links: as in the file, then blocks."""
+    return {name: i for i, name in enumerate(structure.links)}.__getitem__
+
+
+def _equations(structure: Structure) -> list[set[Unknown]]:
+    """For each scalar constraint the coordinates in it."""
+    rows: list[set[Unknown]] = []
+    frame = structure.scene.frame.name
+
+    def add(*sides: tuple[str, str]) -> set[Unknown]:
+        row = {(("link", name), axis) for name, axes in sides if name != frame for axis in axes}
+        rows.append(row)
+        return row
+
+    for point, names in structure.hinges.items():
+        for name in names:
+            for axis in "xy":
+                add((name, axis + "t")).add((("point", point), axis))
+    for s in structure.slides:
+        add((s.a, "t"), (s.b, "t"))
+        add((s.a, "xy"), (s.b, "xyt"))
+    for cam in structure.cams:
+        add((cam.link, "t"), (cam.follower, "xy" if isinstance(cam.motion, SlidingFollower) else "t"))
+    for relation in structure.relations:
+        slides = [structure.slide(name) for kind, name in relation.terms if kind == "travel"]
+        add(*((name, "t") for kind, name in relation.terms if kind == "angle"),
+            *(side for s in slides for side in ((s.a, "xy"), (s.b, "xyt"))))  # fmt: skip
+    for driver in structure.drivers:
+        driven, base = ("t", "t") if driver.turns else ("xy", "xyt")
+        add((driver.link, driven), (driver.relative_to, base))
+    return rows
+
+
+# -- what is solved together -------------------------------------------------------------------------------------------
+
+N = TypeVar("N", bound=Hashable)
+
+
+def match(equations: Sequence[Sequence[N]]) -> dict[int, N]:
+    """Assign to as many equations as possible one of their unknowns each (augmenting paths).
+
+    Parameters
+    ----------
+    equations : for each equation its unknowns
+
+    Returns
+    -------
+    dict from the index of an equation to the unknown it gives; equations left out cannot be served
+    """
+    given: dict[N, int] = {}
+    held: dict[int, N] = {}
+    for start in range(len(equations)):
+        # breadth-first search for a free unknown, so that depth is no limit
+        came_from: dict[N, int] = {}
+        queue = [start]
+        free: N | None = None
+        while queue and free is None:
+            equation = queue.pop(0)
+            for unknown in equations[equation]:
+                if unknown in came_from:
+                    continue
+                came_from[unknown] = equation
+                if unknown not in given:
+                    free = unknown
+                    break
+                queue.append(given[unknown])
+        if free is None:
+            continue
+        step: N | None = free
+        while step is not None:
+            equation = came_from[step]
+            given[step] = equation
+            held[equation], step = step, held.get(equation)
+    return {equation: unknown for unknown, equation in given.items()}
+
+
+def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
+    """Strongly connected components, each after those it needs (Kosaraju; Sharir 1981, without recursion).
+
+    Parameters
+    ----------
+    needs : for each node the nodes it needs
+    """
+    finished: dict[N, None] = {}
+    seen: set[N] = set()
+    for root in needs:
+        path = [(root, iter(needs[root]))] if root not in seen else []
+        seen.add(root)
+        while path:
+            node, left = path[-1]
+            following = next((other for other in left if other not in seen), None)
+            if following is None:
+                finished[path.pop()[0]] = None
+            else:
+                seen.add(following)
+                path.append((following, iter(needs[following])))
+    users: dict[N, list[N]] = {node: [] for node in needs}
+    for node, needed in needs.items():
+        for other in needed:
+            users[other].append(node)
+    found: list[tuple[N, ...]] = []
+    while finished:
+        root, _ = finished.popitem()
+        together = reached([root], lambda node: [user for user in users[node] if user in finished])
+        found.append(tuple(together))
+        for node in together:
+            finished.pop(node, None)
+    return found[::-1]
+
+
+def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, None]:
+    """What can be reached from some nodes, these included, in the order in which it is met."""
+    found = dict.fromkeys(start)
+    queue = list(found)
+    while queue:
+        fresh = [node for node in dict.fromkeys(onward(queue.pop())) if node not in found]
+        found.update(dict.fromkeys(fresh))
+        queue += fresh
+    return found
 
 
 def _in_order(
-    system: Constraints,
+    structure: Structure,
     nodes: Sequence[Node],
     unknowns: Sequence[Sequence[Unknown]],
     given: Mapping[int, Unknown],
     known: set[str],
 ) -> tuple[Element, ...]:
     """The elements that place some nodes, each after those it needs."""
-    needs: dict[Node, list[Node]] = {node: [] for node in nodes}
+    rank = _ranks(structure)
+    needs: dict[Node, dict[Node, None]] = {node: {} for node in nodes}
     for i, (node, _) in given.items():
-        others = sorted({n for n, _ in unknowns[i]} - {node}, key=system.place)
-        needs[node] += [n for n in others if n not in needs[node]]
+        others = {n for n, _ in unknowns[i]} - {node}
+        needs[node].update(dict.fromkeys(sorted(others, key=lambda n: (n[0], rank(n[1]) if n[0] == "link" else n[1]))))
     elements: list[Element] = []
-    for component in components(needs):
-        members = [name for kind, name in component if kind == "link"]
-        if not members:
-            continue
-        members.sort(key=lambda name: system.place(("link", name)))
-        elements.append(element_of(system, members, known))
-        known.update(members)
+    for component in components({node: list(others) for node, others in needs.items()}):
+        members = sorted((name for kind, name in component if kind == "link"), key=rank)
+        if members:
+            elements.append(_element_of(structure, members, known))
+            known.update(members)
     return tuple(elements)
+
+
+_KINDS: Mapping[str, tuple[DyadKind, Literal["as found", "the other", "as written", "what slides"]]] = {
+    "RRR": ("RRR", "as written"), "PRP": ("PRP", "as written"), "RPR": ("RPR", "what slides"),
+    "RRP": ("RRP", "as found"), "PRR": ("RRP", "the other"), "RPP": ("RPP", "as found"), "PPR": ("RPP", "the other"),
+}  # fmt: skip
+"""Of three pairs in their order the kind of dyad, and which of its bodies is called the first."""
+_SIDES = (True, True), (True, False), (False, True)  # of the inner and the outer pairs of two bodies
+
+
+def _element_of(structure: Structure, members: list[str], known: set[str]) -> Element:
+    """The element of links that are solved together, the ``known`` ones before it."""
+    scene, inside = structure.scene, set(members)
+    drivers = [d for d in structure.drivers if inside & {*d.links} and {*d.links} <= inside | known]
+    pairs = _pairs(structure, members, known)
+    for cam in structure.cams:
+        if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
+            return Driven(cam.follower, pairs[0], cam)
+        if cam.follower in inside or (cam.link in inside and cam.follower in known):
+            raise Unsolvable("mobility", Problem(
+                f"cams.{cam.link}", Phrase("link is not moved by the cam alone", follower=cam.follower),
+                Phrase("drive cam what else moves hangs on the", link=cam.link)))  # fmt: skip
+    rolling = tuple(r for r in structure.relations if _touches(structure, r, inside, known))
+    real = tuple(m for m in members if m in scene.by_name)
+    if len(members) == 1 and len(pairs) == 1 and len(drivers) + len(rolling) == 1:
+        driver = drivers[0] if drivers else rolled_by(scene, rolling[0], members[0], pairs[0])
+        if driver is not None:
+            return Driven(members[0], pairs[0], driver)
+    bodies, loose = _bodies(structure, members, drivers)
+    dyad = _dyad(structure, bodies, pairs, real) if not loose and not rolling else None
+    if dyad is not None:
+        return dyad
+    order = 2 if rolling and _rolls_like_a_dyad(members, pairs, drivers, rolling) else _order(members, pairs)
+    return LargerGroup(tuple(members), tuple(pairs), tuple(drivers), real, order, rolling=rolling)
+
+
+def _touches(structure: Structure, relation: RollingRelation, inside: set[str], known: set[str]) -> bool:
+    """Whether a relation holds members of a group, all else in it being known."""
+    slides = (structure.slide(name) for kind, name in relation.terms if kind == "travel")
+    within = {*relation.links, *(n for s in slides for n in s.links)} - {structure.scene.frame.name}
+    return bool(within & inside) and within <= inside | known
+
+
+def _pairs(structure: Structure, members: list[str], known: set[str]) -> list[Pair]:
+    """All pairs that hold the members: to known links, or among themselves."""
+    found: list[Pair] = []
+    for point, names in structure.hinges.items():
+        mine = sorted((n for n in names if n in members), key=_ranks(structure))
+        base = [n for n in names if n in known]
+        found += [Pair(point, n, base[0]) for n in mine] if base else [Pair(point, b, a) for a, b in pairwise(mine)]
+    inside = set(members)
+    return found + [s for s in structure.slides if inside.intersection(s.links) and {*s.links} <= inside | known]
+
+
+def _bodies(
+    structure: Structure, members: list[str], drivers: Sequence[Driver]
+) -> tuple[list[Body], list[Driver]]:
+    """Links of the group that drivers hold together, and the drivers that act at no pair inside it."""
+    joints: list[DrivenJoint] = []
+    loose: list[Driver] = []
+    for driver in drivers:
+        pair = driver_pair(driver, structure.links, structure.slides)
+        if pair is None or not {*pair.links} <= set(members):
+            loose.append(driver)
+        else:
+            joints.append(DrivenJoint(pair, driver, pair.b, pair.a))
+    bodies: list[Body] = []
+    left = list(members)
+    while left:
+        names, used = [left.pop(0)], list[DrivenJoint]()
+        while joint := next((j for j in joints if (j.a in names) != (j.b in names)), None):
+            used.append(joint if joint.a in names else DrivenJoint(joint.pair, joint.driver, joint.b, joint.a, -1))
+            names.append(used[-1].b)
+            left.remove(used[-1].b)
+        bodies.append(Body(tuple(names), tuple(used)))
+    return bodies, loose
+
+
+def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tuple[str, ...]) -> Dyad | None:
+    if len(bodies) != 2:
+        return None
+    one, two = bodies
+    of_sides: dict[tuple[bool, bool], dict[str, Pair]] = {}  # by the bodies that they hold
+    for pair in pairs:
+        sides = not {*one.links}.isdisjoint(pair.links), not {*two.links}.isdisjoint(pair.links)
+        if all(sides) or not any({*body.links}.issuperset(pair.links) for body in bodies):
+            # links held together by a driver at this very point hang on it once
+            of_sides.setdefault(sides, {}).setdefault(pair.point or pair.key, pair)
+    inner, first, second = (list(of_sides.get(sides, {}).values()) for sides in _SIDES)
+    if len(inner) != 1 or len(first) != 1 or len(second) != 1:
+        return None
+    (middle,), (outer_first,), (outer_second,) = inner, first, second
+    if outer_first.letter + middle.letter + outer_second.letter not in _KINDS:
+        return None
+    kind, begins = _KINDS[outer_first.letter + middle.letter + outer_second.letter]
+    rank = _ranks(structure)
+    own_one, own_two = (next(rank(n) for n in pair.links if n in body.links)
+                        for pair, body in ((outer_first, one), (outer_second, two)))  # fmt: skip
+    swap = {
+        "as found": False,
+        "the other": True,
+        "as written": own_two < own_one,
+        "what slides": middle.a in two.links,
+    }[begins]
+    if swap:
+        one, two, outer_first, outer_second = two, one, outer_second, outer_first
+    return Dyad(kind, one, two, middle, outer_first, outer_second, links)
+
+
+def _rolls_like_a_dyad(
+    members: Sequence[str], pairs: Sequence[Pair], drivers: Sequence[Driver], rolling: Sequence[RollingRelation]
+) -> bool:
+    """Whether for velocities a group is two links with three joints, one of them where it rolls, as if hinged there: a
+    link that only carries a wheel follows it, links that a driver joins are one."""
+    carriers = {carrier for relation in rolling for carrier in relation.links[2:]}
+    bodies = sum(name not in carriers for name in members)
+    joints = sum(not carriers & {pair.a, pair.b} for pair in pairs) + len(rolling)
+    return (bodies, joints) == (2 + len(drivers), 3 + len(drivers))
+
+
+def _order(members: list[str], pairs: list[Pair]) -> int:
+    """Class of a group after Assur and Artobolevsky: the most pairs on a link of it (three or more), or the most
+    links in a shortest closed contour of it (four or more)."""
+    most = max(sum(name in (p.a, p.b) for p in pairs) for name in members)
+    edges = [(p.a, p.b) for p in pairs if p.a in members and p.b in members]
+    contour = 0
+    for i, (a, b) in enumerate(edges):
+        reach, front, steps = {a}, [a], 1
+        while front and b not in reach:
+            front = [y for x in front for j, e in enumerate(edges) if j != i and x in e for y in e if y not in reach]
+            reach.update(front)
+            steps += 1
+        if b in reach:
+            contour = max(contour, steps)
+    return max(3, most, contour if contour >= 4 else 0)
+
+# -- driven triangles, and what rolls at the scene's own position ------------------------------------------------------
 
 
 def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tuple[DrivenTriangle, ...]:
     """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
     found: list[DrivenTriangle] = []
     for driver in group.drivers:
-        if driver.slide and {*driver.links} <= {*group.members}:
-            fitting = (t for t in _closed_by(structure, group, driver) if t.equivalent.key not in taken)
-            for triangle in islice(fitting, 1):
-                taken.add(triangle.equivalent.key)
-                found.append(triangle)
+        triangle = next((t for t in _closed_by(structure, group, driver) if t.equivalent.key not in taken), None)
+        if triangle is not None:
+            taken.add(triangle.equivalent.key)
+            found.append(triangle)
     return tuple(found)
 
 
@@ -177,7 +429,7 @@ def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iter
     common pair follows at once, whatever the rest of the mechanism does.
     """
     ends = [_hung_on(structure, group, link, driver.slide) for link in driver.links]
-    if any(len(joints) != 1 for joints in ends):
+    if not driver.slide or not {*driver.links} <= {*group.members} or any(len(joints) != 1 for joints in ends):
         return
     for a, b in product(ends[0][0], ends[1][0]):
         if a == b or {a, b} & {*driver.links}:
@@ -204,20 +456,17 @@ def _hung_on(structure: Structure, group: LargerGroup, link: str, slide: str) ->
 def _in_parts(structure: Structure) -> Structure:
     """Larger groups that driven triangles turn into dyads, told as such: of class II."""
     taken = {d.key for d in structure.drivers}
-    found: dict[Element, tuple[DrivenTriangle, ...]] = {}
-    for group in structure.larger_groups:
-        if triangles := _triangles(structure, group, taken):
-            found[group] = triangles
-    if not found:
+    found = {group: _triangles(structure, group, taken) for group in structure.larger_groups}
+    instead = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
+    if not instead:
         return structure
-    instead: dict[Driver, Driver] = {t.driver: t.equivalent for triangles in found.values() for t in triangles}
     try:
         opened = analyse(replace(structure.scene, drivers=tuple(instead.get(d, d) for d in structure.scene.drivers)))
     except Unsolvable:
         return structure
     elements: list[Element] = []
     for e in structure.elements:
-        if e in found and isinstance(e, LargerGroup):
+        if isinstance(e, LargerGroup) and found[e]:
             inside = [part for part in opened.elements if set(part.members) & set(e.members)]
             parts = tuple(part for part in inside if isinstance(part, Driven | Dyad))
             if len(parts) == len(inside):
@@ -260,54 +509,113 @@ def started(structure: Structure) -> Structure:
 def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) -> tuple[Element, ...] | None:
     """The elements that place some links of a scene, others being known; None where what holds them does not place
     them, neither more nor less."""
-    system = Constraints(scene)
+    structure = _placed(scene)
     placed, wanted = set(known), set(members)
-    nodes = [n for n in system.nodes() if _open(system, n, placed, wanted)]
+
+    def settled(node: Node) -> bool:
+        kind, name = node
+        return name in placed if kind == "link" else not placed.isdisjoint(structure.hinges[name])
+
+    def is_open(node: Node) -> bool:
+        """Whether a node is to be placed: a wanted link, or a hinge of one that no known link has."""
+        kind, name = node
+        return name in wanted if kind == "link" else not (wanted.isdisjoint(structure.hinges[name]) or settled(node))
+
+    nodes = [n for n in _nodes(structure) if is_open(n)]
     free = set(nodes)
     rows = []
-    for equation in system.equations():
+    for equation in _equations(structure):
         inside = sorted(u for u in equation if u[0] in free)
-        if inside and all(n in free or _settled(system, n, placed) for n, _ in equation):
+        if inside and all(n in free or settled(n) for n, _ in equation):
             rows.append(inside)
     given = match(rows)
     if len(given) < len(rows) or len(rows) != sum(3 if kind == "link" else 2 for kind, _ in nodes):
         return None
-    return _in_order(system, nodes, rows, given, placed)
+    return _in_order(structure, nodes, rows, given, placed)
 
 
-def _settled(system: Constraints, node: Node, placed: set[str]) -> bool:
-    kind, name = node
-    return name in placed if kind == "link" else bool(placed.intersection(system.hinges[name]))
+# -- why there is no order of solution ---------------------------------------------------------------------------------
 
 
-def _open(system: Constraints, node: Node, placed: set[str], wanted: set[str]) -> bool:
-    """Whether a node is to be placed: a wanted link, or a hinge of one that no known link has."""
-    kind, name = node
-    if kind == "link":
-        return name in wanted
-    return bool(wanted.intersection(system.hinges[name])) and not _settled(system, node, placed)
+def _wrong_count(structure: Structure) -> Problem:
+    scene, mobility = structure.scene, structure.mobility
+    found = len(scene.drivers)
+    higher = f" - {mobility.higher}" if mobility.higher else ""
+    count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
+    wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
+    if found > mobility.value > 0:
+        names = ", ".join(d.key for d in scene.drivers)
+        wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
+    idle = [link.name for link in scene.links if link.redundant]
+    if idle and mobility.value > found:
+        wanted.append(Phrase(about("marked redundant is not counted", idle), links=", ".join(idle)))
+    if found == 0:
+        wanted.append(Phrase("write in the file driver with"))
+    if mobility.value <= 0:
+        wanted = [Phrase("it is a structure no driver can move")]
+        loop = _sliding_loop(structure)
+        if loop:
+            wanted = [Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop))]
+    drivers = (
+        Phrase("no driver") if found == 0 else Phrase("drivers counted" if found > 1 else "driver counted", count=found)
+    )
+    return Problem(Phrase("status mobility"), Phrase("but given", count=count, drivers=drivers), clauses(wanted))
 
 
-def mobility_of(scene: Mechanism) -> Mobility:
-    """Links, pairs and F of a scene, whatever its drivers are."""
-    return Constraints(scene).mobility()
+def _sliding_loop(structure: Structure) -> list[str]:
+    """Links of a closed loop of sliding pairs only, if there is one."""
+    group: dict[str, set[str]] = {name: {name} for name in structure.links}
+    for s in structure.slides:
+        if group[s.a] is group[s.b]:
+            ends = {n for t in structure.slides if group[t.a] is group[s.a] for n in t.links}
+            return sorted(ends, key=_ranks(structure))
+        merged = group[s.a] | group[s.b]
+        group.update(dict.fromkeys(merged, merged))
+    return []
 
 
-def _loose_ends(system: Constraints) -> Iterator[Problem]:
+def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapping[int, Unknown]) -> Problem:
+    """Name the links that are held too much and those that are free (the parts of Dulmage and Mendelsohn)."""
+    users: dict[Unknown, list[int]] = {}
+    for i, row in enumerate(unknowns):
+        for u in row:
+            users.setdefault(u, []).append(i)
+    owner = {u: i for i, u in given.items()}
+    unserved = (i for i in range(len(unknowns)) if i not in given)
+    over = reached(unserved, lambda i: [owner[u] for u in unknowns[i] if u in owner])
+    every = ((n, a) for n in _nodes(structure) for a in ("xyt" if n[0] == "link" else "xy"))
+    free = reached((u for u in every if u not in owner), lambda u: [given[i] for i in users.get(u, []) if i in given])
+
+    def names(found: Iterable[Unknown]) -> str:
+        links = {name for (kind, name), _ in found if kind == "link"}
+        return ", ".join(sorted(links, key=_ranks(structure))) or "none"
+
+    loop = _sliding_loop(structure)
+    wanted = Phrase("each part of the mechanism needs as many")
+    if loop:
+        wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
+    held = names(u for i in over for u in unknowns[i])
+    return Problem("mobility", Phrase("links held too much links left free", names=held, other=names(free)), wanted)
+
+
+def _loose_ends(structure: Structure) -> Iterator[Problem]:
     """Why a mechanism has more freedom than was meant, by name: points that nothing joins, links that hang on one pin;
     nothing where all hang together.
 
     The commonest cause is a slip of the hand, a name written in two ways; the next a roller, whose own turning moves
     nothing else.
     """
-    scene = system.scene
-    moving = [link for name, link in system.links.items() if name in scene.by_name and name != scene.frame.name]
-    unused = [p for p in scene.frame.points if p not in system.hinges]
-    free = {link.name: [p for p in link.bar if not _held(system, p)] for link in moving}
+    scene, hinges = structure.scene, structure.hinges
+    moving = [link for name, link in structure.links.items() if name in scene.by_name and name != scene.frame.name]
+    unused = [p for p in scene.frame.points if p not in hinges]
+    held = {*hinges, *(cam.name_of_point for cam in structure.cams), *(s.pin for s in structure.slides if s.slot)}
+    free = {link.name: [p for p in link.bar if p not in held] for link in moving}
     lonely = [p for points in free.values() for p in points]
     for link in moving:
-        joints = _joints(system, link)
-        ends = free[link.name]
+        joints = [p for p, names in hinges.items() if link.name in names]
+        joints += [s.key for s in structure.slides if link.name in s.links]
+        joints += [cam.key for cam in structure.cams if link.name in (cam.link, cam.follower)]
+        where, ends = f"links.{link.name}", free[link.name]
         if len(joints) >= 2:
             continue
         for point in ends:
@@ -317,32 +625,13 @@ def _loose_ends(system: Constraints) -> Iterator[Problem]:
             )
             if like in unused:
                 wanted = Phrase("did you mean a point of the frame", name=like)
-            yield Problem(
-                f"links.{link.name}", Phrase("no other link has its point", point=point, link=_hangs(joints)), wanted
-            )
-        if not ends and len(joints) == 1 and system.mobility().value > len(scene.drivers):
+            hangs: Wording = Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
+            yield Problem(where, Phrase("no other link has its point", point=point, link=hangs), wanted)
+        if not ends and len(joints) == 1 and structure.mobility.value > len(scene.drivers):
             found = Phrase("it hangs on alone and turns there freely", joints=joints[0])
-            wanted = Phrase("join it to another link too or leave")
-            yield Problem(f"links.{link.name}", found, wanted)
+            yield Problem(where, found, Phrase("join it to another link too or leave"))
         if not ends and not joints:
-            yield Problem(f"links.{link.name}", Phrase("nothing holds it"), Phrase("name a point of another link or a"))
-
-
-def _held(system: Constraints, point: str) -> bool:
-    """Whether something else has a point too, or a pin of it runs in a slot."""
-    on_cam = any(cam.name_of_point == point for cam in system.cams)
-    return on_cam or point in system.hinges or any(s.slot and s.pin == point for s in system.slides)
-
-
-def _joints(system: Constraints, link: PlacedLink) -> list[str]:
-    """The hinges and slides of a link."""
-    hinges = [p for p, names in system.hinges.items() if link.name in names]
-    slides = [s.key for s in system.slides if link.name in (s.a, s.b)]
-    return hinges + slides + [cam.key for cam in system.cams if link.name in (cam.link, cam.follower)]
-
-
-def _hangs(joints: Sequence[str]) -> Wording:
-    return Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
+            yield Problem(where, Phrase("nothing holds it"), Phrase("name a point of another link or a"))
 
 
 def _like(point: str, names: Sequence[str]) -> str:

@@ -38,6 +38,7 @@ __all__ = [
     "greatest_before",
     "in_stages",
     "links_for",
+    "named_with_contact",
     "needed",
     "part_of",
     "without",
@@ -316,7 +317,8 @@ class Structure:
     """The mechanism in the order of solution.
 
     ``links`` holds every link that takes part, the frame and the blocks of pins included, redundant links left out;
-    ``hinges`` maps each point shared by links to those links.  ``followers`` are what rolling makes follow the drivers.
+    ``hinges`` maps each point shared by links to those links.  ``followers`` are what rolling makes follow the drivers,
+    ``relations`` what else it ties, ``cams`` those that move a follower by their law.
 
     From these follow all ``drivers``, those of the scene first; the Assur ``groups`` in the order of solution, among
     them the ``dyads`` by their places in it and the ``larger_groups`` that are solved as a whole; the ``driven`` links,
@@ -332,6 +334,8 @@ class Structure:
     mobility: Mobility
     elements: tuple[Element, ...]
     followers: tuple[Driver, ...] = ()
+    relations: tuple[RollingRelation, ...] = ()
+    cams: tuple[LawCam, ...] = ()
 
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     groups: tuple[Dyad | LargerGroup, ...] = field(init=False, repr=False, compare=False)
@@ -392,9 +396,23 @@ class Structure:
                          if not on.isdisjoint(found) for n in e.members)  # fmt: skip
         return frozenset(found)
 
+    @property
+    def whole(self) -> Structure | Mechanism:
+        """Itself, or the mechanism with cams in whose place its own may stand."""
+        return self if self.scene.instead_of is None else self.scene.instead_of
+
     def slide(self, key: str) -> Pair:
         """The sliding pair or pin in slot of that name."""
         return next(s for s in self.slides if s.key == key)
+
+
+def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
+    """The links of a group, and the contact that one of them stands for: ``contact K of links 1, 2``."""
+    inside = {n for body in dyad.bodies for n in body.links}
+    contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
+    if contact is not None:
+        return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
+    return Phrase("links", links=", ".join(dyad.links))
 
 
 def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Pair, ...]) -> Pair | None:

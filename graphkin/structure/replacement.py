@@ -23,10 +23,10 @@ from graphkin.plane import cross, unit
 from graphkin.scene.bodies import CircularSlot, PinInSlot
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
-from graphkin.structure.model import Dyad, Pair, Structure
+from graphkin.structure.model import Pair, Structure
 from graphkin.words import Phrase
 
-__all__ = ["cams_replaced", "named_with_contact", "pins_on_circles", "replacement_told", "replacing_link", "with_cams"]
+__all__ = ["cams_replaced", "pins_on_circles", "replacement_told", "replacing_link"]
 
 
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
@@ -77,15 +77,6 @@ def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex
     )  # fmt: skip
 
 
-def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
-    """The links of a group, and the contact that one of them stands for: ``contact K of links 1, 2``."""
-    inside = {n for body in dyad.bodies for n in body.links}
-    contact = next((c for c in structure.scene.contacts if not c.carrier and c.block in inside), None)
-    if contact is not None:
-        return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
-    return Phrase("links", links=", ".join(dyad.links))
-
-
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, what replaces each, and the mobility counted after the replacement."""
     scene, said = structure.scene, list[Phrase]()
@@ -116,12 +107,6 @@ SHARP = 1e-9
 """A pitch curve whose tangent is shorter than this, of the base radius, has a cusp."""
 ROUNDED = 1e-13
 """A centre of curvature nearer to the axis than this part of the radius lies on it."""
-
-
-def with_cams(scene: Mechanism | Structure) -> Mechanism | Structure:
-    """The mechanism itself, in whose place another may stand."""
-    own = scene.scene if isinstance(scene, Structure) else scene
-    return scene if own.instead_of is None else own.instead_of
 
 
 def cams_replaced(

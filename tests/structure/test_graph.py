@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.structure.groups import components, match
+from graphkin.structure.analysis import components, match
 
 pytestmark = pytest.mark.quick
 
