@@ -23,7 +23,6 @@ from graphkin.structure import (
     Dyad,
     LargerGroup,
     Structure,
-    in_stages,
     named_with_contact,
     pick,
     started,
@@ -185,7 +184,7 @@ def _nearest(structure: Structure, i: int, drive: Drive, forms: Mapping[int, Arr
         gaps = [g.discriminant >= 0 for g in state.groups.values() if isinstance(g, DyadSolution)]
         return np.asarray(np.logical_and.reduce(np.broadcast_arrays(*gaps)))
 
-    if in_stages(structure.elements[:i]):
+    if not all(e.explicit for e in structure.elements[:i]):
         return ""
     offset = np.linspace(-1, 1, 721)
     good = np.flatnonzero(closes(offset))

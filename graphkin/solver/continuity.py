@@ -17,7 +17,7 @@ from graphkin.solver.engine import group_at, least_closes, positions
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import limit_why
-from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure, in_stages
+from graphkin.structure import Driven, Dyad, LargerGroup, Rolled, Structure
 from graphkin.structure.assembly import ChangePoint, Passage, follow
 from graphkin.words import Phrase
 
@@ -319,7 +319,7 @@ def _follow_dyad(path: Path, i: int, dyad: Dyad, sign: float, grid: Array) -> Pa
         return np.broadcast_to(solved.discriminant, t.shape)
 
     def least(t: float) -> tuple[float, int] | None:
-        if in_stages(path.structure.elements[:i]):
+        if not all(e.explicit for e in path.structure.elements[:i]):
             return None
         forms = path.form(_off_flips(path.flips, np.array([t])))
         return least_closes(path.structure, i, forms, path.start.tolist(), path.end.tolist(), t)

@@ -19,7 +19,7 @@ from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
-from graphkin.structure import Dyad, LargerGroup, Structure, in_stages
+from graphkin.structure import Dyad, LargerGroup, Structure
 from graphkin.words import Phrase, Wording
 
 __all__ = ["DeadPoint", "dead_points", "nearest_dead_point", "singular", "without_singular"]
@@ -60,7 +60,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     for group in structure.larger_groups:
         where = links_words(group.links)
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
-    if in_stages(structure.elements):
+    if not all(e.explicit for e in structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))
     found: list[DeadPoint] = []
@@ -85,7 +85,7 @@ def not_searched(structure: Structure) -> tuple[str, ...]:
 
 def nearest_dead_point(structure: Structure, i: int, signs: Mapping[int, float], value: float) -> DeadPoint | None:
     """The dead point of a group within a hundredth of a radian (of the size) of a value of the only driver."""
-    if len(structure.scene.drivers) != 1 or in_stages(structure.elements[: i + 1]):
+    if len(structure.scene.drivers) != 1 or not all(e.explicit for e in structure.elements[: i + 1]):
         return None
     unit = structure.scene.drivers[0].span(structure.scene.size)
     grid = value + BESIDE * unit * np.linspace(-1.0, 1.0, 42)
@@ -237,7 +237,7 @@ def _beyond_limits(
         if not len(near):
             continue
         own = {j: np.broadcast_to(f, (n, *np.shape(f)[1:]))[near] for j, f in forms.items() if j <= i}
-        if in_stages(structure.elements[:i]):
+        if not all(e.explicit for e in structure.elements[:i]):
             side, left_open = np.where(discriminant[near] < 0, -1, 1), np.zeros(len(near), dtype=bool)
         else:
             one = np.ones((len(near), values.shape[1]))

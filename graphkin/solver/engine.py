@@ -24,7 +24,7 @@ from graphkin.solver.expressions import DECIMALS, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
 from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
-from graphkin.structure import Driven, LargerGroup, Rolled, Structure, in_stages
+from graphkin.structure import Driven, LargerGroup, Rolled, Structure
 
 __all__ = [
     "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "extended_precision_of", "group_at",
@@ -283,7 +283,7 @@ class _Run:
             )
         exact, none = np.zeros(self.n, dtype=bool), np.zeros((self.n, 0))
         slack = np.concatenate([none, *self.slack], axis=1)
-        if names and not in_stages(elements):
+        if names and all(e.explicit for e in elements):
             exact = known_exactly(drivers, self.drive.value)
         count = len(self.structure.scene.drivers)
         rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
@@ -295,7 +295,8 @@ class _Run:
         state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), clear, slack,
                       np.where(exact, TINY, SINGULAR), lifted)  # fmt: skip
         again = exact
-        if names and self.fine and self.rates and upto == len(self.structure.elements) and not in_stages(elements):
+        whole = upto == len(self.structure.elements) and all(e.explicit for e in elements)
+        if names and self.fine and self.rates and whole:
             again = exact | self._rough(state)
         if not again.any():
             return state

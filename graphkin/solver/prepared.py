@@ -26,7 +26,7 @@ from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
-from graphkin.structure import Structure, in_stages
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
 __all__ = ["Column", "PreparedMechanism", "Units", "force_heads", "force_rows", "formulas", "prepare"]
@@ -101,7 +101,7 @@ class PreparedMechanism:
     @cached_property
     def by_newton(self) -> bool:
         """Whether there is a larger group, whose poses are found by Newton's method before the formulas are used."""
-        return in_stages(self.structure.elements)
+        return not all(e.explicit for e in self.structure.elements)
 
     # the way of the driver
 

@@ -19,7 +19,6 @@ from graphkin.structure.model import (
     by_drivers_alone,
     driver_pair,
     greatest_before,
-    in_stages,
     links_for,
     named_with_contact,
     needed,
@@ -49,7 +48,7 @@ __all__ = [
     "by_drivers_alone",
     "driver_pair",
     "greatest_before",
-    "in_stages",
+
     "links_for",
     "meshes_of",
     "mobility_of",

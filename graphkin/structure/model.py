@@ -36,7 +36,7 @@ __all__ = [
     "by_drivers_alone",
     "driver_pair",
     "greatest_before",
-    "in_stages",
+
     "links_for",
     "named_with_contact",
     "needed",
@@ -167,7 +167,8 @@ class Driven:
 
     ``pair`` joins it (``a``) to a known link (``b``); for a slide driver it is the slide itself, in which the
     driven link may be the sliding or the guiding one.  It answers as groups do: of ``links`` and ``members`` it is the
-    only one; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the links that it hangs on.
+    only one; ``drivers`` has the driver unless that is a cam or rolling; ``outside`` are the links that it hangs on;
+    it is ``explicit``, given by formulas of the drivers alone, unless it follows a cam, whose law has pieces, or rolls.
     """
 
     link: str
@@ -182,6 +183,7 @@ class Driven:
     pairs: tuple[Pair] = field(init=False, repr=False, compare=False)
     drivers: tuple[Driver, ...] = field(init=False, repr=False, compare=False)
     rolled: Rolled | None = field(init=False, repr=False, compare=False)
+    explicit: bool = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -189,7 +191,7 @@ class Driven:
         self.__dict__.update(
             links=(self.link,), members=(self.link,), pairs=(self.pair,),
             drivers=(driver,) if isinstance(driver, Driver) else (),
-            rolled=driver if isinstance(driver, Rolled) else None,
+            rolled=driver if isinstance(driver, Rolled) else None, explicit=driver.given,
             outside=frozenset((*self.pair.links, *driver.links, *driver.through)) - {self.link},
         )  # fmt: skip
 
@@ -223,6 +225,7 @@ class Dyad:
     outer_second: Pair
     links: tuple[str, ...]
     order: ClassVar[int] = 2
+    explicit: ClassVar[bool] = True
     starts: ClassVar[tuple[Driver, ...]] = ()
     rolling: ClassVar[tuple[RollingRelation, ...]] = ()
 
@@ -283,6 +286,7 @@ class LargerGroup:
     parts: tuple[Driven | Dyad, ...] = ()
     rolling: tuple[RollingRelation, ...] = ()
     starts: tuple[Driver, ...] = ()
+    explicit: ClassVar[bool] = False  # found by Newton's method
 
     kind: str = field(init=False, repr=False, compare=False)
     outside: frozenset[str] = field(init=False, repr=False, compare=False)
@@ -494,12 +498,6 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
         return whole if at is None else max((before[place] for place in at), default=0.0)
 
     return greatest
-
-
-def in_stages(elements: Sequence[Element]) -> bool:
-    """Whether some elements are not given by formulas of the drivers alone: larger groups, found by Newton's method,
-    followers of cams, whose law has pieces, and what rolls."""
-    return any(isinstance(e, LargerGroup) or (isinstance(e, Driven) and not e.driver.given) for e in elements)
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:

@@ -25,7 +25,7 @@ from graphkin.solver.designs import PreparedMechanisms
 from graphkin.solver.named_positions import named_positions
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
-from graphkin.structure import Structure, in_stages
+from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
 from graphkin.table import Column, Table, have, parquet_of_csv
@@ -92,7 +92,7 @@ class FollowedDesign:
             return None
         if self.at or self.scene.question.positions is not None or moves_by_law(self.scene):
             return None
-        if in_stages(self.structure.elements):
+        if not all(e.explicit for e in self.structure.elements):
             return None
         try:
             return prepare(self.structure, [w.name for w in self.asked], self.scene.units.per_si, along=self.reach)
