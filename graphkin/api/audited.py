@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from numbers import Real
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -182,7 +182,7 @@ class Audited(OfScene, Result):
         """The table as texts, in the language of the call."""
         rows = []
         for who, judged in self.people:
-            own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _place(who.at)}
+            own = {"person": who.person, "id": who.id, "variant": who.variant, "at": _cell(who.at)}
             lead = [own[key] for key in self._named]
             for row in rows_of(self.mechanism, who, judged, self.language):
                 percent, gap = row["deviation_pct"], row.get("loop_gap")
@@ -217,7 +217,8 @@ class Audited(OfScene, Result):
         from graphkin.table import Table
 
         rows = list(people_of(self.people, self.scheme, self.language))
-        flat = [{**{k: v for k, v in r.items() if k != "points"}, **_points(r)} for r in rows]
+        points = [row.pop("points", {}) for row in rows]
+        flat = [row | own for row, own in zip(rows, points, strict=True)]
         keys = list(dict.fromkeys(k for row in flat for k in row))
         last = [k for k in ("total", "of", "slip") if k in keys]
         keys = [*(k for k in keys if k not in last), *last]
@@ -256,15 +257,6 @@ def _head(key: str, language: str) -> str:
 
 def _cell(value: object) -> str:
     return "" if value is None else f"{value:g}" if isinstance(value, int | float) else str(value)
-
-
-def _place(at: float | str | None) -> str:
-    return "" if at is None else at if isinstance(at, str) else f"{at:g}"
-
-
-def _points(row: Mapping[str, Json]) -> Mapping[str, Json]:
-    found = row.get("points")
-    return found if isinstance(found, Mapping) else {}
 
 
 def _shown(value: Json) -> str:
@@ -336,7 +328,9 @@ def audit(
         judged = tuple(
             (who, rows[id(who)] if id(who) in rows else judge(case(who.at, who.variant), who.values)) for who in people
         )
-    told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in [*filter(_opens, judged)][:MOST_LOOPS]}
+    opened = [(who, own) for who, own in judged if any(
+        j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in own)]  # fmt: skip
+    told = {id(who): with_gaps(case(who.at, who.variant), own) for who, own in opened[:MOST_LOOPS]}
     judged = tuple((who, told.get(id(who), own)) for who, own in judged)
     return Audited(given, judged, language or given.question.sheet.language, unused, scheme, scans)
 
@@ -349,11 +343,6 @@ def _scanned(scene: Mechanism, at: At) -> tuple[JudgedScan, ...]:
     given, values = placed(scene, at)
     solved_here(given, values)
     return judge_scans(execute(plan(given, values, ())))
-
-
-def _opens(one: tuple[Answers, tuple[Judged, ...]]) -> bool:
-    """Whether a wrong angle or travel leaves a vector loop open."""
-    return any(j.verdict == "wrong" and j.printed.symbol.kind in ("theta", "s") for j in one[1])
 
 
 def _problems(
@@ -627,18 +616,17 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     return Scheme(parts, symbols)
 
 
-def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Json]]:
+def people_of(people: Sequence[Person], scheme: Scheme | None, language: str) -> Iterator[dict[str, Any]]:
     """For each person: the verdicts counted, the slip to talk about, and the points where there is a scheme.
 
     The slip is the first one made: values that only follow from it are no slips.
     """
     for who, judged in people:
         asked = [*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)]
-        counts = Counter(_verdicts(who, judged))
         slip = next((j.looks_like for j in judged if j.verdict == "wrong" and j.looks_like is not None), None)
         row: dict[str, Json] = {"person": who.person}
         row |= {k: v for k, v in (("id", who.id), ("variant", who.variant), ("at", who.at)) if v not in ("", None)}
-        row |= {verdict: counts[verdict] for verdict in COUNTED}
+        row |= _counted(judged, who.unread)
         if slip is not None:
             row["slip"] = say(slip, language)
         if scheme is not None:
@@ -664,9 +652,10 @@ def _points_of(who: Answers, judged: Sequence[Judged], asked: Sequence[Symbol], 
             "total": round(total, 4), "of": round(most, 4)}  # fmt: skip
 
 
-def _verdicts(who: Answers, judged: Sequence[Judged]) -> Iterator[str]:
-    yield from (j.verdict for j in judged)
-    yield from ("not readable" if u.why else "missing" for u in who.unread)
+def _counted(judged: Sequence[Judged], unread: Sequence[Unread]) -> dict[str, Json]:
+    """How often each verdict was given; of cells without a value they are two more."""
+    counts = Counter([*(j.verdict for j in judged), *("not readable" if u.why else "missing" for u in unread)])
+    return {verdict: counts[verdict] for verdict in COUNTED}
 
 
 def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str, Json]]:
@@ -676,12 +665,9 @@ def quantities_of(people: Sequence[Person], language: str) -> Iterator[dict[str,
         symbols |= dict.fromkeys([*(j.printed.symbol for j in judged), *(u.symbol for u in who.unread)])
     for symbol in symbols:
         own = [j for _, judged in people for j in judged if j.printed.symbol == symbol]
-        counts: Counter[str] = Counter(j.verdict for j in own)
         unread = [u for who, _ in people for u in who.unread if u.symbol == symbol]
-        counts["not readable"] = sum(bool(u.why) for u in unread)
-        counts["missing"] = len(unread) - counts["not readable"]
         slips: Counter[Phrase] = Counter(j.looks_like for j in own if j.verdict == "wrong" and j.looks_like)
-        row: dict[str, Json] = {"symbol": str(symbol), **{verdict: counts[verdict] for verdict in COUNTED}}
+        row: dict[str, Json] = {"symbol": str(symbol), **_counted(own, unread)}
         if slips:
             phrase, made = slips.most_common(1)[0]
             row |= {"commonest_slip": say(phrase, language), "made_by": made}
@@ -714,35 +700,30 @@ def _unread(scene: Mechanism, cell: Unread, language: str) -> Row:
 
 
 def _value(scene: Mechanism, judged: Judged, language: str) -> Row:
-    symbol = judged.printed.symbol
-    file_unit = symbol.unit(scene.units)
-
-    def unit(value: Value) -> float | list[float]:
-        if isinstance(value, complex):
-            # what is left of a component that cancels is no value
-            parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
-            return [_plain(file_unit.of(v)) for v in parts]
-        return _plain(file_unit.of(value))
-
+    value = JudgedValue.of(scene, judged, language)
     row: Row = {
-        "symbol": str(symbol), "written": judged.printed.text, "printed": unit(judged.printed.value),
-        "exact": unit(judged.exact), "unit": file_unit.text,
+        "symbol": str(value.symbol), "written": judged.printed.text, "printed": _plain(value.printed),
+        "exact": _plain(value.exact), "unit": value.unit,
+        "deviation_pct": None if value.deviation is None else 100 * value.deviation,
     }  # fmt: skip
-    row["deviation_pct"] = None if judged.deviation is None else 100 * judged.deviation
-    if judged.deviation is None:
+    if value.deviation is None:
         row["why"] = "the exact value is zero"
-    row["verdict"] = judged.verdict if judged.verdict != "not judged" else None
-    row["bound"] = unit(judged.bound) if math.isfinite(judged.bound) else None
-    if judged.verdict == "not judged":
+    row["verdict"] = value.verdict if value.verdict != "not judged" else None
+    row["bound"] = _plain(value.bound) if math.isfinite(value.bound) else None
+    if value.verdict == "not judged":
         row["why"] = say(Phrase("nothing to judge by"), language)
-    if judged.looks_like is not None:
-        row["looks_like"] = say(judged.looks_like, language)
+    if value.looks_like:
+        row["looks_like"] = value.looks_like
     if judged.gap is not None:
         row["loop_gap"] = {"loop": judged.gap[0], "gap": _plain(judged.gap[1] / scene.units.metres)}
-    if judged.follows_from:
-        row["follows_from"] = [str(s) for s in judged.follows_from]
+    if value.follows_from:
+        row["follows_from"] = [str(s) for s in value.follows_from]
     return row
 
 
-def _plain(value: float) -> float:
+def _plain(value: Value) -> float | list[float]:
+    """A number, or the components of a vector without what is left of one that cancels."""
+    if isinstance(value, complex):
+        parts = (v if abs(v) > 1e-12 * abs(value) else 0.0 for v in (value.real, value.imag))
+        return [float(f"{v:.12g}") + 0.0 for v in parts]
     return float(f"{value:.12g}") + 0.0

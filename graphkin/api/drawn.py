@@ -39,7 +39,7 @@ from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Dyad, Structure
 from graphkin.structure.analysis import driven_by
-from graphkin.structure.transmission import TransmissionAngle, joint_of_dyad
+from graphkin.structure.transmission import joint_of_dyad
 from graphkin.table import Table
 from graphkin.words import Phrase, Wording, languages
 
@@ -149,14 +149,6 @@ class Drawn(OfScene, Result):
         return self.figures["sheet"]._repr_svg_() if "sheet" in self.wanted else super()._repr_svg_()
 
 
-def _small_sheet(drawn: Drawn) -> tuple[Any, ...]:
-    return drawn.small.sheet, drawn.small.report
-
-
-def _at_contacts(drawn: Drawn) -> tuple[Any, ...] | None:
-    return None if drawn.checked.at_contacts is None else (drawn.checked.at_contacts.sheet,)
-
-
 def _centres(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.api.centred import ROOM, found_centres
     from graphkin.construction.centre_speeds import speeds
@@ -175,19 +167,11 @@ def _forces(drawn: Drawn) -> tuple[Any, ...] | None:
     return None if whole is None or whole.forces is None else (whole.sheet, whole.forces, whole.report)
 
 
-def _structures(drawn: Drawn) -> tuple[Any, ...]:
-    return execute(_whole(drawn)), [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
-
-
 def _positions(drawn: Drawn) -> tuple[Any, ...]:
     from graphkin.solver.named_positions import named_positions
 
     places = named_positions(drawn.mechanism)
     return (shown_positions(_whole(drawn), places.values if places else {}),)
-
-
-def _sheets_beside(drawn: Drawn) -> tuple[Any, ...]:
-    return (sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside),)
 
 
 def _cams(drawn: Drawn) -> tuple[Any, ...]:
@@ -203,12 +187,14 @@ def _whole(drawn: Drawn) -> Plan:
 
 SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     "sheet": lambda drawn: (drawn.checked.sheet,),
-    "small sheet": _small_sheet,
-    "sheet at contacts": _at_contacts,
-    "sheets beside": _sheets_beside,
+    "small sheet": lambda drawn: (drawn.small.sheet, drawn.small.report),
+    "sheet at contacts": lambda drawn: None if drawn.checked.at_contacts is None else (drawn.checked.at_contacts.sheet,),
+    "sheets beside": lambda drawn: (sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside),),
     "centres": _centres,
     "forces": _forces,
-    "structures": _structures,
+    "structures": lambda drawn: (
+        execute(_whole(drawn)), [driven_by(drawn.mechanism, drawn.driver)] if drawn.driver else []
+    ),
     "positions": _positions,
     "cams": _cams,
 }
@@ -400,8 +386,11 @@ def _least(
         return None
     joint = joint_of_dyad(structure, group)
 
-    def gamma(one: Turned) -> float:
-        first, second = _ways(structure, joint, one)
+    def directions(turned: Turned) -> tuple[complex, complex]:
+        return joint.directions(lambda link, place: turned.poses[link].place(place / structure.scene.size))
+
+    def gamma(turned: Turned) -> float:
+        first, second = directions(turned)
         across = first.conjugate() * second
         return math.atan2(abs(across.imag), abs(across.real))
 
@@ -416,17 +405,8 @@ def _least(
     inner = group.inner
     pose = sheet.poses[inner.a]
     at = pose.place(structure.links[inner.a].points[inner.point] / sheet.scales.length)
-    first, second = _ways(structure, joint, best)
+    first, second = directions(best)
     return sheet, gamma(best), (at, -first, -second)
-
-
-def _ways(structure: Structure, joint: TransmissionAngle, one: Turned) -> tuple[complex, complex]:
-    def of(spot: tuple[str, complex]) -> complex:
-        pose = one.poses[spot[0]]
-        return pose.place(spot[1] / structure.scene.size)
-
-    first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
-    return first, second * (1j if joint.square else 1.0)
 
 
 def sheets_beside(

@@ -14,7 +14,7 @@ from graphkin.construction.sheet import MOST_LOST, Sheet, either_way
 from graphkin.construction.steps import DiagramName, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
-from graphkin.structure.transmission import TransmissionAngle, joint_between, joint_of_follower, sliding_pair
+from graphkin.structure.transmission import joint_between, joint_of_follower, sliding_pair
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -178,7 +178,7 @@ def _position(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place
     )  # fmt: skip
     if any(link not in sheet.poses for way in (joint.first, joint.second) for link, _ in way):
         return None
-    first, second = ways(sheet, joint)
+    first, second = joint.directions(lambda link, place: sheet.poses[link].place(place / sheet.scales.length))
     across = instrument.read_direction(first.conjugate() * second / abs(first * second))
     angle = math.atan2(abs(across.imag), abs(across.real))
     return None, angle if symbol.kind == "gamma" else math.pi / 2 - angle
@@ -213,17 +213,6 @@ def _lengths(sheet: Sheet, symbol: Symbol, instrument: Instrument, place: Place 
             return abs(kept), abs(kept) * sheet.scales.length
         return _length(sheet, instrument, abs(spots[1] - spots[0]))
     return _length(sheet, instrument, spots[0].real if symbol.kind == "x" else spots[0].imag)
-
-
-def ways(sheet: Sheet, joint: TransmissionAngle) -> tuple[complex, complex]:
-    """The two directions on paper between which a transmission angle lies (`graphkin.structure.transmission`)."""
-
-    def of(spot: tuple[str, complex]) -> complex:
-        pose = sheet.poses[spot[0]]
-        return pose.place(spot[1] / sheet.scales.length)
-
-    first, second = (of(end) - of(start) for start, end in (joint.first, joint.second))
-    return first, second * (1j if joint.square else 1.0)
 
 
 # -- the whole turn ----------------------------------------------------------------------------------------------------

@@ -17,6 +17,7 @@ degrees.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphkin.errors import CallError, Problem
@@ -40,6 +41,11 @@ class TransmissionAngle:
     first: Way
     second: Way
     square: bool = False
+
+    def directions(self, place: Callable[[str, complex], complex]) -> tuple[complex, complex]:
+        """The two directions between which the angle lies, by where places of links are (link, m in its axes)."""
+        first, second = (place(*end) - place(*start) for start, end in (self.first, self.second))
+        return first, second * (1j if self.square else 1.0)
 
 
 def _guide(slide: Pair) -> Way:
