@@ -196,7 +196,10 @@ def _extremes(axis: DriverAxis, quantity: Quantity, found: ForceRun, values: Arr
     reach, marks = axis.reach, list[tuple[Extreme, float, float]]()
     kinds: tuple[tuple[Literal["max", "min"], Callable[[Array], np.intp]], ...]
     kinds = ("max", np.nanargmax), ("min", np.nanargmin)
-    for kind, pick in kinds if np.isfinite(values).any() else ():
+    known = values[np.isfinite(values)]
+    if len(known) and np.ptp(known) <= NOUGHT * np.abs(known).max():  # it is the same everywhere, but for rounding
+        kinds = (("max", lambda each: np.flatnonzero(np.isfinite(each))[0]),)
+    for kind, pick in kinds if len(known) else ():
         k = int(pick(values))
         at, x, value = float(found.offsets[k]), float(found.x[k]), float(values[k])
         near = found.offsets[max(k - 1, 0) : k + 2]

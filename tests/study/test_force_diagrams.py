@@ -155,3 +155,20 @@ def test_a_force_that_grows_without_bound_is_shown_where_most_of_the_way_lies(tm
     assert [] == [text for _, y, text in texts if not 0.0 <= float(y) <= height]
     assert "趋于无穷" in re.sub("<[^>]*>", "", svg)
     assert "极大值" not in re.sub("<[^>]*>", "", svg)
+
+
+def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least():
+    guide = {"through": [0, 0], "angle": 37}
+    scene = {
+        "frame": {"name": "0", "points": {"D": [150, 40]}, "guides": {"h": guide}},
+        "links": {
+            "1": {"points": ["B"], "on": "0.h"},
+            "2": {"points": ["B", "C"], "length": 120},
+            "3": {"points": ["D", "C"], "length": 90},
+        },
+        "driver": {"slide": "1", "travel": 50, "velocity": 50},
+        "sketch": {"C": [120, 120]},
+        "loads": {"P": {"on": "1", "at": "B", "force": 57.3, "angle": 112}},
+    }
+    told = graphkin.sweep(scene, positions=6).text
+    assert "F_0/1 (N): maximum 55.3475 @ -57.8694 mm\n" in told
