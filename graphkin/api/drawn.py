@@ -188,7 +188,7 @@ def _whole(drawn: Drawn) -> Plan:
 SUPPLIES: Mapping[str, Callable[[Drawn], tuple[Any, ...] | None]] = {
     "sheet": lambda drawn: (drawn.checked.sheet,),
     "small sheet": lambda drawn: (drawn.small.sheet, drawn.small.report),
-    "sheet at contacts": lambda drawn: None if drawn.checked.at_contacts is None else (drawn.checked.at_contacts.sheet,),
+    "sheet at contacts": lambda drawn: (drawn.checked.at_contacts.sheet,) if drawn.checked.at_contacts else None,
     "sheets beside": lambda drawn: (sheets_beside(drawn.plan.structure, drawn.checked.sheet.drivers, drawn.beside),),
     "centres": _centres,
     "forces": _forces,
