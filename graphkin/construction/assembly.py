@@ -18,10 +18,9 @@ from itertools import islice, pairwise, product
 
 import numpy as np
 
-from graphkin.construction.dyads import assembled, drive, meant, meet
 from graphkin.construction.follow import Choices, best_reduced, fitted, moved_to, standing
 from graphkin.construction.group_position import GroupTrial
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, start_board
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, assembled, drive, meant, meet, start_board
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.errors import Problem, Unsolvable

@@ -11,8 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.construction.dyads import assembled, meet
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, assembled, meet
 from graphkin.construction.reduced_mechanism import ReducedMechanism, RemovedConstraint, reduced_mechanisms
 from graphkin.construction.touching import rolled_near
 from graphkin.errors import Unsolvable

@@ -20,10 +20,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphkin.construction.dyads import Story, drive, meet
 from graphkin.construction.follow import best_first, drawn_near, fitted
 from graphkin.construction.instruments import EXACT
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses
+from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, Story, drive, meet
 from graphkin.construction.proportional_division import divide, shares
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.steps import (

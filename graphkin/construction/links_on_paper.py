@@ -1,22 +1,44 @@
-"""Links on paper: where they lie, how they move, how hands prick and place them, how pairs hold a body of them."""
+"""Links on paper: where they lie, how hands prick and place them, and where those of an element lie, lengths in mm.
+
+Of a driven link the angle or the travel is laid off.  For each kind of dyad compass arcs and ruler lines meet: a
+`Meeting` tells how well the two loci cross, the possible places of the links, and for each what was drawn.
+"""
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.steps import OnPaper
-from graphkin.plane import added_up, direction, dot, unit
+from graphkin.construction.steps import Bar, CompassArc, OnPaper, Step
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import added_up, cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.model import Driver, PlacedLink
-from graphkin.structure import Body, Dyad, Pair, Structure
+from graphkin.structure import (
+    Body,
+    Driven,
+    Dyad,
+    DyadKind,
+    Element,
+    LargerGroup,
+    Pair,
+    Rolled,
+    Structure,
+    named_with_contact,
+    pick,
+)
+from graphkin.words import Phrase
 
 __all__ = [
-    "LinkMotion", "PlacedLinks", "Pose", "Poses", "RigidBody", "across", "apart", "hinge", "inner_hinge",
-    "pushed_by_driver", "rail", "start_board", "travel",
+    "Choose", "LinkMotion", "Meeting", "PlacedLinks", "Pose", "Poses", "RigidBody", "Story", "across", "apart",
+    "assemble", "assembled", "drive", "meant", "meet", "pushed_by_driver", "reading", "refuse", "start_board", "travel",
 ]  # fmt: skip
+
+SAME_HOLE = 1e-9
+"""Points of a link that lie nearer to each other on paper (mm) are pricked once."""
+DEAD = 1e-7  # sine of a crossing below which a group is at a dead point
 
 
 @dataclass(frozen=True)
@@ -30,15 +52,13 @@ class Pose(OnPaper):
         """A place on paper (mm), given in the link's own axes (mm)."""
         return self.origin + self.axis * own
 
+
 Poses = Mapping[str, Pose]
 
 
 def apart(one: Poses, other: Poses) -> float:
     """How far links lie from where others of the same names do, on paper (mm, and direction by direction)."""
     return added_up(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) for n, p in one.items())
-
-SAME_HOLE = 1e-9
-"""Points of a link that lie nearer to each other on paper (mm) are pricked once."""
 
 
 @dataclass(frozen=True)
@@ -121,11 +141,10 @@ def start_board(
 
 
 class RigidBody:
-    """A body as one piece: its points in mm in the axes of its base link."""
+    """A body as one piece: where its links lie in the axes of its base link (mm)."""
 
     def __init__(self, paper: PlacedLinks, body: Body) -> None:
-        self.paper = paper
-        self.body = body
+        self.paper, self.body = paper, body
         self.rel: dict[str, Pose] = {body.links[0]: Pose(0j, 1 + 0j)}
         for joint in body.joints:
             value = paper.values[joint.driver.key]
@@ -133,31 +152,47 @@ class RigidBody:
             if joint.pair.turns:
                 turned = (joint.driver.link == joint.b) if joint.driver.turns else True
                 axis = base.axis * direction(math.degrees(value if turned else -value))
-                hinge = base.place(self._local(joint.a, joint.pair.point))
-                self.rel[joint.b] = Pose(hinge - axis * self._local(joint.b, joint.pair.point), axis)
+                links, point = paper.links, joint.pair.point
+                hinge = base.place(links[joint.a].points[point] * paper.mm)
+                self.rel[joint.b] = Pose(hinge - axis * (links[joint.b].points[point] * paper.mm), axis)
             else:
                 self.rel[joint.b] = across(joint.pair, joint.b, base, value * paper.mm, paper.mm)
 
-    def _local(self, link: str, point: str) -> complex:
-        return self.paper.links[link].points[point] * self.paper.mm
+    def point(self, point: str, link: str = "") -> complex:
+        """A point of a link, or of whichever link of it has the point."""
+        link = link or next(name for name in self.body.links if point in self.paper.links[name].points)
+        return self.rel[link].place(self.paper.links[link].points[point] * self.paper.mm)
 
-    def point(self, link: str, point: str) -> complex:
-        pose = self.rel[link]
-        return pose.place(self._local(link, point))
+    def hinge(self, pair: Pair) -> tuple[complex, complex]:
+        """An outer turning pair: its place on paper and in the body's axes."""
+        return self.paper.point(pair.b, pair.point), self.point(pair.point, pair.a)
+
+    def rail(self, slide: Pair) -> tuple[Pose, complex]:
+        """On a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
+        paper = self.paper
+        mine = slide.a if slide.a in self.rel else slide.b
+        known = paper.poses[slide.other(mine)]
+        at_zero, rel = across(slide, mine, known, 0.0, paper.mm), self.rel[mine]
+        axis = unit(at_zero.axis * rel.axis.conjugate())
+        # a block on a known guide goes along it; a guide on a known block goes against its own sense
+        along = known.axis if mine == slide.a else -at_zero.axis
+        step = paper.instrument.direction(unit(along * slide.guide.direction))
+        return Pose(at_zero.origin - axis * rel.origin, axis), step
 
     def placed(self, base: Pose) -> dict[str, Pose]:
         """Its links, its base link lying so."""
-        if not self.body.joints:
+        if len(self.rel) == 1:
             return {self.body.links[0]: Pose(base.origin, unit(base.axis))}
-        return {
-            name: Pose(base.place(rel.origin), unit(base.axis * rel.axis))
-            for name, rel in self.rel.items()
-        }
+        return {n: Pose(base.place(rel.origin), unit(base.axis * rel.axis)) for n, rel in self.rel.items()}
 
     def through(self, local: tuple[complex, complex], world: tuple[complex, complex]) -> dict[str, Pose]:
         """Place the body by two of its points."""
         axis = unit((world[1] - world[0]) / (local[1] - local[0]))
         return self.placed(Pose(world[0] - axis * local[0], axis))
+
+    def shifted(self, base: Pose, way: complex) -> dict[str, Pose]:
+        """Its links, its base link lying so far from a place."""
+        return self.placed(Pose(base.origin + way, base.axis))
 
 
 def travel(slide: Pair, poses: Poses, mm: float) -> float:
@@ -184,55 +219,265 @@ def across(slide: Pair, link: str, other: Pose, travel: float, mm: float) -> Pos
     return Pose(other.origin - axis * (start + travel * g), axis)
 
 
-def hinge(paper: PlacedLinks, shape: RigidBody, pair: Pair) -> tuple[complex, complex]:
-    """An outer turning pair: its place on paper and in the body's axes."""
-    return paper.point(pair.b, pair.point), shape.point(pair.a, pair.point)
-
-
-def _holder(body: Body, paper: PlacedLinks, point: str) -> str:
-    return next(name for name in body.links if point in paper.links[name].points)
-
-
-def inner_hinge(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> tuple[str, complex, complex]:
-    """The inner turning pair: its letter and its place in each body's axes."""
-    point = dyad.inner.point
-    return (
-        point,
-        one.point(_holder(dyad.first, paper, point), point),
-        two.point(_holder(dyad.second, paper, point), point),
-    )
-
-
-def rail(paper: PlacedLinks, shape: RigidBody, slide: Pair) -> tuple[Pose, complex]:
-    """A body on a known guide, or with a guide on a known block: its pose at travel 0 and the way of it per mm."""
-    mine = slide.a if slide.a in shape.rel else slide.b
-    known = slide.b if mine == slide.a else slide.a
-    at_zero = across(slide, mine, paper.poses[known], 0.0, paper.mm)
-    rel = shape.rel[mine]
-    axis = unit(at_zero.axis * rel.axis.conjugate())
-    # a block on a known guide goes along it; a guide on a known block goes against its own sense
-    along = paper.poses[known].axis if mine == slide.a else -at_zero.axis
-    step = paper.instrument.direction(unit(along * slide.guide.direction))
-    return Pose(at_zero.origin - axis * rel.origin, axis), step
-
-
 def pushed_by_driver(
     structure: Structure, values: Mapping[str, float], between: Iterable[str]
 ) -> tuple[Driver, float] | None:
-    """The driver whose travel gives the distance of two points, and that (m), at values of the drivers; None for any
-    other two."""
-    ends = set(between)
-    driver = next((d for d in structure.scene.drivers if _ends_of_travel(structure, d) == ends), None)
-    return None if driver is None else (driver, abs(values[driver.key]))
+    """The driver whose travel gives the distance of two points, and that (m), at values of the drivers: it counts from
+    the point in which its guide begins to what slides; None for any other two."""
+    ends, least = set(between), 1e-9 * structure.scene.size
+    for driver in structure.scene.drivers:
+        slide = next((s for s in structure.slides if s.key == driver.key), None)
+        if driver.turns or slide is None or slide.pin not in ends:
+            continue
+        on = structure.scene.by_name[slide.b].points
+        origin = next((p for p, z in on.items() if abs(z - slide.guide.through) < least), None)
+        if ends == {origin, slide.pin}:
+            return driver, abs(values[driver.key])
+    return None
 
 
-def _ends_of_travel(structure: Structure, driver: Driver) -> set[str]:
-    """The two points between which the travel of a driver counts: that of its guide's origin, and what slides; none
-    where the guide does not begin in a point."""
-    slide = next((s for s in structure.slides if s.key == driver.key), None)
-    if driver.turns or slide is None or slide.pin is None:
-        return set()
-    on = structure.scene.by_name[slide.b].points
-    least = 1e-9 * structure.scene.size
-    origin = next((p for p, z in on.items() if abs(z - slide.guide.through) < least), None)
-    return set() if origin is None else {origin, slide.pin}
+# -- the links of an element -------------------------------------------------------------------------------------------
+
+Story = tuple[Step, ...]
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Two loci that meet.
+
+    ``gap`` is positive where they cross, zero where they touch, negative where they miss each other; for two lines
+    it is the sine of their angle, and they meet once.  ``poses`` are the possible places of the group's links, the one
+    of the default rule first; ``tell`` gives what is drawn for each.  ``sine`` of the crossing angle is 0 where the
+    crossing is lost; a guide between two pivots is lost as they fall together, at whatever angle its lines
+    ``cross``.
+    """
+
+    gap: float
+    sine: float
+    poses: tuple[Poses, ...]
+    tell: Callable[[int], Story]
+    cross: float | None = None
+
+    @property
+    def sharpness(self) -> float:
+        """Sine of the angle at which the two loci cross on paper."""
+        return min(1.0, self.sine if self.cross is None else self.cross)
+
+    def nearest(self, poses: Poses) -> int | None:
+        """Which of the possible places lies nearest to where the links are expected; None where there is none."""
+        return min(range(len(self.poses)), key=lambda k: apart(self.poses[k], poses), default=None)
+
+
+LOST = Meeting(0.0, 0.0, (), lambda _: ())
+"""Loci that find nothing: an arc of no radius, lines along each other."""
+
+
+def drive(paper: PlacedLinks, element: Driven) -> tuple[Pose, Story]:
+    """Place a driven link: the angle or the travel is laid off."""
+    name, driver, pair = element.link, element.driver, element.pair
+    value = paper.values[driver.key]
+    if driver.turns:
+        own, to, base = True, "", 1 + 0j
+        if isinstance(driver, Driver):
+            own = driver.link == name
+            to = driver.relative_to if own else driver.link
+            base = paper.poses[to].axis
+        axis = unit(base * paper.instrument.angle(direction(math.degrees(value if own else -value))))
+        hinge = paper.point(pair.b, pair.point)
+        pose = Pose(hinge - axis * (paper.links[name].points[pair.point] * paper.mm), axis)
+        value = value if own else -value
+        return pose, (Step("lay off", "angle", link=name, value=value, point=pair.point, base=to),)
+    known = pair.b if name == pair.a else pair.a
+    pose = across(pair, name, paper.poses[known], paper.instrument.length(value * paper.mm), paper.mm)
+    start = paper.place(pair.b, pair.guide.through) if name == pair.a else pose.origin
+    end = pose.origin if name == pair.a else paper.poses[known].origin
+    bar = Bar(start, end, name)
+    return pose, (Step("lay off", "travel", strokes=(bar,), pairs=(pair.key,), mm=abs(value) * paper.mm),)
+
+
+def _arcs(gap: float, poses: list[Poses], tell: Callable[[int], Story], cross: float | None = None) -> Meeting:
+    return Meeting(gap, math.sqrt(max(gap, 0.0)), tuple(poses), tell, cross)
+
+
+def _rrr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    letter, about = dyad.inner.point, (dyad.outer_first.point, dyad.outer_second.point)
+    (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
+    inner1, inner2 = one.point(letter), two.point(letter)
+    r1, r2 = paper.instrument.compass(abs(inner1 - local1)), paper.instrument.compass(abs(inner2 - local2))
+    if r1 == 0.0 or r2 == 0.0:
+        return LOST
+    lo, mid, hi = sorted((r1, r2, abs(p2 - p1)))
+    product = (hi + (mid + lo)) * (lo - (hi - mid)) * (lo + (hi - mid)) * (hi + (mid - lo))
+    places = cross_arcs(p1, r1, p2, r2) or ()
+
+    def tell(k: int) -> Story:
+        arcs = CompassArc(p1, r1, places[k]), CompassArc(p2, r2, places[k])
+        return (Step("cross", "arcs", strokes=arcs, points=about, point=letter, radii=(r1, r2)),)
+
+    poses: list[Poses] = [
+        {**one.through((local1, inner1), (p1, q)), **two.through((local2, inner2), (p2, q))} for q in places
+    ]
+    return _arcs(product / (2 * r1 * r2) ** 2, poses, tell)
+
+
+def _rrp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    letter, outer, slide = dyad.inner.point, dyad.outer_first, dyad.outer_second
+    (p, local), (start, step) = one.hinge(outer), two.rail(slide)
+    inner, q0 = one.point(letter), start.place(two.point(letter))
+    radius = paper.instrument.compass(abs(inner - local))
+    if radius == 0.0:
+        return LOST
+    off = abs(cross(p - q0, step))
+    places = cross_line_arc(q0, step, p, radius) or ()
+
+    def tell(k: int) -> Story:
+        path, arc = Bar(q0, places[k], ""), CompassArc(p, radius, places[k])
+        return (
+            Step("line", "path", strokes=(path,), point=letter, pairs=(slide.key,)),
+            Step("cross", "arc on path", strokes=(arc,), points=(outer.point,), point=letter, mm=radius),
+        )
+
+    poses: list[Poses] = [
+        {**one.through((local, inner), (p, q)), **two.shifted(start, dot(q - q0, step) * step)} for q in places
+    ]
+    return _arcs((radius - off) * (radius + off) / radius**2, poses, tell)
+
+
+def _rpr(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    slide, pivots = dyad.inner, (dyad.outer_second.point, dyad.outer_first.point)
+    (p1, local1), (p2, local2) = one.hinge(dyad.outer_first), two.hinge(dyad.outer_second)
+    # the sliding body as seen from the guiding one, at travel 0
+    at_zero = across(slide, slide.a, two.rel[slide.b], 0.0, paper.mm)
+    turn = at_zero.axis * one.rel[slide.a].axis.conjugate()
+    g = two.rel[slide.b].axis * slide.guide.direction
+    c0 = at_zero.origin + turn * (local1 - one.rel[slide.a].origin) - local2
+    offset = cross(g, c0)  # of the pivot from the guide's parallel through the other pivot
+    if abs(offset) > 1e-9 * abs(c0):
+        offset = paper.instrument.compass(offset)
+    span = abs(p1 - p2)
+    size = max((abs(z) * paper.mm for link in paper.links.values() for z in link.points.values()), default=0.0) or 1.0
+    square = (span - abs(offset)) * (span + abs(offset))
+    roots = (math.sqrt(square), -math.sqrt(square)) if square >= 0.0 and span > 0.0 else ()
+    lined = abs(offset) < 1e-9 * size  # through both pivots
+    axes = [unit((p1 - p2) / (g * complex(root, offset))) for root in roots]
+
+    def tell(k: int) -> Story:
+        if lined:
+            return (Step("line", "guide", strokes=(Bar(p2, p1, ""),), points=pivots, pairs=(slide.key,)),)
+        # foot of the square from the pivot to the guide's parallel through the other pivot
+        foot = p1 - axes[k] * g * roots[k]
+        strokes = CompassArc((p1 + p2) / 2, span / 2, foot), CompassArc(p2, abs(offset), foot), Bar(foot, p1, "")
+        return (Step("line", "tangent", strokes=strokes, points=pivots, mm=abs(offset), pairs=(slide.key,)),)
+
+    poses: list[Poses] = []
+    for axis in axes:
+        turned = unit(axis * turn)
+        poses.append({**one.placed(Pose(p1 - turned * local1, turned)), **two.placed(Pose(p2 - axis * local2, axis))})
+    return _arcs(square / size**2, poses, tell, 1.0 if lined or not roots else roots[0] / span)
+
+
+def _prp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    letter, slides = dyad.inner.point, (dyad.outer_first, dyad.outer_second)
+    (start1, step1), (start2, step2) = one.rail(slides[0]), two.rail(slides[1])
+    q1, q2 = start1.place(one.point(letter)), start2.place(two.point(letter))
+    sine, q = cross(step1, step2), cross_lines(q1, step1, q2, step2)
+    if q is None:
+        return LOST
+    poses = {**one.shifted(start1, q - q1), **two.shifted(start2, q - q2)}
+    told = Step("cross", "paths", strokes=(Bar(q1, q, ""), Bar(q2, q, "")), point=letter,
+                pairs=(slides[0].key, slides[1].key))  # fmt: skip
+    return Meeting(sine, abs(sine), (poses,), lambda _: (told,))
+
+
+def _rpp(paper: PlacedLinks, dyad: Dyad, one: RigidBody, two: RigidBody) -> Meeting:
+    outer, inner, slide = dyad.outer_first, dyad.inner, dyad.outer_second
+    (p, local), (start, step) = one.hinge(outer), two.rail(slide)
+    resting = two.placed(start)
+    mine, other = (inner.a, inner.b) if inner.a in one.rel else (inner.b, inner.a)
+    at_zero = across(inner, mine, resting[other], 0.0, paper.mm)
+    axis = unit(at_zero.axis * one.rel[mine].axis.conjugate())
+    hung = one.placed(Pose(p - axis * local, axis))
+    along = unit((resting if inner.b in two.rel else hung)[inner.b].axis * inner.guide.direction)
+    # the second body may shift by s * step, and along the guide: s * step = want - t * along
+    want, sine = hung[mine].origin - at_zero.origin, cross(step, along)
+    if sine == 0.0:
+        return LOST
+    shift = step * (cross(want, along) / sine)
+    base = p - want
+    strokes = (Bar(base, base + shift, ""), Bar(base + shift, p, ""))
+    told = Step("cross", "guide to point", strokes=strokes, point=outer.point, pairs=(slide.key, inner.key))
+    return Meeting(sine, abs(sine), ({**hung, **two.shifted(start, shift)},), lambda _: (told,))
+
+
+# The one place in this room where the kinds of dyads are told apart.
+_MEETINGS: Mapping[DyadKind, Callable[[PlacedLinks, Dyad, RigidBody, RigidBody], Meeting]] = {
+    "RRR": _rrr,
+    "RRP": _rrp,
+    "RPR": _rpr,
+    "PRP": _prp,
+    "RPP": _rpp,
+}
+
+
+def meet(paper: PlacedLinks, dyad: Dyad) -> Meeting:
+    """Draw the loci of a dyad and find where they meet."""
+    return _MEETINGS[dyad.kind](paper, dyad, RigidBody(paper, dyad.first), RigidBody(paper, dyad.second))
+
+
+def refuse(structure: Structure, element: Dyad, meeting: Meeting) -> None:
+    """Raise Unsolvable where the loci of a dyad miss each other ("not assembled") or only touch ("dead point")."""
+    missed = meeting.gap < -1e-14 and not element.is_two_lines
+    if missed or not meeting.poses or meeting.sine < DEAD:
+        found = "the two loci of the group do not" if missed else "the group stands at a dead point its"
+        wanted = "choose a driver value at which the mechanism" if missed else "move the driver off this position"
+        problem = Problem(named_with_contact(structure, element), Phrase(found, kind=element.kind), Phrase(wanted))
+        raise Unsolvable("not assembled" if missed else "dead point", problem)
+
+
+def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
+    """The assembly of a dyad that the scene means at its own position.
+
+    Raises
+    ------
+    Unsolvable : as `refuse`
+    SceneError : a sketch that fits none
+    """
+    meeting = meet(paper, dyad)
+    refuse(structure, dyad, meeting)
+    candidates = [paper.fresh(poses) for poses in meeting.poses]
+    return meeting.poses[pick(structure.scene, dyad.links, candidates, 0).index]
+
+
+Choose = Callable[[int, Dyad | LargerGroup], Poses | None]
+"""Where the links of a group lie, by its place among the elements; None where they cannot be placed."""
+
+
+def assemble(
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+) -> Iterator[Element]:
+    """Place links element by element, each of which is given once it stands; ends where one cannot be placed.
+
+    Parameters
+    ----------
+    choose : which of the possible places the links of a group take
+    rolled : how far what rolls has gone (rad, m), where the values on paper do not tell
+    """
+    for i, element in enumerate(elements):
+        if isinstance(element, Driven):
+            if rolled is not None and isinstance(element.driver, Rolled):
+                paper.values = {**paper.values, element.driver.key: rolled(element.driver)}
+            poses: Poses | None = {element.link: drive(paper, element)[0]}
+        else:
+            poses = choose(i, element)
+        if poses is None:
+            return
+        paper.poses.update(poses)
+        paper.settle(list(poses))
+        yield element
+
+
+def assembled(
+    paper: PlacedLinks, elements: Sequence[Element], choose: Choose, rolled: Callable[[Rolled], float] | None = None
+) -> bool:
+    """Place the links of all elements, as `assemble`; whether they could be."""
+    return len(list(assemble(paper, elements, choose, rolled))) == len(elements)

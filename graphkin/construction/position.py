@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from graphkin.construction.dyads import Meeting, assemble, drive, meet, refuse
 from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, Poses, start_board
+from graphkin.construction.links_on_paper import Meeting, PlacedLinks, Poses, assemble, drive, meet, refuse, start_board
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Step
 from graphkin.scene.symbol import PointRef

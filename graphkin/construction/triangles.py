@@ -12,10 +12,20 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction.assembly import assembly_at
-from graphkin.construction.dyads import assembled, drive, meant, meet
 from graphkin.construction.elements import draw_element
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, Pose, Poses, reading, start_board, travel
+from graphkin.construction.links_on_paper import (
+    PlacedLinks,
+    Pose,
+    Poses,
+    assembled,
+    drive,
+    meant,
+    meet,
+    reading,
+    start_board,
+    travel,
+)
 from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.scales import Scales
