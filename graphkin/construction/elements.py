@@ -8,7 +8,7 @@ Artobolevsky, Theory of mechanisms).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import chain, product
@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.construction.equations import (
-    at_contacts,
     draw_equation,
     draw_relative,
     first_ends,
@@ -30,17 +29,15 @@ from graphkin.construction.equations import (
 )
 from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
 from graphkin.construction.net import (
-    ClosingVector,
     Edge,
-    Joined,
     Net,
     Path,
-    RollingPoint,
-    Turning,
-    TwoUnknowns,
+    Unknown,
+    VectorChain,
     contacts_of,
     equation_of,
     node,
+    past,
 )
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
@@ -110,15 +107,14 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     if pair.turns and name in plot.rates[order]:
         pivot = PointRef(pair.point)
         for end in first_ends(plot, name, pair.point):
-            way = Direction("square", (pivot.point, end.point))
-            draw_equation(plot, order, element, ClosingVector((Edge(pivot, end, (pivot, end), way, link=name),)))
+            draw_equation(plot, order, element, VectorChain.closing(Edge.of_link(pivot, end, name)))
         return
     known = pair.b if name == pair.a else pair.a
     share_rate(plot, order, known, name)
     point = pair.pin or next(iter([*plot.links[name].points, *plot.places]), "")
     if point:
         edge = _slide_edge(plot, pair, point)
-        draw_equation(plot, order, element, ClosingVector((edge if name == pair.a else edge.reversed(),)))
+        draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
 def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> float:
@@ -166,7 +162,7 @@ def _slide_edge(plot: Polygons, slide: Pair, point: str) -> Edge:
     return Edge(b, a, labels, Direction("along", plot.guide_names(slide)), slide=slide)
 
 
-def _equation_of(plot: Polygons, dyad: Dyad) -> TwoUnknowns:
+def _equation_of(plot: Polygons, dyad: Dyad) -> VectorChain:
     """The shortest equation with two unknown sizes of a dyad."""
     chain = equation_of(_net_of(plot, dyad), plot.ends["velocity"])
     if chain is None:
@@ -252,7 +248,7 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     for move in plan.moves:
         _draw_move(plot, order, group, move)
     for edge in _left_over(plot, order, plan.net):
-        draw_equation(plot, order, group, ClosingVector((edge,)))
+        draw_equation(plot, order, group, VectorChain.closing(edge))
 
 
 # -- moves -------------------------------------------------------------------------------------------------------------
@@ -308,7 +304,7 @@ def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Speci
         ref = PointRef(name)
         turns = link in plot.rates[order]
         right, left = ((*leg, *_to_special(plot, group, leg, leg[-1].end, ref, link, turns)) for leg in move.sides)
-        draw_equation(plot, order, group, TwoUnknowns(ref, left, right))
+        draw_equation(plot, order, group, VectorChain(ref, (left, right)))
         return
     base, ref = PointRef(name, move.base), PointRef(name, link)
     paths = []
@@ -327,7 +323,7 @@ def _to_special(
     """From the joint of a leg to the special point; nothing where it is the joint itself."""
     if abs(plot.places[joint.point] - plot.places[ref.point]) <= plot.tiny:
         return ()
-    unknown = None if turns else Turning(same_turn(plot, group).get(link, link))
+    unknown = None if turns else Unknown("turning", same_turn(plot, group).get(link, link))
     # written as the leg's own direction, for the two lie along one line
     free = next(e for e in leg if e.unknown)
     return (Edge(joint, ref, (joint, ref), free.direction, link=link, unknown=unknown),)
@@ -365,41 +361,44 @@ def _free_letters(plot: Polygons) -> Sequence[str]:
 
 
 def _plans(plot: Polygons, group: LargerGroup, wide: bool = False) -> Iterator[GroupPlan]:
-    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Joined`."""
+    """The ways in which a group can be drawn, those with the fewest trials first; ``wide`` as in `Net`."""
     net = _net_of(plot, group, wide)
     return plan_group(net, partial(_direction, plot), _free_letters(plot))
 
 
 def _net_of(plot: Polygons, group: Dyad | LargerGroup, wide: bool = False) -> Net:
-    """The points of a group and their relative motions; ``wide`` as in `Joined`."""
+    """The points of a group and their relative motions; ``wide`` as in `Net`."""
+    driven: Collection[str] = ()
+    rolling: Mapping[str, tuple[str, tuple[str, str]]] = {}
     if isinstance(group, Dyad):
-        joints = [w for body in group.bodies for w in body.joints]
-        pairs = (*group.pairs, *(w.pair for w in joints))
-        joined = Joined(group.members, pairs, joints)
+        joints = [joint for body in group.bodies for joint in body.joints]
+        pairs: Sequence[Pair] = (*group.pairs, *(joint.pair for joint in joints))
     else:
         held = [(d, driver_pair(d, plot.links, plot.structure.slides)) for d in group.drivers if d.turns]
         joints = [DrivenJoint(pair, driver, pair.b, pair.a) for driver, pair in held if pair is not None]
-        driven = frozenset(d.key for d in group.drivers if not d.turns)
-        rolling = _rolling_points(plot, group)
-        seen = [(held, n) for held, rest in plot.contours.get(group, ()) for n in rest.links]
-        pairs = group.pairs
-        joined = Joined(group.members, pairs, joints, driven, near=True, rolling=rolling, contours=seen, wide=wide)
+        driven = {d.key for d in group.drivers if not d.turns}
+        rolling, pairs = _rolling_points(plot, group), group.pairs
+    contours = plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ()
     names = {p.key: plot.guide_names(p) for p in pairs if not p.turns}
-    joined = at_contacts(plot, group, joined)
-    return Net(plot.links, plot.ground, joined, plot.places, names, same_turn(plot, group), plot.tiny)
+    contacts = contacts_of(plot.structure, group) if plot.at_contacts else ()
+    gone = {c.block for c in contacts}
+    return Net(
+        plot.links, plot.places, plot.ground, plot.tiny, [name for name in group.members if name not in gone],
+        past(pairs, gone), joints, same_turn(plot, group), names, driven, isinstance(group, LargerGroup), contacts,
+        rolling, [(held, n) for held, rest in contours for n in rest.links], wide,
+    )  # fmt: skip
 
 
-def _rolling_points(plot: Polygons, group: LargerGroup) -> list[RollingPoint]:
-    """The points where links of a group roll on each other: contacts by their name, those of wheels by a free
-    letter, marked on the mechanism."""
+def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, tuple[str, str]]]:
+    """The points where links of a group roll on each other, by the contact or the gear, with the links: contacts by
+    their name, those of wheels by a free letter, marked on the mechanism."""
     scene = plot.structure.scene
     between = {c.name: c.links for c in scene.contacts} | {g.name: g.wheels for g in scene.gears}
-    found = []
-    for relation in group.rolling:
-        letter = relation.name
-        if relation.name not in plot.touching:
-            letter = plot.pitch_points.get(relation.name) or _mark_pitch_point(plot, relation.name)
-        found.append(RollingPoint(relation.name, letter, between[relation.name]))
+    found = {}
+    for name in (relation.name for relation in group.rolling):
+        of_wheels = name not in plot.touching
+        letter = plot.pitch_points.get(name) or _mark_pitch_point(plot, name) if of_wheels else name
+        found[name] = letter, between[name]
     return found
 
 
@@ -500,8 +499,7 @@ def _turn_driven(plot: Polygons, order: Order, rest: LargerGroup) -> None:
             continue
         for end in first_ends(plot, name, pair.point):
             if end not in plot.ends[order]:
-                way = Direction("square", (pivot.point, end.point))
-                draw_equation(plot, order, rest, ClosingVector((Edge(pivot, end, (pivot, end), way, link=name),)))
+                draw_equation(plot, order, rest, VectorChain.closing(Edge.of_link(pivot, end, name)))
 
 
 def _draw_contours(plot: Polygons, order: Order, group: LargerGroup) -> None:
@@ -548,7 +546,7 @@ def _against(plan: GroupPlan) -> bool:
 def _assume(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan, rates: Sequence[float]) -> None:
     """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
     for unknown, value in zip(plan.tried, rates, strict=True):
-        if isinstance(unknown, Turning):
+        if unknown.kind == "turning":
             plot.rates[order][unknown.name] = Rate(unknown.name, value)
             spread(plot, order, unknown.name, group)
         else:
@@ -574,7 +572,7 @@ def _trial_rates(plot: Polygons, order: Order, plan: GroupPlan) -> list[list[flo
         travel = max((abs(d.values[1]) for d in drivers), default=0.0)
         fastest = travel / plot.structure.scene.size or 1.0
     base = fastest if order == "velocity" else fastest**2
-    once = [base * (1.0 if isinstance(t, Turning) else plot.structure.scene.size) for t in plan.tried]
+    once = [base * (1.0 if t.kind == "turning" else plot.structure.scene.size) for t in plan.tried]
     return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
 
 
@@ -722,7 +720,7 @@ def _as_noted(
     lengths that are divided, of several parts with as many as such have."""
     noted, made = plot.board.instrument.noted, []
     for i, (unknown, rate) in enumerate(zip(plan.tried, map(float, divide(rates, apart)), strict=True)):
-        unit = 1.0 if isinstance(unknown, Turning) else plot.structure.scene.units.rates.metres
+        unit = 1.0 if unknown.kind == "turning" else plot.structure.scene.units.rates.metres
         low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
         if len(plan.tried) == 1:
             lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
@@ -740,7 +738,7 @@ def _as_symbols(
     named = []
     metres = plot.structure.scene.units.rates.metres
     for unknown, value in zip(plan.tried, values, strict=True):
-        if isinstance(unknown, Turning):
+        if unknown.kind == "turning":
             named.append((Symbol(RATE[order], link=unknown.name), value))
             continue
         slide = plot.structure.slide(unknown.name)

@@ -11,14 +11,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
 from graphkin.construction.net import (
-    ClosingVector,
     Edge,
-    Joined,
-    ParallelLegs,
-    Turning,
-    TwoUnknowns,
+    Unknown,
+    VectorChain,
     contacts_of,
-    joined_at_contacts,
     node,
 )
 from graphkin.construction.polygons import RATE, Component, Polygons, letter
@@ -30,7 +26,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
 
 __all__ = [
-    "at_contacts", "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
+    "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
     "same_turn", "share_rate", "spread", "symbol_of", "turned",
 ]  # fmt: skip
 
@@ -139,12 +135,6 @@ def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
     return list(dict.fromkeys(first))
 
 
-def at_contacts(plot: Polygons, group: Dyad | LargerGroup, joined: Joined) -> Joined:
-    """What joins a group, with its sliding contacts themselves where these are drawn."""
-    contacts = contacts_of(plot.structure, group) if plot.at_contacts else ()
-    return joined_at_contacts(joined, contacts) if contacts else joined
-
-
 # -- equations drawn ---------------------------------------------------------------------------------------------------
 
 
@@ -181,20 +171,20 @@ def _write(plot: Polygons, order: Order, element: Element, *sides: tuple[Term, .
 
 
 def draw_equation(
-    plot: Polygons, order: Order, element: Element, equation: TwoUnknowns | ClosingVector | ParallelLegs
+    plot: Polygons, order: Order, element: Element, equation: VectorChain
 ) -> None:
     """Write a vector equation with no, one or two unknown sizes, draw it, and measure the rates that follow.
 
     An equation that says no more of a vector than that it is itself is not written.
     """
-    if isinstance(equation, ParallelLegs):
+    if equation.link:
         assert isinstance(element, LargerGroup)
         _draw_parallel_legs(plot, order, element, equation)
         return
     end = equation.end
     whole = plot.symbol(letter(order), end)
     sides = [_side_of(plot, order, path) for path in equation.sides]
-    stands = isinstance(equation, ClosingVector) and (plot.fixed(end) or end in plot.ends[order])
+    stands = len(sides) == 1 and (plot.fixed(end) or end in plot.ends[order])
     terms = [_from_pole(plot, order, side) for side in sides]
     alone = [side for side in terms if [term.symbol for term in side] == [whole]]
     number: int | None = None
@@ -299,17 +289,18 @@ def draw_relative(
     return meeting
 
 
-def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: ParallelLegs) -> None:
+def _draw_parallel_legs(plot: Polygons, order: Order, group: LargerGroup, legs: VectorChain) -> None:
     """The rate of a link whose two legs are parallel: from one leg's known end square to the bar between the joints,
     from the other's along the direction that both leave free."""
-    side = _side_of(plot, order, legs.path)
+    (path,) = legs.sides
+    side = _side_of(plot, order, path)
     head = Term(plot.symbol(letter(order), legs.end), True, True)
     number = _write(plot, order, group, (head,), _from_pole(plot, order, side))
     own = same_turn(plot, group).get(legs.link, legs.link)
-    at, goal = plot.end(order, legs.path[0].start), plot.end(order, legs.end)
+    at, goal = plot.end(order, path[0].start), plot.end(order, legs.end)
     start = _carry(plot, order, _parts(side), at, number)
     unknown = [(edge, part) for edge, parts in side for part in parts if part.span is None]
-    edge, turning = next((e, p) for e, p in unknown if e.link == legs.link and e.unknown == Turning(own))
+    edge, turning = next((e, p) for e, p in unknown if e.link == legs.link and e.unknown == Unknown("turning", own))
     free = [p for e, p in unknown if e is not edge][-1]  # both legs leave that free
     meeting = _lines_meet(plot, order, turning.symbol, start, [(start, turning), (goal, free)], number)
     found = Aid(turning.symbol, start, meeting, 0)

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 from itertools import combinations
 from typing import Literal
 
-from graphkin.construction.net import ClosingVector, Edge, Net, ParallelLegs, Path, Turning, TwoUnknowns, Unknown, split
+from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, split
 from graphkin.construction.steps import FarPoint
 from graphkin.plane import cross, cross_lines, unit
 from graphkin.scene.symbol import PointRef
@@ -46,7 +46,7 @@ class Special:
     base: str = ""
 
 
-Move = TwoUnknowns | ClosingVector | Special | ParallelLegs
+Move = VectorChain | Special
 
 
 @dataclass(frozen=True)
@@ -102,8 +102,8 @@ class _Search:
 
     def turns(self, link: str) -> bool:
         """Whether the rate of a link is known."""
-        one = self.net.shares.get(link, link)
-        return one not in self.net.inside or Turning(one) in self.known
+        one = self.net.turning(link)
+        return one.name not in self.net.inside or one in self.known
 
     @property
     def size(self) -> float:
@@ -169,7 +169,7 @@ class _Search:
                     -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
-                self.moves.append(ClosingVector((self.seen(best),)))
+                self.moves.append(VectorChain.closing(self.seen(best)))
                 self.learn((best,))
                 return True
         return False
@@ -185,13 +185,13 @@ class _Search:
             for path in self.ways(start, 1, lambda n: n in self.nodes):
                 fresh = {e.end for e in path} - self.nodes
                 if fresh and len(path) > 1:
-                    self.moves.append(ClosingVector(path))
+                    self.moves.append(VectorChain.closing(*path))
                     self.learn(path)
                     return True
             for path in self.ways(start, 0, lambda n: n not in self.nodes):
                 link = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
                 if all(not self.nodes.intersection(self.of(name)) for name in link):
-                    self.moves.append(ClosingVector(path))
+                    self.moves.append(VectorChain.closing(*path))
                     self.learn(path)
                     return True
         return False
@@ -221,7 +221,7 @@ class _Search:
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
-        own = Turning(self.net.shares.get(link, link))
+        own = self.net.turning(link)
         mine = set(self.of(link))
         best: dict[Unknown, Path] = {}
         for start in sorted(self.nodes, key=self.net.order.__getitem__):
@@ -267,7 +267,7 @@ class _Search:
         bar = next((self.seen(e) for e in self.net.edges[one[-1].end] if e.link == link and e.end == two[-1].end), None)
         if bar is None or abs(cross(self.way(bar), self.line(one)[1] * 1j)) < FLAT:
             return False
-        self.moves.append(ParallelLegs(link, (*one, bar, *(e.reversed() for e in reversed(two)))))
+        self.moves.append(VectorChain.closing(*one, bar, *(e.reversed() for e in reversed(two)), link=link))
         assert bar.unknown is not None
         self.known.add(bar.unknown)
         self.settle()
@@ -316,7 +316,7 @@ class _Search:
     def _legs_between(self, left_out: Collection[tuple[str, str]]) -> Mapping[tuple[str, str], Sequence[Path]]:
         """For each two links, but of these, the shortest way by each unknown that joins them."""
         owners, names = self.net.owners, [name for name in self.net.inside if "/" not in name]
-        turning = {name: Turning(self.net.shares.get(name, name)) for name in names}
+        turning = {name: self.net.turning(name) for name in names}
         found: dict[tuple[str, str], dict[Unknown, Path]] = {}
         for i, one in enumerate(names):
             others = {n: [two for two in names[i + 1 :] if two in owners[n]] for n in self.net.nodes}

@@ -18,41 +18,23 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
+from typing import Literal, NamedTuple
 
 from graphkin.construction.steps import Direction
 from graphkin.scene.model import PlacedContact, PlacedLink
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import DrivenJoint, Dyad, LargerGroup, Pair, Structure
 
-__all__ = [
-    "ClosingVector", "Edge", "Joined", "Net", "ParallelLegs", "Path", "RollingPoint", "Sliding", "Turning",
-    "TwoUnknowns", "Unknown", "contacts_of", "equation_of", "joined_at_contacts", "node", "split",
-]  # fmt: skip
+__all__ = ["Edge", "Net", "Path", "Unknown", "VectorChain", "contacts_of", "equation_of", "node", "past", "split"]
 
 
-@dataclass(frozen=True)
-class Turning:
-    """The unknown angular rate of a link, and of all that turn with it."""
+class Unknown(NamedTuple):
+    """A rate that is not known: how a link turns, and all that turn with it, or the speed along a sliding pair or at a
+    contact."""
 
+    kind: Literal["turning", "sliding", "slipping"]
     name: str
-
-
-@dataclass(frozen=True)
-class Sliding:
-    """The unknown speed along a sliding pair."""
-
-    name: str
-
-
-@dataclass(frozen=True)
-class Slipping:
-    """The unknown slip at a contact."""
-
-    name: str
-
-
-Unknown = Turning | Sliding | Slipping
 
 
 @dataclass(frozen=True)
@@ -80,10 +62,21 @@ class Edge:
     forward: bool = True
     unknown: Unknown | None = None
 
+    @classmethod
+    def of_link(cls, start: PointRef, end: PointRef, link: str, unknown: Unknown | None = None) -> Edge:
+        """Of two points of one link."""
+        way = Direction("square", (start.point, end.point))
+        return cls(start, end, (start, end), way, link=link, unknown=unknown)
+
     @property
     def bar(self) -> tuple[str, str]:
         """The letters of both ends."""
         return self.start.point, self.end.point
+
+    @property
+    def between(self) -> tuple[str, str]:
+        """The links of an edge between coincident points, as it is written."""
+        return self.labels[0].link, self.labels[1].link
 
     def reversed(self) -> Edge:
         return replace(self, start=self.end, end=self.start, labels=self.labels[::-1], forward=not self.forward)
@@ -93,56 +86,22 @@ Path = tuple[Edge, ...]
 
 
 @dataclass(frozen=True)
-class TwoUnknowns:
-    """An equation with two unknown sizes: two ways to the node ``end``, each from a known node and with one of them."""
+class VectorChain:
+    """A vector equation to be drawn: ways that lead from known nodes to the node ``end``.
+
+    Of two ``sides`` each has one unknown size, and they cross there.  One side has one unknown size, what is left of a
+    way to a node that stands already, or none; or it leads from one to the other of two parallel legs of a ``link``,
+    whose special point lies at infinity, and gives its rate.
+    """
 
     end: PointRef
-    left: Path
-    right: Path
+    sides: tuple[Path, ...]
+    link: str = ""
 
-    @property
-    def sides(self) -> tuple[Path, Path]:
-        return self.left, self.right
-
-
-@dataclass(frozen=True)
-class ClosingVector:
-    """An equation with one unknown size, what is left of a way between two nodes known already; or with none."""
-
-    path: Path
-
-    @property
-    def end(self) -> PointRef:
-        return self.path[-1].end
-
-    @property
-    def sides(self) -> tuple[Path]:
-        return (self.path,)
-
-
-@dataclass(frozen=True)
-class ParallelLegs:
-    """Two parallel legs of a link, their special point at infinity: the way from one to the other gives its rate."""
-
-    link: str
-    path: Path
-
-    @property
-    def end(self) -> PointRef:
-        return self.path[-1].end
-
-    @property
-    def sides(self) -> tuple[Path]:
-        return (self.path,)
-
-
-@dataclass(frozen=True)
-class RollingPoint:
-    """Where two links roll on each other: the name of the contact or the wheels, the letter of the point."""
-
-    name: str
-    letter: str
-    links: tuple[str, str]
+    @classmethod
+    def closing(cls, *path: Edge, link: str = "") -> VectorChain:
+        """One way to a node."""
+        return cls(path[-1].end, (path,), link)
 
 
 def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
@@ -150,87 +109,84 @@ def node(links: Mapping[str, PlacedLink], point: str, link: str) -> PointRef:
     return PointRef(point) if point in links[link].points else PointRef(point, link)
 
 
-@dataclass(frozen=True)
-class Joined:
-    """Links of a group, all pairs that hold them, what drivers hold together among them, and the sliding contacts that
-    nothing replaces.
+class Net:
+    """Nodes and edges around a group.
 
-    ``near`` keeps of the points that lie under each other on two links those next to a point of either, as larger
-    groups need: all of them would be too many.  ``rolling`` are the points where links of a group roll; ``contours`` a
-    held link with each other of its contour.  With ``wide`` a special point of one link lies under it on all that turn
-    with it, too.
+    Parameters
+    ----------
+    links, places, frame, tiny : all links with their points, where points lie on paper (mm), the fixed link, and how
+        near to each other points are the same
+    inside, pairs, joints : links of the group, all pairs that hold them, what drivers hold together among them
+    shares : for each link one that turns alike
+    guide_names : how the guides of sliding pairs are written
+    driven : sliding pairs of which a driver gives the motion
+    near : whether of the points that lie under each other on two links only those next to a point of either are kept,
+        as larger groups need: all of them would be too many
+    contacts : sliding contacts that nothing replaces
+    rolling : where links of a group roll on each other, by the name of the contact or the wheels: the letter of the
+        point, and the links
+    contours : a held link with each other of its contour
+    wide : whether a special point of one link lies under it on all that turn with it, too
     """
 
-    inside: Sequence[str]
-    pairs: Sequence[Pair]
-    joints: Sequence[DrivenJoint]
-    driven: frozenset[str] = frozenset()  # sliding pairs of which a driver gives the motion
-    near: bool = False
-    contacts: tuple[PlacedContact, ...] = ()
-    rolling: Sequence[RollingPoint] = ()
-    contours: Sequence[tuple[str, str]] = ()
-    wide: bool = False
-
-
-class Net:
-    """Nodes and edges around a group."""
-
     def __init__(
-        self,
-        links: Mapping[str, PlacedLink],
-        frame: str,
-        joined: Joined,
-        places: Mapping[str, complex],
-        guide_names: Mapping[str, tuple[str, ...]],
-        same_turn: Mapping[str, str],
-        tiny: float,
-    ) -> None:
+        self, links: Mapping[str, PlacedLink], places: Mapping[str, complex], frame: str, tiny: float,
+        inside: Sequence[str], pairs: Sequence[Pair], joints: Sequence[DrivenJoint], shares: Mapping[str, str],
+        guide_names: Mapping[str, tuple[str, ...]], driven: Collection[str] = (), near: bool = False,
+        contacts: Sequence[PlacedContact] = (), rolling: Mapping[str, tuple[str, tuple[str, str]]] | None = None,
+        contours: Sequence[tuple[str, str]] = (), wide: bool = False,
+    ) -> None:  # fmt: skip
         self.links, self.frame, self.places, self.tiny = links, frame, places, tiny
-        self.inside, pairs, joints = joined.inside, joined.pairs, joined.joints
-        self.shares = same_turn
-        slides = [p for p in pairs if not p.turns]
-        turns = [p for p in pairs if p.turns]
-        driven = {w.pair.key for w in joints if not w.pair.turns} | joined.driven
-        touching = [c.name for c in joined.contacts]
+        self.inside, self.shares, rolling = inside, shares, rolling or {}
+        slides, turns = [p for p in pairs if not p.turns], [p for p in pairs if p.turns]
+        touching = [c.name for c in contacts]
         letters = list(dict.fromkeys([s.pin for s in slides if s.pin] + [t.point for t in turns] + touching))
         self.natural = {node(links, t.point, t.a) for t in turns}
         self.natural |= {node(links, s.pin, side) for s in slides if s.pin for side in (s.a, s.b)}
-        self.natural |= {PointRef(c.name, side) for c in joined.contacts for side in c.links}
-        between = [*((p.a, p.b) for p in pairs), *((w.a, w.b) for w in joints), *(c.links for c in joined.contacts)]
-        around = list(dict.fromkeys([*self.inside, *(n for both in between for n in both)]))
-        on = _near(links, joined, around, letters) if joined.near else {}
+        self.natural |= {PointRef(c.name, side) for c in contacts for side in c.links}
+        self.natural |= {PointRef(letter, link) for letter, both in rolling.values() for link in both}
+        sides = [*((p.a, p.b) for p in pairs), *((j.a, j.b) for j in joints), *(c.links for c in contacts)]
+        around = dict.fromkeys([*inside, *chain(*sides)])
+        beside = [*((s.a, s.b) for s in slides), *((j.a, j.b) for j in joints), *contours]
+        on = _near(links, beside, contacts, around, letters) if near else {}
         self.owners: dict[PointRef, list[str]] = {}
         for name in around:
-            block = "/" in name
             for letter in letters:
-                if letter in links[name].points or (not block and (not joined.near or letter in on[name])):
+                if letter in links[name].points or ("/" not in name and (not near or letter in on[name])):
                     self.owners.setdefault(node(links, letter, name), []).append(name)
-        for one in joined.rolling:
-            ends = [PointRef(one.letter, link) for link in one.links]
-            self.natural.update(ends)
-            for ref in ends:
-                self.owners[ref] = [ref.link]
+        for letter, both in rolling.values():
+            self.owners |= {PointRef(letter, link): [link] for link in both}
         self.nodes = list(self.owners)
         self.order = {n: i for i, n in enumerate(self.nodes)}
         self.edges: dict[PointRef, list[Edge]] = {n: [] for n in self.nodes}
-        for name in self.inside:
-            self._rigid(name, same_turn.get(name, name))
+        for name in inside:
+            mine = [n for n in self.nodes if name in self.owners[n]]
+            for i, a in enumerate(mine):
+                for b in mine[i + 1 :]:
+                    self._add_bar(a, b, name)
+        given = {j.pair.key for j in joints if not j.pair.turns}.union(driven)
         for s in slides:
-            self._sliding(s, letters, guide_names[s.key], None if s.key in driven else Sliding(s.key))
-        for w in joints:
-            if w.pair.turns:
-                self._driven(w, letters)
-        for c in joined.contacts:
-            self._touching(c)
-        for one in joined.rolling:
-            a, b = (PointRef(one.letter, link) for link in one.links)
-            self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=one.name))
-        for held, other in joined.contours:
-            self._seen(held, other, letters)
+            way, unknown = Direction("along", guide_names[s.key]), Unknown("sliding", s.key)
+            for b, a, labels in self._coincident(letters, s.b, s.a):
+                self._add(Edge(b, a, labels, way, slide=s, unknown=None if s.key in given else unknown))
+        for j in (j for j in joints if j.pair.turns):
+            for a, b, labels in self._coincident(letters, j.a, j.b):
+                self._add(Edge(a, b, labels, Direction("square", (j.pair.point, labels[0].point)), joint=j))
+        for c in contacts:
+            # against the frame where it can be: its point stands in the pole
+            a, b = (PointRef(c.name, link) for link in sorted(c.links, key=lambda link: link != frame))
+            way, unknown = Direction("along", ("t-t",)), Unknown("slipping", c.name)
+            self._add(Edge(a, b, (a, b), way, contact=c.name, unknown=unknown))
+        for relation, (letter, both) in rolling.items():
+            a, b = (PointRef(letter, link) for link in both)
+            self._add(Edge(a, b, (a, b), Direction("along", ("n-n",)), rolling=relation))
+        for held, other in contours:
+            for a, b, labels in self._coincident(letters, held, other):
+                self._add(Edge(a, b, labels, Direction("found", ()), held=held))
         self.under: list[Edge] = []  # for links that turn alike one edge between coincident points of theirs
-        if joined.wide:
-            found = {(e.slide or e.joint or e.held, *self._sides(e)): e for n in self.nodes for e in self.edges[n]
-                     if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(self._sides(e))}
+        if wide:
+            found = {(e.slide or e.joint or e.held, *e.between): e for n in self.nodes for e in self.edges[n]
+                     if e.forward and (e.slide or e.joint or e.held) and "/" not in "".join(e.between)}  # fmt: skip
             self.under = list(found.values())
 
     def copy(self) -> Net:
@@ -246,51 +202,28 @@ class Net:
     def known(self, n: PointRef) -> bool:
         return any(name not in self.inside for name in self.owners[n])
 
+    def turning(self, link: str) -> Unknown:
+        """How a link turns, by the name of one that turns alike."""
+        return Unknown("turning", self.shares.get(link, link))
+
     def _add(self, edge: Edge) -> None:
         self.edges[edge.start].append(edge)
         self.edges[edge.end].append(edge.reversed())
 
-    def _rigid(self, name: str, shares: str) -> None:
-        mine = [n for n in self.nodes if name in self.owners[n]]
-        unknown = Turning(shares) if shares in self.inside else None
-        for i, a in enumerate(mine):
-            for b in mine[i + 1 :]:
-                if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
-                    way = Direction("square", (a.point, b.point))
-                    self._add(Edge(a, b, (a, b), way, link=name, unknown=unknown))
+    def _add_bar(self, a: PointRef, b: PointRef, link: str) -> None:
+        """Two points of a link that lie apart."""
+        turning = self.turning(link)
+        if abs(self.places[a.point] - self.places[b.point]) > self.tiny:
+            self._add(Edge.of_link(a, b, link, turning if turning.name in self.inside else None))
 
-    def _sliding(self, s: Pair, letters: Sequence[str], written: tuple[str, ...], unknown: Unknown | None) -> None:
+    def _coincident(
+        self, letters: Sequence[str], one: str, two: str
+    ) -> Iterator[tuple[PointRef, PointRef, tuple[PointRef, PointRef]]]:
+        """Points of two links that lie under each other: their nodes, and how they are written."""
         for letter in letters:
-            a, b = node(self.links, letter, s.a), node(self.links, letter, s.b)
+            a, b = node(self.links, letter, one), node(self.links, letter, two)
             if a in self.owners and b in self.owners and a != b:
-                labels = (PointRef(letter, s.b), PointRef(letter, s.a))
-                self._add(Edge(b, a, labels, Direction("along", written), slide=s, unknown=unknown))
-
-    def _driven(self, w: DrivenJoint, letters: Sequence[str]) -> None:
-        for letter in letters:
-            a, b = node(self.links, letter, w.a), node(self.links, letter, w.b)
-            if a in self.owners and b in self.owners and a != b:
-                labels = (PointRef(letter, w.a), PointRef(letter, w.b))
-                hinge = w.pair.point
-                self._add(Edge(a, b, labels, Direction("square", (hinge, letter)), joint=w))
-
-    def _seen(self, held: str, other: str, letters: Sequence[str]) -> None:
-        for letter in letters:
-            a, b = node(self.links, letter, held), node(self.links, letter, other)
-            if a in self.owners and b in self.owners and a != b:
-                labels = (PointRef(letter, held), PointRef(letter, other))
-                self._add(Edge(a, b, labels, Direction("found", ()), held=held))
-
-    def _touching(self, contact: PlacedContact) -> None:
-        # against the frame where it can be: its point stands in the pole
-        sides = sorted(contact.links, key=lambda link: link != self.frame)
-        a, b = (PointRef(contact.name, link) for link in sides)
-        way = Direction("along", ("t-t",))
-        self._add(Edge(a, b, (a, b), way, contact=contact.name, unknown=Slipping(contact.name)))
-
-    def _sides(self, edge: Edge) -> tuple[str, str]:
-        """The links of an edge between coincident points, as it was added."""
-        return edge.labels[0].link, edge.labels[1].link
+                yield a, b, (PointRef(letter, one), PointRef(letter, two))
 
     def add(self, name: str, letter: str, at: complex) -> PointRef:
         """One more point of a link, such as a special point."""
@@ -311,37 +244,31 @@ class Net:
         while grown:
             grown = False
             for edge in list(left):
-                sides = self._sides(edge)
-                if not any(name in refs for name in sides) or not all(name in self.inside for name in sides):
+                sides = edge.between
+                if refs.keys().isdisjoint(sides) or not set(self.inside).issuperset(sides):
                     continue
                 for name in sides:
                     if name not in refs:
                         refs[name] = self._added(PointRef(letter, name), name, at)
                 labels = PointRef(letter, sides[0]), PointRef(letter, sides[1])
-                way = edge.direction
-                if edge.joint is not None:
-                    way = Direction("square", (edge.joint.pair.point, letter))
+                way = Direction("square", (edge.joint.pair.point, letter)) if edge.joint else edge.direction
                 self._add(replace(edge, start=refs[sides[0]], end=refs[sides[1]], labels=labels, direction=way))
                 left.remove(edge)
                 grown = True
 
     def _added(self, ref: PointRef, name: str, at: complex) -> PointRef:
-        shares = self.shares.get(name, name)
-        unknown = Turning(shares) if shares in self.inside else None
         others = [n for n in self.nodes if name in self.owners[n]]
         self.owners[ref], self.edges[ref] = [name], []
         self.nodes.append(ref)
         self.order[ref] = len(self.order)
         self.places = {**self.places, ref.point: at}
         for n in others:
-            if abs(self.places[n.point] - at) > self.tiny:
-                way = Direction("square", (ref.point, n.point))
-                self._add(Edge(ref, n, (ref, n), way, link=name, unknown=unknown))
+            self._add_bar(ref, n, name)
         return ref
 
-    def paths(self, start: PointRef) -> Iterator[tuple[Edge, ...]]:
+    def paths(self, start: PointRef) -> Iterator[Path]:
         """All paths from a known node through unknown ones to another known node, with two unknowns."""
-        stack: list[tuple[PointRef, tuple[Edge, ...]]] = [(start, ())]
+        stack: list[tuple[PointRef, Path]] = [(start, ())]
         while stack:
             at, path = stack.pop()
             if path and self.known(at):
@@ -359,34 +286,33 @@ class Net:
 
 
 def _near(
-    links: Mapping[str, PlacedLink], joined: Joined, around: Sequence[str], letters: Sequence[str]
-) -> dict[str, set[str]]:
-    """For each link the letters at which it is looked at: its own, and those of links that slide on it or that a driver
-    turns on it, and of those next to them."""
+    links: Mapping[str, PlacedLink], beside: list[tuple[str, str]], contacts: Sequence[PlacedContact],
+    around: Collection[str], letters: Sequence[str],
+) -> dict[str, set[str]]:  # fmt: skip
+    """For each link the letters at which it is looked at: its own, and those of links ``beside`` it, which slide on it
+    or that a driver turns on it, and of those next to them."""
     on = {name: {p for p in letters if p in links[name].points} for name in around}
-    for c in joined.contacts:
+    for c in contacts:
         for side in c.links:
             on[side].add(c.name)
-    touching = [(p.a, p.b) for p in joined.pairs if not p.turns] + [(w.a, w.b) for w in joined.joints]
-    touching += joined.contours
     for _ in range(2):
-        shared = [(a, b, on[a] | on[b]) for a, b in touching]
+        shared = [(a, b, on[a] | on[b]) for a, b in beside]
         for a, b, both in shared:
             on[a], on[b] = on[a] | both, on[b] | both
-    for a, b in touching * len(touching):
+    for a, b in beside * len(beside):
         if not on[a] & on[b]:  # far from any point: what slides there is looked at somewhere
             on[a], on[b] = on[a] | on[b], on[a] | on[b]
     return on
 
 
-def equation_of(net: Net, drawn: Collection[PointRef]) -> TwoUnknowns | None:
+def equation_of(net: Net, drawn: Collection[PointRef]) -> VectorChain | None:
     """Find the shortest equation with two unknown sizes of a dyad's links and all pairs that hold them.
 
     Parameters
     ----------
     drawn : nodes that stand in the polygon already (preferred as starting points)
     """
-    best: tuple[tuple[float, ...], TwoUnknowns] | None = None
+    best: tuple[tuple[float, ...], VectorChain] | None = None
     for start in (n for n in net.nodes if net.known(n)):
         for path in net.paths(start):
             first, second = (i for i, e in enumerate(path) if e.unknown)
@@ -404,9 +330,9 @@ def equation_of(net: Net, drawn: Collection[PointRef]) -> TwoUnknowns | None:
     return best[1] if best else None
 
 
-def split(path: Path, at: int) -> TwoUnknowns:
+def split(path: Path, at: int) -> VectorChain:
     """A path with two unknowns split at the node before the second of them, the edge of that number."""
-    return TwoUnknowns(path[at].start, tuple(e.reversed() for e in reversed(path[at:])), path[:at])
+    return VectorChain(path[at].start, (tuple(e.reversed() for e in reversed(path[at:])), path[:at]))
 
 
 def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[PlacedContact, ...]:
@@ -415,21 +341,11 @@ def contacts_of(structure: Structure, group: Dyad | LargerGroup) -> tuple[Placed
     return tuple(c for c in structure.scene.contacts if not c.rolling and c.block in members)
 
 
-def joined_at_contacts(group: Joined, contacts: Sequence[PlacedContact]) -> Joined:
-    """The links of a group and its pairs, contacts among them instead of what replaces them."""
-    gone = {c.block for c in contacts}
-    pairs: list[Pair] = [p for p in group.pairs if not gone & {p.a, p.b}]
-    pairs += _past(group.pairs, gone)
-    inside = [name for name in group.inside if name not in gone]
-    return replace(group, inside=inside, pairs=pairs, contacts=tuple(contacts))
-
-
-def _past(pairs: Sequence[Pair], gone: Collection[str]) -> Iterator[Pair]:
-    """Turning pairs of links that only what is gone joins at a point."""
+def past(pairs: Sequence[Pair], gone: Collection[str]) -> list[Pair]:
+    """Pairs without what is gone: turning pairs of links that only this joins at a point stand in its place."""
     around: dict[str, list[str]] = {}
     for pair in pairs:
         if pair.turns and (pair.a in gone or pair.b in gone):
             around.setdefault(pair.point, []).extend(n for n in (pair.a, pair.b) if n not in gone)
-    for point, names in around.items():
-        for one, two in pairwise(dict.fromkeys(names)):
-            yield Pair(point, one, two)
+    joined = (Pair(point, *both) for point, names in around.items() for both in pairwise(dict.fromkeys(names)))
+    return [*(p for p in pairs if p.a not in gone and p.b not in gone), *joined]

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from graphkin.construction.assembly import Known, assembly_at
 from graphkin.construction.elements import draw_element, drawn_group
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
-from graphkin.construction.net import TwoUnknowns, contacts_of
+from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
@@ -76,7 +76,7 @@ class Task:
     branches: Mapping[int, int]
     trials: Mapping[LargerGroup, GroupTrial]
     triangles: tuple[tuple[Inversion, int], ...]
-    chains: Mapping[Dyad, TwoUnknowns] = field(default_factory=dict)
+    chains: Mapping[Dyad, VectorChain] = field(default_factory=dict)
     plans: Mapping[LargerGroup, GroupPlan] = field(default_factory=dict)
     limits: Mapping[str, Limits] = field(default_factory=dict)
     acting: Mapping[str, bool | None] = field(default_factory=dict)

@@ -17,7 +17,7 @@ from typing import Literal, TypeVar
 from graphkin.construction.group_plan import GroupPlan
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
-from graphkin.construction.net import TwoUnknowns, node
+from graphkin.construction.net import VectorChain, node
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
 from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Ray, Role, Size, Step, Vector
@@ -86,7 +86,7 @@ class Polygons:
         self.trains: PlansDrawn = {}
         self.at_contacts = False  # whether sliding contacts are drawn themselves, instead of what replaces them
         # how each group is drawn: found once, for all drawings of a task
-        self.chains: dict[Dyad, TwoUnknowns] = {}
+        self.chains: dict[Dyad, VectorChain] = {}
         self.plans: dict[LargerGroup, GroupPlan] = {}
         self.contours: dict[LargerGroup, tuple[tuple[str, LargerGroup], ...]] = {}  # link held still, the rest on it
         self.places = {point: paper.point(name, point) for name in paper.poses for point in self.links[name].points}
