@@ -17,13 +17,15 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-__all__ = ["Pieces", "changes", "intervals", "last_true", "least_value", "resolve"]
+__all__ = ["Pieces", "changes", "greatest_and_least", "intervals", "last_true", "least_value", "resolve"]
 
 Array = NDArray[Any]
 SECTIONS = 64
 LEAST_SECTIONS = 16
 NARROW = 1e-11
 """A least value is flat: its place has no more digits."""
+SAME_VALUE = 1e-12
+"""Of the range of values: what is greater by less is the same."""
 
 
 def last_true(
@@ -62,17 +64,34 @@ def intervals(holds: Callable[[Array], Array], grid: Array) -> list[tuple[float,
 
 
 def least_value(
-    function: Callable[[Array], Array], low: float, high: float, enough: float = -np.inf
+    function: Callable[[Array], Array], low: float, high: float, enough: float = -np.inf, within: float = NARROW
 ) -> tuple[float, float]:
-    """Place and value of the least value between two places, with one valley between them; less than ``enough`` is not
-    looked into."""
+    """Place (as near as ``within``) and value of the least value between two places, with one valley between them; less
+    than ``enough`` is not looked into."""
     while True:
         at = np.linspace(low, high, LEAST_SECTIONS + 1)
         value = function(at)
         i = int(np.nanargmin(value))
-        if value[i] < enough or high - low < NARROW:
+        if value[i] < enough or high - low < within:
             return float(at[i]), float(value[i])
         low, high = float(at[max(i - 1, 0)]), float(at[min(i + 1, LEAST_SECTIONS)])
+
+
+def greatest_and_least(
+    function: Callable[[Array], Array], places: Array, values: Array, within: float
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Place and value of the greatest and of the least of a course that was sampled, each sought between the neighbours
+    of its sample; not where these stand in another order, as where a turn begins anew."""
+    found, rounding = [], SAME_VALUE * float(np.ptp(values[np.isfinite(values)]))
+    for sign in (-1.0, 1.0):
+        k = int(np.nanargmin(sign * values))
+        place, value = float(places[k]), float(values[k])
+        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, len(places) - 1)])
+        if low < high and low <= place <= high:
+            near, least = least_value(lambda at, by=sign: by * function(at), low, high, within=within)  # type: ignore[misc]
+            place, value = (near, sign * least) if least < sign * value - rounding else (place, value)
+        found.append((place, value))
+    return found[0], found[1]
 
 
 POINTS = 24

@@ -259,13 +259,13 @@ def _forces_of_turn(turn: TurnStudy, language: str) -> list[str]:
     except Unsolvable as stop:
         return [word("forces", language) + word("colon", language) + say(stop.reason, language)]
     lines = []
-    for name, (quantity, marks) in found.items():
+    for name, (quantity, extremes) in found.items():
+        unit = quantity.unit(scene)
         parts = [
-            f"{word({'max': 'greatest', 'min': 'least'}[kind], language)} {value:.6g} @ "
-            f"{scene.unit_of(scene.drivers[0]).said(at)}" if math.isfinite(value) else word("unbounded", language)
-            for kind, at, value in marks
+            f"{word('greatest' if e.kind == 'max' else 'least', language)} {unit.of(e.value):.6g} @ {_at(scene, e)}"
+            if math.isfinite(e.value) else word("unbounded", language) for e in extremes
         ]  # fmt: skip
-        lines.append(f"{name} ({quantity.unit(scene).text}): {'; '.join(parts)}")
+        lines.append(f"{name} ({unit.text}): {'; '.join(parts)}")
     return lines
 
 

@@ -4,14 +4,16 @@ panel under the other, each with a curve, its extremes, what was measured, and w
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphkin.account.notation import force_letters
 from graphkin.construction.scales import next_of_series
 from graphkin.drawing import Box, Primitive, Text
 from graphkin.drawing.chart import (
@@ -30,6 +32,8 @@ from graphkin.drawing.chart import (
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.drawing.text import rich
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.search import greatest_and_least
 from graphkin.solver import DriverRange, Motion
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity
@@ -41,9 +45,9 @@ if TYPE_CHECKING:
     from graphkin.drawing.chart import Axes, Figure, Look
 
 __all__ = [
-    "ALONE", "EMPTY", "HEIGHT", "LEAP", "LEFT", "MARGIN", "RIGHT", "TOP", "WIDTH", "ZERO", "Axis", "DriverAxis",
-    "Panel", "chart_page", "draw_panel", "driver_axis", "heading", "legend_of", "number", "panel_of", "quantity_title",
-    "span_of", "title_of", "whole_span",
+    "EMPTY", "HEIGHT", "LEFT", "MARGIN", "RIGHT", "TOP", "WIDTH", "ZERO", "Axis", "DriverAxis", "Panel", "chart_page",
+    "draw_panel", "draw_pieces", "driver_axis", "force_symbol", "heading", "legend_of", "motion_panel", "number",
+    "panel_of", "quantity_title", "span_of", "title_of",
 ]  # fmt: skip
 
 Array = NDArray[np.float64]
@@ -53,6 +57,8 @@ LEFT, RIGHT, TOP, GAP = 26.0, 14.0, 40.0, 10.0
 ALONE, THIRD = 95.0, (HEIGHT - TOP - 20.0 - 2 * GAP) / 3
 """Height of a panel that stands alone, and of one of three (mm)."""
 POINTS = 721
+FINE = 1e-6
+"""Of the axis: as near as this the places of extremes are sought."""
 BESIDE = 1e-3
 """Of the driver's range: so far beside a place that may be a dead point."""
 MARGIN = 0.14
@@ -90,13 +96,46 @@ def number(value: float, digits: int = 5) -> str:
 
 
 @dataclass(frozen=True)
-class Axis:
-    """What is drawn from left to right: its ends, the step of its ticks, its title."""
+class Axis(ABC):
+    """What is drawn from left to right, and the motion over it: its ends, the step of its ticks, its title.
+
+    Places along it are offsets of the driver's range, or moments (s).
+    """
 
     left: float
     right: float
     step: float
     title: str
+
+    @property
+    @abstractmethod
+    def scene(self) -> Mechanism: ...
+
+    @abstractmethod
+    def at(self, places: Array) -> Array:
+        """Where places lie on the axis."""
+
+    @abstractmethod
+    def values(self, quantity: Quantity, places: Array) -> Array:
+        """A quantity at places (SI), NaN where it has none."""
+
+    def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
+        """Values (SI) in units of the figure."""
+        return np.asarray(quantity.unit(self.scene).of(values))
+
+    def extremes(self, quantity: Quantity, places: Array, values: Array) -> tuple[Extreme, Extreme]:
+        """The greatest and the least of a course that was sampled (SI); a size is nought that is no more than what its
+        place leaves open."""
+        within = FINE * float(np.ptp(places))
+        (top, greatest), (bottom, least) = greatest_and_least(
+            lambda at: self.values(quantity, at), places, values, within
+        )
+        least = 0.0 if quantity.is_size and least < 10 * FINE * greatest else least
+        return Extreme("max", top, self.driver(top), greatest), Extreme("min", bottom, self.driver(bottom), least)
+
+    def driver(self, place: float) -> float:
+        """What is said of a place: the moment itself, or the value of the driver there (rad, m)."""
+        return place
 
 
 @dataclass(frozen=True)
@@ -108,7 +147,10 @@ class DriverAxis(Axis):
 
     reach: DriverRange
     first: float
-    _asked: dict[bytes, Motion] = field(default_factory=dict, compare=False, repr=False)
+
+    @property
+    def scene(self) -> Mechanism:
+        return self.reach.scene
 
     @cached_property
     def offsets(self) -> Array:
@@ -118,13 +160,6 @@ class DriverAxis(Axis):
             half = np.linspace(0, np.pi, POINTS)
             return np.asarray(low + (high - low) * np.sin(half / 2) ** 2)
         return np.asarray((np.linspace(0.0, high, POINTS) + self.first) % high)
-
-    def motion_at(self, offsets: Array) -> Motion:
-        """The motion at offsets of dots, which many panels share."""
-        key = offsets.tobytes()
-        if key not in self._asked:
-            self._asked[key] = self.reach.motion(offsets, fine=False)
-        return self._asked[key]
 
     @cached_property
     def motion(self) -> Motion:
@@ -144,30 +179,44 @@ class DriverAxis(Axis):
         first, last = math.ceil(low / self.step - 1e-9), math.floor(high / self.step + 1e-9)
         return np.asarray(self.step * np.arange(first, last + 1))
 
-    def at(self, offset: Array) -> Array:
-        """Where offsets lie on the axis."""
-        reach, scene = self.reach, self.reach.scene
+    def at(self, places: Array) -> Array:
+        reach = self.reach
         if not reach.full:
-            return np.asarray(scene.unit_of(reach.driver).of(reach.value(offset)))
+            return np.asarray(self.scene.unit_of(reach.driver).of(reach.value(places)))
         high = reach.ends[1]
-        along = (np.asarray(offset) - self.first) % high
+        along = (np.asarray(places) - self.first) % high
         along = np.where(along > high * (1 - 1e-12), 0.0, along)
         return np.asarray(np.degrees(along if reach.sense > 0 else high - along))
 
-    def shown(self, quantity: Quantity, offset: Array, values: Array) -> Array:
+    def values(self, quantity: Quantity, places: Array) -> Array:
+        return quantity.values(self.reach, self.reach.motion(places, fine=False))
+
+    def shown(self, quantity: Quantity, places: Array, values: Array) -> Array:
         """Values (SI) in units of the figure; an angle of a link without a jump along the axis."""
-        reach = self.reach
         values = np.asarray(values, dtype=float)
-        if quantity.kind == "theta" and reach.full:
-            values = np.where(offset < self.first - 1e-12, values + self.gain(quantity), values)
-            left = quantity.values(reach, self.beside_ends)[2]
+        if quantity.kind == "theta" and self.reach.full:
+            values = np.where(places < self.first - 1e-12, values + self.gain(quantity), values)
+            left = quantity.values(self.reach, self.beside_ends)[2]
             values = values - 2 * np.pi * np.rint(left / (2 * np.pi))
-        return np.asarray(quantity.unit(reach.scene).of(values))
+        return super().shown(quantity, places, values)
 
     def gain(self, quantity: Quantity) -> float:
         """How far an angle gets over the whole range, in whole turns: beside the ends, which may be dead points."""
         first, last = quantity.values(self.reach, self.beside_ends)[:2]
         return float(2 * np.pi * np.rint((last - first) / (2 * np.pi)))
+
+    def driver(self, place: float) -> float:
+        value = float(self.reach.value(np.array(place)))
+        return value % math.tau if self.reach.full and self.reach.turns <= 1 else value
+
+    def curve(self, quantity: Quantity, offsets: Array, values: Array) -> Array:
+        """The curve of a quantity from its values (SI): of a whole turn the axis ends where it begins, a turn later."""
+        x, shown = self.at(offsets), self.shown(quantity, offsets, values)
+        if self.reach.full:
+            x[0], x[-1] = self.left, self.right
+            if quantity.kind == "theta":
+                shown[-1] = shown[0] + quantity.unit(self.scene).of(self.gain(quantity))
+        return np.stack([x, shown], axis=1)
 
     def points(self, quantity: Quantity, pairs: Sequence[tuple[float, float]]) -> Array:
         """Offsets and values (SI) as points of a panel."""
@@ -176,8 +225,7 @@ class DriverAxis(Axis):
         at, read = np.array(pairs, dtype=float).T
         if quantity.measure == "angle" and quantity.kind == "theta":
             # an angle that is measured tells no whole turns
-            near = quantity.values(self.reach, self.motion_at(at))
-            read = read + 2 * np.pi * np.rint((near - read) / (2 * np.pi))
+            read = read + 2 * np.pi * np.rint((self.values(quantity, at) - read) / (2 * np.pi))
         points = np.stack([self.at(at), self.shown(quantity, at, read)], axis=1)
         return np.asarray(points[np.isfinite(points).all(axis=1)])
 
@@ -232,43 +280,52 @@ class Panel:
 
 
 def panel_of(
+    axis: Axis, quantity: Quantity, curve: Array, extremes: Sequence[Extreme], bounded: bool = True,
+    dots: Array = EMPTY, laid_over: Array = EMPTY, jumps: Sequence[int] = (),
+) -> Panel:  # fmt: skip
+    """The panel of a quantity over an axis, in units of the figure; of a force with nought in it.
+
+    Parameters
+    ----------
+    curve, dots, laid_over, jumps : as a `Panel` shows them
+    bounded : False where the quantity may grow without bound: then what most of the way needs is shown
+    """
+    low, high = span_of(curve, dots, bounded)
+    reached = [0.0] if quantity.is_load else laid_over[:, 1].tolist()
+    span = whole_span(min([low, *reached]), max([high, *reached]))
+    places = np.array([e.offset for e in extremes])
+    shown = axis.shown(quantity, places, np.array([e.value for e in extremes]))
+    marked = tuple(
+        (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
+        if span[0] <= value <= span[1]
+    )  # fmt: skip
+    allowed, falling = _allowed(quantity, axis.scene)
+    return Panel(
+        quantity, quantity_title(axis.scene, quantity), curve, dots, marked, span, allowed=allowed, falling=falling,
+        laid_over=laid_over, jumps=tuple(jumps),
+    )  # fmt: skip
+
+
+def motion_panel(
     turn: TurnStudy, axis: DriverAxis, quantity: Quantity, dots: Sequence[tuple[float, float]] = (),
     laid_over: Sequence[tuple[float, float]] = (),
 ) -> Panel:  # fmt: skip
-    """What the panel of a quantity over the driver shows.
+    """The panel of a quantity of the motion over the driver.
 
     Parameters
     ----------
     dots, laid_over : offset of the driver and value (SI) of what was measured on the drawing, and of what somebody else
         measured
     """
-    reach, scene = turn.reach, turn.scene
     traced = next((t for t in turn.curves if t.quantity == quantity), None)
-    offsets = axis.offsets
-    x = axis.at(offsets)
-    values = axis.shown(quantity, offsets, quantity.values(reach, axis.motion))
-    if reach.full:
-        # the axis ends where it begins, a turn later
-        x[0], x[-1] = axis.left, axis.right
-        gain = axis.gain(quantity) if quantity.kind == "theta" else 0.0
-        values[-1] = values[0] + quantity.unit(scene).of(gain)
-    points, others = (axis.points(quantity, some) for some in (dots, laid_over))
-    curve = np.stack([x, values], axis=1)
-    low, high = span_of(curve, points, bounded=reach.full or quantity.is_position)
-    span = whole_span(min([low, *others[:, 1].tolist()]), max([high, *others[:, 1].tolist()]))
+    curve = axis.curve(quantity, axis.offsets, quantity.values(turn.reach, axis.motion))
     extremes = [e for e in (traced.extremes if traced else ()) if e.kind != "end"]
-    places = np.array([e.offset for e in extremes])
-    shown = axis.shown(quantity, places, np.array([e.value for e in extremes]))
-    marked = [
-        (e, float(place), float(value)) for e, place, value in zip(extremes, axis.at(places), shown, strict=True)
-        if span[0] <= value <= span[1]
-    ]  # fmt: skip
-    local = frozenset(e for e, _, _ in marked if traced and turn.is_local(traced, e))
-    unbounded = traced is not None and turn.is_unbounded(traced)
-    title = quantity_title(scene, quantity)
-    return Panel(
-        quantity, title, curve, points, tuple(marked), span, local, unbounded, *_allowed(quantity, scene), others
-    )  # fmt: skip
+    panel = panel_of(axis, quantity, curve, extremes, turn.reach.full or quantity.is_position,
+                     axis.points(quantity, dots), axis.points(quantity, laid_over))  # fmt: skip
+    if traced is None:
+        return panel
+    local = frozenset(e for e, _, _ in panel.extremes if turn.is_local(traced, e))
+    return replace(panel, local=local, unbounded=turn.is_unbounded(traced))
 
 
 def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
@@ -277,7 +334,13 @@ def quantity_title(scene: Mechanism, quantity: Quantity) -> str:
     if quantity.symbol is not None:
         letter, name = quantity.symbol.kind, str(quantity.symbol).removeprefix(f"{quantity.symbol.kind}_")
     greek = {"theta": "θ", "omega": "ω", "alpha": "α", "gamma": "γ", "pressure": "α^{p}", "d": "l"}.get(letter, letter)
-    return f"${greek}_{{{name.replace('@', '')}}}$ ({quantity.unit(scene).written})"
+    symbol = force_symbol(scene, quantity.of) if quantity.is_load else f"${greek}_{{{name.replace('@', '')}}}$"
+    return f"{symbol} ({quantity.unit(scene).written})"
+
+
+def force_symbol(scene: Mechanism, name: str) -> str:
+    """A force or a moment in the letters of the scene's convention, as markup."""
+    return f"${force_letters(scene.question.sheet.convention, Symbol.parse(name))}$"
 
 
 def _allowed(quantity: Quantity, scene: Mechanism) -> tuple[tuple[float, float] | None, float | None]:

@@ -37,8 +37,8 @@ from graphkin.study.charts import (
     chart_page,
     driver_axis,
     heading,
+    motion_panel,
     number,
-    panel_of,
     title_of,
 )
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
@@ -118,7 +118,7 @@ def _motion_page(
     """Position, rate and second rate of an output, one under the other."""
     quantity = output.quantity
     panels = [
-        panel_of(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
+        motion_panel(turn, axis, q, [(d[0], d[k]) for d in dots], over.get(q, ()))
         for k, q in enumerate(rates_of(quantity), 1)
     ]
     limits = sorted(
@@ -135,7 +135,7 @@ def _asked_page(
 ) -> ChartPage:
     """The diagram of one quantity over the driver."""
     others = over.get(quantity, ())
-    panel = panel_of(turn, axis, quantity, (), others)
+    panel = motion_panel(turn, axis, quantity, (), others)
     apart = _apart(turn, quantity, others, language)
     heads = say(Phrase("diagram of", (panel.title,)), language), [apart] if apart else []
     return chart_page(turn.scene, heads, [panel], axis, language, quantity.name, {"quantity": quantity.name})

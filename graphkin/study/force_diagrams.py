@@ -7,14 +7,11 @@ Where a load begins, ends or turns round the curve jumps: both its values stand 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-from graphkin.account.notation import force_letters
 from graphkin.drawing import Box
 from graphkin.drawing.chart import (
     BEHIND,
@@ -30,29 +27,28 @@ from graphkin.drawing.chart import (
 )
 from graphkin.drawing.ink.primitives import Stroke
 from graphkin.scene.force_names import force_names
-from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import Symbol
 from graphkin.solver import DriverRange, forces_of
 from graphkin.solver.values import FlywheelStudy, MomentArea, load_edges, needed_moment
 from graphkin.study.charts import (
-    EMPTY,
     LEFT,
     MARGIN,
     RIGHT,
     TOP,
     WIDTH,
     ZERO,
+    Array,
     DriverAxis,
     Panel,
     chart_page,
     draw_panel,
     draw_pieces,
     driver_axis,
+    force_symbol,
     heading,
     number,
+    panel_of,
     span_of,
     title_of,
-    whole_span,
 )
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, named_quantity
@@ -61,11 +57,7 @@ from graphkin.words import Phrase, say, word
 if TYPE_CHECKING:
     from graphkin.drawing.chart import Figure
 
-__all__ = ["ForceRun", "flywheel_page", "force_extremes", "force_over_turn", "force_page", "polar_page", "whole_turn"]
-
-Array = NDArray[np.float64]
-Marks = tuple[tuple[Extreme, float, float], ...]
-"""Extremes with their place on the axis and their value in the scene's units."""
+__all__ = ["flywheel_page", "force_extremes", "force_page", "force_panel", "polar_page", "whole_turn"]
 
 JUMP = 1e-8
 """Of the range: so far on both sides of where a load begins or ends its two values are taken."""
@@ -73,20 +65,7 @@ GROWS = 50.0
 """Beside the samples next to an end of the motion: what grows more there goes away without bound."""
 NOUGHT = 1e-12
 """Of the greatest force or moment: less is nothing but rounding."""
-FINER = 33
 TICKS = 12
-
-
-@dataclass(frozen=True)
-class ForceRun:
-    """A force (complex) or a moment over the way of the driver, in the scene's units.
-
-    offsets, x, values : shape (n,), as the axis goes; NaN where it has none, and between the two values of a jump
-    """
-
-    offsets: Array
-    x: Array
-    values: NDArray[np.complex128] | Array
 
 
 def whole_turn(axis: DriverAxis) -> Array:
@@ -101,149 +80,107 @@ def whole_turn(axis: DriverAxis) -> Array:
     return np.unique(np.concatenate([axis.offsets, beside[(beside > low) & (beside < high)]]))
 
 
-def force_over_turn(axis: DriverAxis, name: str) -> ForceRun:
-    """A force or a moment by its name over the way of the driver."""
-    reach, offsets = axis.reach, whole_turn(axis)
-    value = forces_of(reach.motion(offsets)).value(name)
-    assert value is not None
-    x = axis.at(offsets)
-    if reach.full:
-        x[0], x[-1] = axis.left, axis.right
-    return ForceRun(offsets, x, value / reach.scene.units.newtons)
-
-
-def _written(scene: Mechanism, name: str) -> str:
-    """A force or a moment in the letters of the scene's convention."""
-    return f"${force_letters(scene.question.sheet.convention, Symbol.parse(name))}$"
+def force_panel(axis: DriverAxis, quantity: Quantity, offsets: Array) -> Panel:
+    """A moment, or the size of a force, over the driver, with its greatest and its least value."""
+    values = quantity.values(axis.reach, axis.reach.motion(offsets))
+    curve, extremes = axis.curve(quantity, offsets, values), _extremes(axis, quantity, offsets, values)
+    away = any(math.isinf(e.value) for e in extremes)
+    panel = panel_of(axis, quantity, curve, extremes, bounded=not away, jumps=jumps_of(curve))
+    return replace(panel, unbounded=away)
 
 
 def force_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
-    """A moment, or the size of a force, over the driver, with its greatest and its least value."""
+    """The diagram of a moment, or of the size of a force, over the driver."""
     axis = driver_axis(reach, language)
-    found = force_over_turn(axis, quantity.of)
-    values = np.abs(found.values) if quantity.is_size else np.asarray(found.values.real)
-    unit, name = quantity.unit(reach.scene).written, _written(reach.scene, quantity.of)
-    every = _extremes(axis, quantity, found, values)
-    marks = [m for m in every if not _unbounded(reach, found.offsets, values, m[0].offset, m[2])]
-    panel = course(quantity, f"{name} ({unit})", found, values, tuple(marks), len(marks) < len(every))
-    heads = say(Phrase("diagram of", (name,)), language), ()
-    facts = {"units": unit, "quantity": quantity.name}
+    panel = force_panel(axis, quantity, whole_turn(axis))
+    heads = say(Phrase("diagram of", (force_symbol(reach.scene, quantity.of),)), language), ()
+    facts = {"units": quantity.unit(reach.scene).written, "quantity": quantity.name}
     return chart_page(reach.scene, heads, [panel], axis, language, quantity.name, facts)
 
 
-def course(
-    quantity: Quantity, title: str, found: ForceRun, values: Array, marks: Marks = (), unbounded: bool = False
-) -> Panel:
-    """A force or a moment over the driver as a panel, with nought in it; of one without bound what most of the way
-    needs."""
-    curve = np.stack([found.x, values], axis=1)
-    low, high = span_of(curve, EMPTY, not unbounded)
-    low, high = min(0.0, low), max(0.0, high)
-    span = whole_span(low, high) if high > low else (low - 0.5, high + 0.5)
-    jumps = tuple(_jumps(found, values))
-    return Panel(quantity, title, curve, EMPTY, marks, span, unbounded=unbounded, jumps=jumps)
-
-
-def _jumps(found: ForceRun, values: Array) -> list[int]:
-    """After which values the curve jumps."""
-    step = np.abs(np.diff(found.x))
-    leap = np.abs(np.diff(values))
+def jumps_of(curve: Array) -> list[int]:
+    """After which points a curve, shape (n, 2), jumps: where two lie at one place of the axis."""
+    x, values = curve.T
     wide = float(np.nanmax(np.abs(values), initial=0.0))
-    return np.flatnonzero((step < 1e-5 * float(np.ptp(found.x))) & (leap > 1e-6 * wide)).tolist()
+    step, leap = np.abs(np.diff(x)), np.abs(np.diff(values))
+    return np.flatnonzero((step < 1e-5 * float(np.ptp(x))) & (leap > 1e-6 * wide)).tolist()
 
 
-def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, list[tuple[str, float, float]]]]:
+def force_extremes(reach: DriverRange) -> dict[str, tuple[Quantity, tuple[Extreme, ...]]]:
     """Of each joint force by its size, each couple and balance that is not nought the greatest and the least over the
-    way of the driver: ``max`` or ``min``, the driver's value (rad, m), and the value in the scene's units,
-    infinite where it goes away without bound at an end of the motion.
+    way of the driver (SI), infinite where it goes away without bound at an end of the motion.
 
     Raises
     ------
     Unsolvable : a load acts on a part of a stroke, and the driver makes no whole turn
     """
-    scene, found = reach.scene, dict[str, tuple[Quantity, list[tuple[str, float, float]]]]()
-    names = [n for n in force_names(scene) if n.startswith(("F_", "M_"))]
+    names = [n for n in force_names(reach.scene) if n.startswith(("F_", "M_"))]
     if not names:
-        return found
+        return {}
     axis = driver_axis(reach, "en")
     offsets = whole_turn(axis)
-    forces, x = forces_of(reach.motion(offsets)), axis.at(offsets)
+    motion = reach.motion(offsets)
+    forces = forces_of(motion)
     most = max(float(np.nanmax(np.abs(v), initial=0.0)) for v in (*forces.forces.values(), *forces.moments.values()))
+    found = dict[str, tuple[Quantity, tuple[Extreme, ...]]]()
     for name in names:
-        value, quantity = forces.value(name), named_quantity(scene, name)
-        if value is None or quantity is None or not np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
-            continue
-        values = np.asarray(np.abs(value) if quantity.is_size else value.real) / scene.units.newtons
-        marks = _extremes(axis, quantity, ForceRun(offsets, x, value), values)
-        found[name] = quantity, [
-            (e.kind, e.driver, math.inf if _unbounded(reach, offsets, values, e.offset, size) else size)
-            for e, _, size in marks
-        ]  # fmt: skip
+        value, quantity = forces.value(name), named_quantity(reach.scene, name)
+        if value is not None and quantity is not None and np.nanmax(np.abs(value), initial=0.0) > NOUGHT * most:
+            found[name] = quantity, _extremes(axis, quantity, offsets, quantity.values(reach, motion))
     return found
 
 
-def _unbounded(reach: DriverRange, offsets: Array, values: Array, at: float, value: float) -> bool:
-    """Whether a value goes away without bound at an end of the motion."""
-    if reach.full:
-        return False
-    low, high = (at <= offsets[2], at >= offsets[-3])
-    inside = np.abs(values[3:6] if low else values[-6:-3])
-    return bool((low or high) and abs(value) > GROWS * np.nanmax(inside, initial=0.0))
-
-
-def _extremes(axis: DriverAxis, quantity: Quantity, found: ForceRun, values: Array) -> Marks:
-    """The greatest and the least, with place on the axis and value."""
-    reach, marks = axis.reach, list[tuple[Extreme, float, float]]()
-    kinds: tuple[tuple[Literal["max", "min"], Callable[[Array], np.intp]], ...]
-    kinds = ("max", np.nanargmax), ("min", np.nanargmin)
-    known = values[np.isfinite(values)]
-    if len(known) and np.ptp(known) <= NOUGHT * np.abs(known).max():  # it is the same everywhere, but for rounding
-        kinds = (("max", lambda each: np.flatnonzero(np.isfinite(each))[0]),)
-    for kind, pick in kinds if len(known) else ():
-        k = int(pick(values))
-        at, x, value = float(found.offsets[k]), float(found.x[k]), float(values[k])
-        near = found.offsets[max(k - 1, 0) : k + 2]
-        if len(near) == 3 and 0 < near[2] - near[0] < 0.1 * (reach.ends[1] - reach.ends[0]):
-            finer = np.concatenate([np.linspace(near[0], near[1], FINER), np.linspace(near[1], near[2], FINER)])
-            own = quantity.values(None, reach.motion(finer)) / reach.scene.units.newtons
-            best = int(pick(own))
-            at, x, value = float(finer[best]), float(axis.at(finer[best : best + 1])[0]), float(own[best])
-        driver = float(reach.value(np.array(at)))
-        driver = driver % math.tau if reach.full and reach.turns <= 1 else driver
-        marks.append((Extreme(kind, at, driver, value), x, value))
-    return tuple(marks if marks and marks[0][2] > marks[-1][2] else marks[:1])
+def _extremes(axis: DriverAxis, quantity: Quantity, offsets: Array, values: Array) -> tuple[Extreme, ...]:
+    """The greatest and the least of a force or moment (SI), one of a constant; infinite where it goes away without
+    bound at an end of the motion."""
+    known = np.flatnonzero(np.isfinite(values))
+    if not len(known):
+        return ()
+    if np.ptp(values[known]) <= NOUGHT * np.abs(values[known]).max():  # it is the same everywhere, but for rounding
+        at, value = float(offsets[known[0]]), float(values[known[0]])
+        return (Extreme("max", at, axis.driver(at), value),)
+    both = axis.extremes(quantity, offsets, values)
+    if axis.reach.full:
+        return both
+    found = []
+    for extreme in both:
+        low, high = extreme.offset <= offsets[2], extreme.offset >= offsets[-3]
+        inside = float(np.nanmax(np.abs(values[3:6] if low else values[-6:-3]), initial=0.0))
+        away = (low or high) and abs(extreme.value) > GROWS * inside
+        found.append(replace(extreme, value=math.copysign(math.inf, extreme.value)) if away else extreme)
+    return tuple(found)
 
 
 def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPage:
     """The polar diagram of a force: the end of its vector, drawn from one pole, over the way of the driver."""
-    scene = reach.scene
-    axis = driver_axis(reach, language)
-    found = force_over_turn(axis, quantity.of)
-    vector = np.asarray(found.values, dtype=complex)
-    sizes = np.abs(vector)
-    jumps = sorted({*_jumps(found, vector.real), *_jumps(found, vector.imag)})
-    unit, name = quantity.unit(scene).text, _written(scene, quantity.of)
+    scene, axis = reach.scene, driver_axis(reach, language)
+    offsets, unit = whole_turn(axis), quantity.unit(scene)
+    panel = force_panel(axis, quantity, offsets)
+    x, sizes = panel.curve.T
+    vector = np.asarray(unit.of(quantity.whole(reach.motion(offsets))), dtype=complex)
+    jumps = sorted({j for part in (vector.real, vector.imag) for j in jumps_of(np.stack([x, part], axis=1))})
+    name = force_symbol(scene, quantity.of)
     title = say(Phrase("polar diagram of", (name,)), language)
-    k = int(np.nanargmax(sizes))
-    away = _unbounded(reach, found.offsets, sizes, float(found.offsets[k]), float(sizes[k]))
     mark = "°" if scene.drivers[0].turns else f" {scene.units.length}"
-    greatest = f"{number(float(sizes[k]))} {unit}", f"{number(float(found.x[k]), 4)}{mark}"
-    facts = [f"{name}{word('colon', language)}{word('unbounded', language)}" if away
-             else say(Phrase("greatest force at", greatest), language)]  # fmt: skip
-    most = span_of(np.stack([found.x, sizes], axis=1), bounded=not away)[1]
+    facts = [f"{name}{word('colon', language)}{word('unbounded', language)}"]
+    if not panel.unbounded:
+        k = int(np.nanargmax(sizes))
+        greatest = f"{number(float(sizes[k]))} {unit.text}", f"{number(float(x[k]), 4)}{mark}"
+        facts = [say(Phrase("greatest force at", greatest), language)]
+    most = span_of(panel.curve, bounded=not panel.unbounded)[1]
     whole = np.concatenate([vector[sizes <= most], [0j]])
     span = 1.12 * max(float(np.ptp(whole.real)), float(np.ptp(whole.imag))) or 1.0
     middle = complex(whole.real.max() + whole.real.min(), whole.imag.max() + whole.imag.min()) / 2
     ticks = axis.ticks[:-1] if reach.full else axis.ticks
     if len(ticks) > TICKS + 1:
         ticks = ticks[:: -(-len(ticks) // TICKS)]
-    at = [int(np.argmin(np.abs(found.x - x))) for x in ticks]
+    at = [(float(tick), j) for tick in ticks if sizes[j := int(np.argmin(np.abs(x - tick)))] <= most]
     side = WIDTH - LEFT - RIGHT
 
     def paint(figure: Figure) -> None:
         add_words(figure, *heading(scene, title, facts, language))
         box = Box(LEFT, TOP - 4.0, LEFT + side, TOP - 4.0 + side)
-        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit})", f"({unit})")
+        axes = add_panel(figure, box, quantity.name.replace("/", "-"), f"{name} ({unit.text})", f"({unit.text})")
         axes.set_xlim(middle.real - span / 2, middle.real + span / 2)
         axes.set_ylim(middle.imag - span / 2, middle.imag + span / 2)
         count_steps(axes.xaxis)
@@ -251,16 +188,17 @@ def polar_page(reach: DriverRange, quantity: Quantity, language: str) -> ChartPa
         axes.axhline(0.0, zorder=BEHIND, **look(ZERO))
         axes.axvline(0.0, zorder=BEHIND, **look(ZERO))
         draw_pieces(axes, np.stack([vector.real, vector.imag], axis=1), jumps)
-        for j in (j for j in at if sizes[j] <= most):
-            axes.plot([vector[j].real], [vector[j].imag], **marker("circle"))
-        labels = [(f"{number(float(x), 4)}{mark if mark == '°' else ''}", (vector[j].real, vector[j].imag)) for x, j in
-                  zip(ticks, at, strict=True) if sizes[j] <= most]  # fmt: skip
-        toward = [(float(np.angle(vector[j])),) for j in at if sizes[j] <= most]
+        labels, toward = [], []
+        for tick, j in at:
+            place = float(vector[j].real), float(vector[j].imag)
+            axes.plot([place[0]], [place[1]], **marker("circle"))
+            labels.append((f"{number(tick, 4)}{mark if mark == '°' else ''}", place))
+            toward.append((float(np.angle(vector[j])),))
         add_labels(axes, labels, toward=toward)
 
     return ChartPage(
         WIDTH, TOP + side + 16.0, paint, title=f"{quantity.name}: {title_of(scene, language)}",
-        desc=facts[0], lang=language, metadata={"scene": scene.name, "units": unit, "quantity": quantity.name},
+        desc=facts[0], lang=language, metadata={"scene": scene.name, "units": unit.text, "quantity": quantity.name},
     )  # fmt: skip
 
 
@@ -274,14 +212,13 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
     scene, axis = reach.scene, driver_axis(reach, language)
     per, force = scene.units.newtons, scene.units.force
     moment, inertia = f"{force}·m", f"{scene.units.mass}·{'ft' if scene.units.mass == 'lb' else 'm'}²"
-    offsets = whole_turn(axis)
-    x = axis.at(offsets)
-    x[0], x[-1] = axis.left, axis.right
-    needed, driving = needed_moment(reach, offsets) / per, found.driving / per
-    # the way that the axis goes, from where it begins
-    way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(np.radians(x))))])
-    energy = _energy(needed, driving, way)
-    panel = course(Quantity("moment", "M"), "", ForceRun(offsets, x, needed), needed)
+    offsets, moments = whole_turn(axis), Quantity("moment", f"M_{found.link}")
+    curve = axis.curve(moments, offsets, needed_moment(reach, offsets))
+    (x, needed), driving = curve.T, found.driving / per
+    # gained since the axis begins, by the trapezoidal rule: for the eye
+    gain = (driving - (needed[1:] + needed[:-1]) / 2) * np.abs(np.diff(np.radians(x)))
+    energy = np.concatenate([[0.0], np.cumsum(gain)])
+    panel = panel_of(axis, moments, curve, (), jumps=jumps_of(curve))
     title = word("moments and flywheel", language)
     facts = [
         say(Phrase("driving moment is", (f"{number(driving)} {moment}",)), language),
@@ -304,10 +241,10 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
         for over, colour in ((needed < driving, MORE), (needed > driving, LESS)):
             axes.fill_between(x, needed, driving, where=over, color=colour, linewidth=0.0, zorder=0.5, interpolate=True)
         axes.tick_params(labelbottom=False)
-        labels = []
+        labels, growing = [], np.argsort(x, kind="stable")
         for area in _joined(found.areas, reach.ends[1]):
             middle = float(axis.at(np.array([(area.first + area.last) / 2 % reach.ends[1]]))[0])
-            near = float(np.interp(middle, *_growing(x, needed)))
+            near = float(np.interp(middle, x[growing], needed[growing]))
             sign = "+" if area.work > 0 else ""
             labels.append((f"{sign}{number(area.work / per)}", (middle, (near + driving) / 2)))
         add_labels(axes, labels)
@@ -324,8 +261,8 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
         store.axhline(0.0, zorder=BEHIND, **look(Stroke(0.18)))
         store.plot(x, energy, **look(SOLID_AND_DASHED[0]))
         names = []
-        for k, sign, letter in ((int(np.argmax(energy)), "up", "max"), (int(np.argmin(energy)), "down", "min")):
-            store.plot([x[k]], [energy[k]], **marker("up" if sign == "up" else "down"))
+        for k, letter in ((int(energy.argmax()), "max"), (int(energy.argmin()), "min")):
+            store.plot([x[k]], [energy[k]], **marker("up" if letter == "max" else "down"))
             names.append((f"$ω$ {letter}", (float(x[k]), float(energy[k]))))
         add_labels(store, names, toward=[(math.pi / 2,), (-math.pi / 2,)])
 
@@ -334,17 +271,6 @@ def flywheel_page(reach: DriverRange, found: FlywheelStudy, language: str) -> Ch
         title=f"{title}: {title_of(scene, language)}", desc="; ".join(facts).replace("$", ""), lang=language,
         metadata={"scene": scene.name, "units": moment, "flywheel": found.link},
     )  # fmt: skip
-
-
-def _growing(x: Array, values: Array) -> tuple[Array, Array]:
-    order = np.argsort(x, kind="stable")
-    return x[order], values[order]
-
-
-def _energy(needed: Array, driving: float, way: Array) -> Array:
-    """Kinetic energy gained since the axis begins, by the trapezoidal rule: for the eye."""
-    gain = (driving - (needed[1:] + needed[:-1]) / 2) * np.diff(way)
-    return np.concatenate([[0.0], np.cumsum(gain)])
 
 
 def _joined(areas: tuple[MomentArea, ...], cycle: float) -> list[MomentArea]:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,7 +16,7 @@ from graphkin.scene.drivers import time_span
 from graphkin.scene.model import Mechanism
 from graphkin.solver import Motion, over_time, structure_of
 from graphkin.structure import Structure
-from graphkin.study.charts import EMPTY, Axis, Panel, chart_page, number, quantity_title, span_of, whole_span
+from graphkin.study.charts import Axis, chart_page, number, panel_of, quantity_title
 from graphkin.study.extremes import Extreme
 from graphkin.study.quantities import Quantity, link_quantities, slide_quantities
 from graphkin.study.turn import output_links, output_slides
@@ -31,15 +31,14 @@ BEFORE = 1e-9
 
 
 @dataclass(frozen=True)
-class TimeStudy:
-    """What outputs do over the time: of each the quantities that are watched, in groups of a page each."""
+class TimeAxis(Axis):
+    """The time (s) over which drivers move by their laws."""
 
-    scene: Mechanism
-    pages: tuple[tuple[str, tuple[Quantity, ...]], ...]
+    structure: Structure
 
     @property
-    def quantities(self) -> tuple[Quantity, ...]:
-        return tuple(dict.fromkeys(q for _, own in self.pages for q in own))
+    def scene(self) -> Mechanism:
+        return self.structure.scene
 
     @cached_property
     def times(self) -> Array:
@@ -51,65 +50,73 @@ class TimeStudy:
         return np.unique(np.concatenate([even, inner, inner - BEFORE * (high - low)]))
 
     @cached_property
-    def structure(self) -> Structure:
-        return structure_of(self.scene)
-
-    @cached_property
     def motion(self) -> Motion:
         return over_time(self.structure, self.times, fine=False)
 
-    def values(self, quantity: Quantity) -> Array:
-        """Values over ``times`` (SI), NaN where there is none."""
+    def at(self, places: Array) -> Array:
+        return places
+
+    def course(self, quantity: Quantity) -> Array:
+        """A quantity over ``times`` (SI), NaN where there is none."""
         return np.asarray(quantity.values(None, self.motion), dtype=float)
+
+    def values(self, quantity: Quantity, places: Array) -> Array:
+        found = np.asarray(quantity.values(None, over_time(self.structure, places, fine=False)), dtype=float)
+        if quantity.measure != "angle":
+            return found
+        # whole turns as on the curve
+        near = np.interp(places, self.times, self.course(quantity))
+        return np.asarray(found + 2 * np.pi * np.rint((near - found) / (2 * np.pi)))
+
+
+@dataclass(frozen=True)
+class TimeStudy:
+    """What outputs do over the time: of each the quantities that are watched, in groups of a page each."""
+
+    structure: Structure
+    pages: tuple[tuple[str, tuple[Quantity, ...]], ...]
+
+    @property
+    def scene(self) -> Mechanism:
+        return self.structure.scene
+
+    @cached_property
+    def axis(self) -> TimeAxis:
+        low, high = time_span(self.scene)
+        return TimeAxis(low, high, next_of_series((high - low) / 12), "", self.structure)
 
     @cached_property
     def extremes(self) -> dict[Quantity, tuple[Extreme, ...]]:
-        """Of each quantity the least and the greatest value; their offset and driver is the time (s)."""
-        return {q: tuple(self._extremes(q)) for q in self.quantities}
-
-    def _extremes(self, quantity: Quantity) -> Iterator[Extreme]:
-        values = self.values(quantity)
-        good = np.isfinite(values)
-        if not good.any() or np.ptp(values[good]) <= 1e-12 * np.max(np.abs(values[good])):
-            return
-        for kind, best in (("min", np.nanargmin), ("max", np.nanargmax)):
-            k = int(best(values))
-            low, high = self.times[max(k - 1, 0)], self.times[min(k + 1, len(self.times) - 1)]
-            at, value = float(self.times[k]), float(values[k])
-            for _ in range(2):
-                near = np.linspace(low, high, 41)
-                found = np.asarray(quantity.values(None, over_time(self.structure, near, fine=False)), dtype=float)
-                if quantity.measure == "angle":  # whole turns as on the curve
-                    found = found + 2 * np.pi * np.rint((value - found) / (2 * np.pi))
-                j = int(best(np.where(np.isfinite(found), found, value)))
-                at, value = float(near[j]), float(found[j])
-                low, high = near[max(j - 1, 0)], near[min(j + 1, 40)]
-            yield Extreme("min" if kind == "min" else "max", at, at, value)
+        """Of each quantity the least and the greatest value, none of one that stands still; their offset and driver is
+        the time (s)."""
+        found = dict[Quantity, tuple[Extreme, ...]]()
+        for quantity in (q for _, own in self.pages for q in own):
+            values = self.axis.course(quantity)
+            good = values[np.isfinite(values)]
+            still = not len(good) or np.ptp(good) <= 1e-12 * np.max(np.abs(good))
+            found[quantity] = () if still else self.axis.extremes(quantity, self.axis.times, values)[::-1]
+        return found
 
     def diagrams(self, language: str) -> dict[str, ChartPage]:
         """A page for each output: its position, rate and second rate over the time."""
         return {name: self._page(quantities, language) for name, quantities in self.pages}
 
     def _page(self, quantities: Sequence[Quantity], language: str) -> ChartPage:
-        low, high = time_span(self.scene)
-        axis = Axis(low, high, next_of_series((high - low) / 12), word("time axis", language))
-        subject = quantities[0]
+        axis, subject = replace(self.axis, title=word("time axis", language)), quantities[0]
+        times = self.axis.times
         key = {"theta": "motion of link", "s": "motion of slide"}.get(subject.kind, "diagram of")
         shown = quantity_title(self.scene, subject) if key == "diagram of" else subject.of.split("/")[0]
         title = say(Phrase(key, (shown,)), language)
-        heads, panels = (title, [self._fact(language)]), [self._panel(q) for q in quantities]
-        return chart_page(self.scene, heads, panels, axis, language, title, {"over": "time"})
+        panels = []
+        for quantity in quantities:
+            curve = np.stack([times, axis.shown(quantity, times, self.axis.course(quantity))], axis=1)
+            panels.append(panel_of(axis, quantity, curve, self.extremes[quantity]))
+        return chart_page(self.scene, (title, [self._fact(language)]), panels, axis, language, title, {"over": "time"})
 
     def _fact(self, language: str) -> str:
         """What drives, and how long."""
         drives = ", ".join(d.key for d in self.scene.drivers if d.law is not None)
         return say(Phrase("over the time", (drives, *map(number, time_span(self.scene)))), language)
-
-    def _panel(self, quantity: Quantity) -> Panel:
-        unit = quantity.unit(self.scene)
-        curve = np.stack([self.times, unit.of(self.values(quantity))], axis=1)
-        marked = tuple((e, e.offset, unit.of(e.value)) for e in self.extremes[quantity])
-        return Panel(quantity, quantity_title(self.scene, quantity), curve, EMPTY, marked, whole_span(*span_of(curve)))
 
     def lines(self, language: str) -> list[str]:
         """Of each quantity the least and the greatest value, with the moment of it, as lines of text."""
@@ -142,7 +149,7 @@ def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
     """What is watched over the time: what is asked, each alone; else the drivers and every output with its rates."""
     if asked:
         named = ((f"diagram-{q.name.replace('/', '-').replace('@', '')}", (q,)) for q in asked)
-        return TimeStudy(scene, tuple(named))
+        return TimeStudy(structure_of(scene), tuple(named))
     pages: list[tuple[str, tuple[Quantity, ...]]] = []
     turning = [d.link for d in scene.drivers if d.turns_about(scene.frame.name)]
     sliding = [d.key for d in scene.drivers if not d.turns]
@@ -151,4 +158,4 @@ def study_time(scene: Mechanism, asked: Sequence[Quantity] = ()) -> TimeStudy:
     sliding += [key for key in output_slides(start) if key not in sliding]
     pages += [(f"motion-link-{name}", link_quantities(name)) for name in turning]
     pages += [(f"motion-slide-{key.replace('/', '-')}", slide_quantities(key)) for key in sliding]
-    return TimeStudy(scene, tuple(pages))
+    return TimeStudy(structure_of(scene), tuple(pages))

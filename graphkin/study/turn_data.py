@@ -109,8 +109,9 @@ def _forces(turn: TurnStudy) -> dict[str, Json]:
         return {"forces": {}, "why_no_forces": stop.why}
     return {"forces": {
         name: {"unit": quantity.unit(turn.scene).text, "extremes": [
-            {"kind": kind, "driver": _driver(turn.scene, at), **_bounded(value)} for kind, at, value in marks
-        ]} for name, (quantity, marks) in found.items()
+            {"kind": e.kind, "driver": _driver(turn.scene, e.driver), **_bounded(quantity.unit(turn.scene).of(e.value))}
+            for e in extremes
+        ]} for name, (quantity, extremes) in found.items()
     }}  # fmt: skip
 
 

@@ -16,7 +16,8 @@ from graphkin.scene import mechanism_of
 from graphkin.solver import driver_range
 from graphkin.solver.values import flywheel_of, load_edges, needed_moment
 from graphkin.study.charts import driver_axis
-from graphkin.study.force_diagrams import force_over_turn
+from graphkin.study.force_diagrams import force_panel, whole_turn
+from graphkin.study.quantities import Quantity
 
 FORCES = Path(__file__).parent.parent / "validation" / "forces"
 SHAPER, ENGINE = FORCES / "shaper-scheme-2.toml", FORCES / "engine.toml"
@@ -92,10 +93,9 @@ def test_forces_jump_where_the_cut_begins_and_ends():
 
 def test_both_values_stand_at_a_jump_of_the_diagram():
     axis = driver_axis(reach_of(crank(-100)), "en")
-    found = force_over_turn(axis, "M_1")
+    x, moment = force_panel(axis, Quantity("moment", "M_1"), whole_turn(axis)).curve.T
     for place in (45, 135):
-        near = np.flatnonzero(np.abs(found.x - place) < 1e-4)
-        assert {0.0, 100.0} == set(found.values[near].round(6).tolist())
+        assert {0.0, 100.0} == set(moment[np.abs(x - place) < 1e-4].round(6).tolist())
 
 
 def test_the_diagrams_of_forces_are_those_that_are_asked_for():
