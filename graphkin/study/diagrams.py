@@ -3,7 +3,6 @@ drawn polygons at a few positions; and coupler curves with marks at equal steps 
 
 from __future__ import annotations
 
-import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
@@ -24,7 +23,6 @@ from graphkin.drawing.text import rich, runs_width
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism
-from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
 from graphkin.solver.values import FlywheelStudy
@@ -42,6 +40,7 @@ from graphkin.study.charts import (
     title_of,
 )
 from graphkin.study.force_diagrams import flywheel_page, force_page, polar_page
+from graphkin.study.graphical import ordinate_chains
 from graphkin.study.quantities import Quantity, rates_of
 from graphkin.study.turn import Output, TurnStudy
 from graphkin.words import Phrase, say, word
@@ -193,64 +192,26 @@ def measured(
     that cannot be drawn, or outputs that lie behind a group that compass and ruler cannot draw, are left out
     """
     scene = reach.scene
-    asked = [s for q in outputs for s in _symbols(scene, q)]
+    known = {chain[0].name: chain for chain in ordinate_chains(scene) if len(chain) == 3}
+    chains = {q: known[q.name] for q in outputs if q.name in known}
     found: dict[Quantity, list[tuple[float, ...]]] = {q: [] for q in outputs}
-    if not asked:
-        return found
+    asked = [ordinate.symbol for chain in chains.values() for ordinate in chain]
     low, high = reach.ends
     count *= max(reach.turns, 1)
     sheet: Sheet | None = None
-    for k in range(count):
+    for k in range(count if asked else 0):
         offset = low + (high - low) * (k / count if reach.full else (k + 0.5) / count)
-        values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
-        values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
+        values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
         try:
             # the assembly is followed from the last position
             sheet = execute(plan(reach.structure, values, asked, near=sheet))
         except GraphkinError:
             continue
-        for quantity in outputs:
-            read = _read(sheet, quantity)
-            if read is not None:
-                found[quantity].append((offset, *read))
+        for quantity, chain in chains.items():
+            read = [ordinate.drawn(sheet) for ordinate in chain]
+            if None not in read:
+                found[quantity].append((offset, *(value for value in read if value is not None)))
     return found
-
-
-def _symbols(scene: Mechanism, quantity: Quantity) -> list[Symbol]:
-    if quantity.kind == "theta":
-        return [Symbol("omega", link=quantity.of), Symbol("alpha", link=quantity.of)]
-    pin = _pin(scene, quantity.of)
-    return [Symbol("v", PointRef(pin)), Symbol("a", PointRef(pin))] if pin else []
-
-
-def _pin(scene: Mechanism, key: str) -> str | None:
-    """The first point of a link that slides along the frame."""
-    return next((s.pin for s in scene.slidings if s.key == key and s.on == scene.frame.name), None)
-
-
-def _read(sheet: Sheet, quantity: Quantity) -> tuple[float, float, float] | None:
-    scene, name = sheet.scene, quantity.of
-    if quantity.kind == "theta":
-        if name not in sheet.poses or name not in sheet.omega or name not in sheet.alpha:
-            return None
-        return cmath.phase(sheet.poses[name].axis), sheet.omega[name].value, sheet.alpha[name].value
-    pin = _pin(scene, name)
-    pair = next(s for s in scene.slidings if s.key == name)
-    guide = scene.frame.guides[pair.guide]
-    speeds, pushes = sheet.vectors("velocity"), sheet.vectors("acceleration")
-    if pin is None or PointRef(pin) not in sheet.points:
-        return None
-    v, a = speeds.get(Symbol("v", PointRef(pin))), pushes.get(Symbol("a", PointRef(pin)))
-    if v is None or a is None:
-        return None
-    along = guide.direction.conjugate()
-    place = sheet.points[PointRef(pin)] * sheet.scales.length
-    arm = scene.by_name[pair.link].points[pin] * pair.turn
-    return (
-        ((place - guide.through) * along).real - arm.real,
-        (v.span * along).real * sheet.scales.velocity,
-        (a.span * along).real * sheet.scales.acceleration,
-    )
 
 
 TICKS = 12

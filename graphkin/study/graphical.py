@@ -34,7 +34,10 @@ from graphkin.study.charts import number, title_of
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, say, word
 
-__all__ = ["Chords", "Ordinate", "Way", "chords_page", "chords_table", "graphical", "known_ordinate"]
+__all__ = [
+    "Chords", "Ordinate", "Way", "chords_page", "chords_table", "graphical", "known_ordinate",
+    "ordinate_chains",
+]  # fmt: skip
 
 Array = NDArray[np.float64]
 Way = Literal["derivative", "integral"]
@@ -134,7 +137,7 @@ class Chords:
         ))  # fmt: skip
 
 
-def _chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
+def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
     """Position, rate and second rate of each link, of each sliding pair (of one on the frame the rates too, which are
     those of its pin along the guide), and of each point along both axes."""
     for link in (link.name for link in scene.links):
@@ -157,7 +160,7 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     ------
     CallError : no such quantity, or one without a sign
     """
-    places = {one.name: (chain, k) for chain in _chains(scene) for k, one in enumerate(chain)}
+    places = {one.name: (chain, k) for chain in ordinate_chains(scene) for k, one in enumerate(chain)}
     if name not in places:
         found = Phrase("is no quantity with a sign here")
         raise CallError(Problem(Phrase("quantity of name", name=f"{name:.60}"), found, did_you_mean(name, places)))
@@ -243,8 +246,7 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
     """The ordinates, measured on a drawing of each position."""
     scene, found = reach.scene, []
     for offset in offsets:
-        values = {d.key: float(v) for d, v in zip(scene.drivers, reach.start, strict=True)}
-        values[scene.drivers[0].key] = float(reach.value(np.array(offset)))
+        values = dict(zip((d.key for d in scene.drivers), reach.values(np.array([offset]))[0].tolist(), strict=True))
         try:
             value = given.drawn(draft(reach.structure, values, (given.symbol,)))
         except GraphkinError as error:
