@@ -171,4 +171,4 @@ def test_a_force_that_is_the_same_everywhere_has_one_greatest_value_and_no_least
         "loads": {"P": {"on": "1", "at": "B", "force": 57.3, "angle": 112}},
     }
     told = graphkin.sweep(scene, positions=6).text
-    assert "F_0/1 (N): maximum 55.3475 @ -57.8694 mm\n" in told
+    assert "F_0/1 (N): maximum 55.3475 @ -57.8676 mm\n" in told
