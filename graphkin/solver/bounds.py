@@ -17,7 +17,7 @@ import numpy as np
 
 from graphkin.scene.cams import LawCam
 from graphkin.solver.cams import follower_inputs, greatest_jerk
-from graphkin.solver.constraints import Constraints, Jet, Layout, Parts, led_relation, product, solve_all
+from graphkin.solver.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
 from graphkin.solver.decimals import conversion_error, meant, meant_angle
 from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.structure import Structure
@@ -42,7 +42,6 @@ LEAST = 1e-30
 """Stands for an error of place (of the size, rad) that is none."""
 VAST = 1e100
 """Stands for an entry of an inverse that is not known."""
-_BINOMIAL = ((1,), (1, 1), (1, 2, 1))
 Errors = ErrorBound[Array]
 
 
@@ -75,23 +74,23 @@ def error_bounds(
         residuals[:, refined] = 0.0
         rows += np.abs(residuals)
         sizes = _sizes(matrices, _reached(structure, system.layout))
+        terms = sizes @ np.moveaxis(rows, 0, 2)
+        error = terms[0][..., 0]
+        wild, grown = _growth(sizes[0], _changes(system, parts, error), error, _hanging(structure, names))
+        errors = error, terms[0][..., 1] + terms[1][..., 0], terms[0][..., 2] + 2 * terms[1][..., 1] + terms[2][..., 0]
         found: list[Array] = []
-        for order in range(3):
-            terms = [w * np.einsum("nij,nj->ni", sizes[k], rows[order - k]) for k, w in enumerate(_BINOMIAL[order])]
-            error = np.sum(terms, axis=0)
-            if order == 0:
-                wild, grown = _growth(sizes[0], _changes(system, parts, error), error)
-                grown *= _hanging(structure, names)
+        for order, error in enumerate(errors):
             # each order has the inverse twice more
             for _ in range(2 * order + 1 if wild.any() else 0):
-                error[wild] = np.einsum("nij,nj->ni", grown, error[wild])
+                error[wild] = (grown @ error[wild][..., None])[..., 0]
             error = error.reshape(n, -1, 3)
             found += [size * np.hypot(error[..., 0], error[..., 1]), error[..., 2]]
         few = FEW_ROUNDINGS * UNIT * refined[:, None]
         wide = _largest(all_, len(names), size)
         own = ErrorBound(*(found[i] + few * w for i, w in zip((0, 2, 4, 1, 3, 5), wide, strict=True)))
-        bounds = [_sure(bound).T for bound in _of_points(system, all_, own)]
-        return {name: ErrorBound(*rows) for name, *rows in zip(names, *bounds, strict=True)}
+        bounds = np.array([*_of_points(system, all_, own)])
+        bounds = np.where(bounds < VAST**0.5, bounds * SLACK, np.inf)
+        return {name: ErrorBound(*bounds[:, :, k]) for k, name in enumerate(names)}
 
 
 @dataclass(frozen=True)
@@ -163,11 +162,6 @@ def roughness(structure: Structure, poses: Mapping[str, Pose], bound: Errors) ->
         return np.asarray(np.maximum(*parts))
 
 
-def _sure(bound: Array) -> Array:
-    """A bound, infinite where it is not known."""
-    return np.where(bound < VAST**0.5, bound * SLACK, np.inf)
-
-
 def _largest(all_: Pose, count: int, size: float) -> tuple[Array | float, ...]:
     """Of the links: place, velocity and acceleration, for points as far off as the mechanism is large; of a direction
     1, and its rates."""
@@ -212,8 +206,9 @@ def _follow(
     errors[0][:, layout.rolling_rows] += slack * scales
 
 
-def _sizes(matrices: Sequence[Array], reached: Array) -> list[Array]:
-    """Sizes of the entries of the inverse of a matrix, and of its first and second rate along the motion.
+def _sizes(matrices: Sequence[Array], reached: Array) -> Array:
+    """Sizes of the entries of the inverse of a matrix, and of its first and second rate along the motion, shape (3, n,
+    columns, rows).
 
     With S the inverse, G and A the rates of the matrix these are -S G S and 2 S G S G S - S A S.
 
@@ -226,8 +221,8 @@ def _sizes(matrices: Sequence[Array], reached: Array) -> list[Array]:
     inverse = solve_all(here, np.broadcast_to(np.eye(here.shape[1]), here.shape))
     inverse = np.where(reached, inverse, 0.0)
     bent = inverse @ first @ inverse
-    rates = inverse, bent, 2 * bent @ first @ inverse - inverse @ second @ inverse
-    return [np.nan_to_num(np.abs(x), nan=VAST, posinf=VAST) for x in rates]
+    rates = np.array((inverse, bent, 2 * bent @ first @ inverse - inverse @ second @ inverse))
+    return np.asarray(np.nan_to_num(np.abs(rates), nan=VAST, posinf=VAST))
 
 
 def _before(structure: Structure) -> Mapping[str, frozenset[str]]:
@@ -276,16 +271,15 @@ def _changes(system: Constraints, parts: Parts, error: Array) -> Array:
     turned, gap = turn[:, layout.axis], np.abs(parts.gap[0][:, layout.joint]) / layout.size
     across = part * turned
     # a place of the link with which the axis turns is the same along it
-    one, two = (part * arm * np.where(end == layout.axis, 0.0, turn[:, end] + turned)
-                for end, arm in zip(ends, arms, strict=True))  # fmt: skip
-    off = sum(moved[:, end] + arm * turn[:, end] for end, arm in zip(ends, arms, strict=True))
-    entries = np.concatenate((across, across, one, across, across, two, part * (gap * turned + off)), axis=1)
+    swung = part * arms * np.where(ends == layout.axis, 0.0, turn[:, ends] + turned[:, None])
+    seen = part * (gap * turned + (moved[:, ends] + arms * turn[:, ends]).sum(axis=1))
+    entries = np.concatenate((across, across, across, across, swung.reshape(n, -1), seen), axis=1)
     found = np.zeros((n, layout.rows * 3 * layout.members))
     found[:, layout.entries.entries] = layout.entries.of(entries)
     return found.reshape(n, layout.rows, -1)
 
 
-def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]:
+def _growth(inverse: Array, changes: Array, error: Array, hanging: Array) -> tuple[Array, Array]:
     """Positions at which changes of the matrix may matter, shape (n,), and for these by how much they make each error
     greater: with C the product of both sizes it is (1 - C)^-1, and nothing is known where that is not positive (Varga,
     Matrix Iterative Analysis, theorem 3.8).
@@ -295,6 +289,8 @@ def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]
     """
     product = SAFE * (inverse @ changes)
     wild = ~(product.sum(axis=2).max(axis=1) < FLAT)
+    if not wild.any():
+        return wild, changes[:0]
     scale = np.maximum(error[wild], LEAST)
     ratio = scale[:, :, None] / scale[:, None, :]
     parts, unit = product[wild] / ratio, np.eye(product.shape[1])
@@ -302,7 +298,7 @@ def _growth(inverse: Array, changes: Array, error: Array) -> tuple[Array, Array]
     unknown = ~(grown.min(axis=2) > -FLAT)
     grown = np.maximum(grown, unit + parts) * ratio  # the first terms of its series, should rounding leave less
     grown[unknown] = VAST
-    return wild, grown
+    return wild, grown * hanging
 
 
 def _of_points(system: Constraints, all_: Pose, error: Errors) -> Errors:
@@ -340,19 +336,20 @@ def _driver_errors(structure: Structure, drive: Drive, refined: Array, value_err
 
 
 def _written(structure: Structure, layout: Layout) -> Sequence[Array]:
-    """How far the numbers of the file may be off, each of shape (2, numbers), in 16 digits and in 50: of both places of
-    each joint, of the direction of each line, and of each turn."""
+    """How far the numbers of the file may be off in 16 digits and in 50: of the places of each joint, shape (2, 2,
+    joints), of the direction of each line and of each turn, shape (2, numbers)."""
     def errors(numbers: Iterable[tuple[complex, bool]]) -> Array:
-        return np.array([conversion_error(*number) for number in numbers]).reshape(-1, 2).T
+        numbers = [*numbers]
+        known = {number: conversion_error(*number) for number in {*numbers}}
+        return np.array([known[number] for number in numbers]).reshape(-1, 2).T
 
-    key = "written", layout.names, tuple(layout.line_pairs)
-    if key not in structure.kept:
+    if "written" not in structure.kept:
         turning = [(0j, False) if p.turns else (p.guide.direction, True) for p in layout.line_pairs]
         guides = errors((1 + 0j, True) if p is None else (p.guide.direction, True) for p in layout.turn_pairs)
         blocks = errors((1 + 0j, True) if p is None else (p.turn, True) for p in layout.turn_pairs)
-        places = [errors((complex(z), False) for z in side) for side in layout.places]
-        structure.kept[key] = *places, errors(turning), guides + blocks
-    written: Sequence[Array] = structure.kept[key]
+        places = errors((complex(z), False) for z in layout.places.flat).reshape(2, *layout.places.shape)
+        structure.kept["written"] = places, errors(turning), guides + blocks
+    written: Sequence[Array] = structure.kept["written"]
     return written
 
 
@@ -366,14 +363,12 @@ def _row_errors(
     layout, which = system.layout, refined.astype(int)
     unit = np.where(refined, 0.0, UNIT)[:, None]
     lean = np.abs(np.abs(all_.u) - 1) * (unit > 0)
-    *places, directed, turning = (written[which] for written in _written(system.structure, layout))
+    places, directed, turning = (written[which] for written in _written(system.structure, layout))
     rates = np.abs(all_.omega), np.abs(all_.alpha)
     spins = np.ones_like(lean), rates[0], rates[1] + rates[0] ** 2
-    off: Jet = [np.zeros(1)] * 3
-    for links, place, written, arms in zip(layout.joints, layout.places, places, parts.arms, strict=True):
-        own = np.abs(place) * (lean[:, links] + FEW * unit) + 1.5 * written
-        ends = ((x[:, links] + arm) for x, arm in zip((all_.z, all_.v, all_.a), arms, strict=True))
-        off = [x + spin[:, links] * own + unit * np.abs(end) for x, spin, end in zip(off, spins, ends, strict=True)]
+    own = np.abs(layout.places) * (lean[:, layout.joints] + FEW * unit[:, None]) + 1.5 * places
+    off = [(spin[:, layout.joints] * own + unit[:, None] * np.abs(place)).sum(axis=1)
+           for spin, place in zip(spins, parts.place, strict=True)]  # fmt: skip
     axis = [np.abs(layout.along) * spin[:, layout.axis] for spin in spins]
     bent = lean[:, layout.axis] + 1.5 * directed + FEW * unit
     moved = product(axis, [x[:, layout.joint] for x in off])

@@ -60,11 +60,12 @@ def product(f: Jet, g: Jet) -> Jet:
 
 
 class Parts(NamedTuple):
-    """Of what the lines are made, each with its rates: of each joint the ``arm`` from the origin of either link to its
-    place and the ``gap`` from the second place to the first, shape (n, joints); the ``axis`` of each line, conjugate,
-    shape (n, lines)."""
+    """Of what the lines are made, each with its rates: for both links of each joint the ``arm`` from the link's origin
+    and the ``place`` where it ends, shape (n, 2, joints); the ``gap`` from the second place to the first, shape (n,
+    joints); the ``axis`` of each line, conjugate, shape (n, lines)."""
 
-    arms: tuple[Jet, Jet]
+    arm: Jet
+    place: Jet
     gap: Jet
     axis: Jet
 
@@ -177,10 +178,10 @@ class Layout:
         self.along = np.array([part if pair.turns else part * pair.guide.direction.conjugate()
                                for _, pair, part in lines], dtype=complex)  # fmt: skip
         a, b = self.joints[:, self.joint]
-        own = [3 * a, 3 * a + 1, 3 * a + 2, 3 * b, 3 * b + 1, 3 * b + 2, 3 * self.axis + 2]
+        own = [3 * a, 3 * a + 1, 3 * b, 3 * b + 1, 3 * a + 2, 3 * b + 2, 3 * self.axis + 2]
         wide, rows = 3 * self.members, np.array([row for row, *_ in lines], dtype=int)
         self.entries = Sums(np.concatenate([np.where(column < wide, rows * wide + column, -1) for column in own]))
-        """Of either end of a line the columns x, y and angle, and the angle of the link of its axis."""
+        """Of both ends of a line the columns x and y, of both and of its axis the angle."""
 
 
 def led_relation(element: Driven) -> RollingRelation:
@@ -213,7 +214,8 @@ class Constraints:
     def layout(self) -> Layout:
         """What stands where; made once, it goes with the structure."""
         group, drivers = self.group, self.structure.drivers
-        key = "layout", group.members, group.pairs, tuple(map(drivers.index, group.drivers)), group.rolling
+        pairs, rolling = tuple(pair.key for pair in group.pairs), tuple(relation.name for relation in group.rolling)
+        key = "layout", group.members, pairs, tuple(map(drivers.index, group.drivers)), rolling
         if key not in self.structure.kept:
             self.structure.kept[key] = Layout(self.structure, group)
         layout: Layout = self.structure.kept[key]
@@ -305,11 +307,10 @@ class Constraints:
             u.append(1j * all_.omega * all_.u)
         if order > 1:
             u.append((1j * all_.alpha - all_.omega**2) * all_.u)
-        a, b = layout.joints
-        one, two = ([x[:, links] * places for x in u] for links, places in zip((a, b), layout.places, strict=True))
-        origins = (all_.z, all_.v, all_.a)[: order + 1]
-        gap = [(z[:, a] + x) - (z[:, b] + y) for z, x, y in zip(origins, one, two, strict=True)]
-        return Parts((one, two), gap, [np.conj(x[:, layout.axis]) * layout.along for x in u])
+        arm = [x[:, layout.joints] * layout.places for x in u]
+        place = [z[:, layout.joints] + x for z, x in zip((all_.z, all_.v, all_.a), arm, strict=False)]
+        axis = [np.conj(x[:, layout.axis]) * layout.along for x in u]
+        return Parts(arm, place, [x[:, 0] - x[:, 1] for x in place], axis)
 
     def residuals(self, all_: Pose) -> Array:
         """Each constraint, with lengths in the size, shape (n, rows)."""
@@ -323,7 +324,7 @@ class Constraints:
         parts : as `parts` gives them, where they are known
         """
         layout, drive = self.layout, self.drive
-        _, gap, axis = parts or self.parts(all_, order)
+        *_, gap, axis = parts or self.parts(all_, order)
         found = np.zeros((order + 1, len(drive), layout.rows))
         for k, way in enumerate(product(axis, [x[:, layout.joint] for x in gap])):
             found[k][:, layout.line_rows.entries] = layout.line_rows.of(way.real) / layout.size
@@ -347,13 +348,16 @@ class Constraints:
 
     def matrices(self, parts: Parts) -> list[Array]:
         """The same with as many rates as the parts have."""
-        layout, arms = self.layout, parts.arms
-        turns = [product(parts.axis, [x[:, layout.joint] / layout.size for x in jet]) for jet in (*arms, parts.gap)]
-        found = []
-        for k, (axis, one, two, gap) in enumerate(zip(parts.axis, *turns, strict=True)):
-            x, y = axis.real, -axis.imag
-            matrix = np.repeat(layout.same[None] if k == 0 else np.zeros((1, *layout.same.shape)), len(axis), axis=0)
-            entries = np.concatenate((x, y, -one.imag, -x, -y, two.imag, gap.imag), axis=1)
+        layout = self.layout
+        found: list[Array] = []
+        # what turns with the first link, with the second, with the axis
+        legs = [np.concatenate((-arm[:, :1], arm[:, 1:], gap[:, None]), axis=1)[:, :, layout.joint] / layout.size
+                for arm, gap in zip(parts.arm, parts.gap, strict=True)]  # fmt: skip
+        turns = product([axis[:, None] for axis in parts.axis], legs)
+        for axis, turn in zip(parts.axis, turns, strict=True):
+            matrix = np.zeros((len(axis), *layout.same.shape)) if found else np.repeat(layout.same[None], len(axis), 0)
+            x, y = axis.real, axis.imag
+            entries = np.concatenate((x, -y, -x, y, turn.imag.reshape(len(axis), -1)), axis=1)
             matrix.reshape(len(axis), -1)[:, layout.entries.entries] += layout.entries.of(entries)
             found.append(matrix)
         return found

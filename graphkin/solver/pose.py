@@ -160,6 +160,8 @@ class Pose(Generic[V, R]):
 
     def spread(self: Pose, n: int) -> Pose:
         """The same with every field of shape (n,)."""
+        if all(np.shape(x) == (n,) for x in (self.z, self.u, self.v, self.omega, self.a, self.alpha)):
+            return self
         z, u, v, a = (np.array(np.broadcast_to(x, (n,)), dtype=np.complex128) for x in (self.z, self.u, self.v, self.a))
         omega, alpha = (np.array(np.broadcast_to(x, (n,)), dtype=np.float64) for x in (self.omega, self.alpha))
         return Pose(z, u, v, omega, a, alpha)
