@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from graphkin.errors import CallError, Problem
-from graphkin.solver.expressions import FLOATS, LEAVES, ExpressionGraph, Name, Real, operands
+from graphkin.solver.expressions import FLOATS, LEAVES, OPERATIONS, ExpressionGraph, Name, Real, operands
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
 
@@ -65,9 +65,6 @@ class Code:
     asked : what to compute
     fixed : inputs that are the same at all positions too, and are given among the params
     open_ : params that change too, as dimensions do from design to design, and are given among the inputs
-
-    ``params`` and ``inputs`` name the numbers that it needs: those that are the same at all positions, and those that
-    change, in the order in which they are to be given.
     """
 
     def __init__(
@@ -76,22 +73,77 @@ class Code:
         self.graph = graph
         self.asked = [real.at for real in asked]
         self.order = graph.needed(asked)
-        leaves = [graph.lines[at] for at in self.order]
-        given = [line[1] for line in leaves if line[0] in ("param", "input")]
-        changing = {line[1] for line in leaves if line[0] == "input" and line[1] not in fixed}
-        changing |= {name for name in given if name in open_}
-        self.fixed = fixed
-        self.params = tuple(name for name in given if name not in changing)
-        self.inputs = tuple(name for name in given if name in changing)
-        self._param = {name: f"p[{k}]" for k, name in enumerate(self.params)}
-        self._input = {name: k for k, name in enumerate(self.inputs)}
-        self.varying: set[int] = set()
+        self.fixed, self._open = fixed, open_
+
+    @cached_property
+    def leaves(self) -> list[Name]:
+        """The names of all numbers that it needs."""
+        return [line[1] for line in (self.graph.lines[at] for at in self.order) if line[0] in ("param", "input")]
+
+    @cached_property
+    def _changing(self) -> set[Name]:
+        inputs = {line[1] for line in (self.graph.lines[at] for at in self.order) if line[0] == "input"}
+        return {name for name in self.leaves if name in self._open or (name in inputs and name not in self.fixed)}
+
+    @cached_property
+    def params(self) -> tuple[Any, ...]:
+        """Names of the numbers that are the same at all positions, in the order in which they are to be given."""
+        return tuple(name for name in self.leaves if name not in self._changing)
+
+    @cached_property
+    def inputs(self) -> tuple[Any, ...]:
+        """The same of those that change."""
+        return tuple(name for name in self.leaves if name in self._changing)
+
+    @cached_property
+    def _param(self) -> dict[Name, str]:
+        return {name: f"p[{k}]" for k, name in enumerate(self.params)}
+
+    @cached_property
+    def _input(self) -> dict[Name, int]:
+        return {name: k for k, name in enumerate(self.inputs)}
+
+    @cached_property
+    def varying(self) -> set[int]:
+        """The lines that change from position to position."""
+        found: set[int] = set()
         for at in self.order:
-            line = graph.lines[at]
-            if line[1] in self._input if line[0] in LEAVES else any(k in self.varying for k in operands(line)):
-                self.varying.add(at)
+            line = self.graph.lines[at]
+            if line[1] in self._input if line[0] in LEAVES else any(k in found for k in operands(line)):
+                found.add(at)
+        return found
 
     # one position
+
+    def values(
+        self, given: Callable[[Name], Any], known: dict[int, Any],
+        operations: Mapping[str, Callable[..., Any]] = OPERATIONS,
+    ) -> list[Any]:  # fmt: skip
+        """What is asked at one position without code of its own: plain floats, or what the operations compute with.
+
+        Parameters
+        ----------
+        given : params and inputs by their names
+        known : the numbers of lines by their places; those that are computed are added
+
+        Raises
+        ------
+        ZeroDivisionError, OverflowError : a singular position; of decimals any ArithmeticError
+        """
+        lines = self.graph.lines
+        for at in self.order:
+            if at in known:
+                continue
+            kind, *of = lines[at]
+            if kind == "const":
+                known[at] = operations[kind](of[0])
+            elif kind in LEAVES:
+                known[at] = given(of[0])
+            elif len(of) == 2:
+                known[at] = operations[kind](known[of[0]], known[of[1]])
+            else:
+                known[at] = operations[kind](known[of[0]])
+        return [known[at] for at in self.asked]
 
     @cached_property
     def floats(self) -> Callable[[Sequence[float], Sequence[float]], tuple[float, ...]]:

@@ -8,7 +8,7 @@ written as a short decimal is taken to be that decimal.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
@@ -18,6 +18,7 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
+from graphkin.solver.code import Code
 from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import DECIMALS, Name, Real, Vec
@@ -55,7 +56,7 @@ class ExtendedPrecision:
     """
 
     dimensioned: DimensionedProgram
-    asked: Sequence[Real]
+    code: Code
     drivers: Sequence[Driver]
     value: Array
     rate: Array
@@ -94,14 +95,12 @@ class ExtendedPrecision:
         return value, len(moved) * sum(moved, Decimal(0))
 
     def _row(self, numbers: Mapping[Name, Decimal]) -> list[Decimal]:
-        return self.dimensioned.program.graph.values(self.asked, numbers.__getitem__, {}, DECIMALS)
+        return self.code.values(numbers.__getitem__, {}, DECIMALS)
 
     def _numbers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """What the formulas take at position ``k``, and how far each number may be off."""
-        graph, given = self.dimensioned.program.graph, self._drivers(k, at)
-        leaves = (graph.lines[line] for line in graph.needed(self.asked))
-        return {name: given.get(name) or self.dimensioned.decimal(name)
-                for kind, name, *_ in leaves if kind in ("param", "input")}  # fmt: skip
+        given = self._drivers(k, at)
+        return {name: given.get(name) or self.dimensioned.decimal(name) for name in self.code.leaves}
 
     def _drivers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """What the formulas take that changes from position to position, and how far it may be off."""
@@ -207,7 +206,7 @@ def extended_precision_of(
     any values of them."""
     own = np.array([[d.values[0] for d in structure.scene.drivers]])
     run = _Run(structure, drive or Drive.at(structure, own), forms, False)
-    return run._extended([choose(run.dimensioned.program)])
+    return run._extended(Code(run.dimensioned.program.graph, [choose(run.dimensioned.program)]))
 
 
 class _Run:
@@ -281,27 +280,30 @@ class _Run:
                 *(poses[body.links[0]] for body in elements[i].bodies),  # type: ignore[union-attr, arg-type]
                 *(given.get(p, _LOST) for p in DyadSolution._fields[2:]),
             )
-        exact, none = np.zeros(self.n, dtype=bool), np.zeros((self.n, 0))
-        slack = np.concatenate([none, *self.slack], axis=1)
-        if names and all(e.explicit for e in elements):
+        exact = np.zeros(self.n, dtype=bool)
+        explicit = all(element.explicit for element in elements)
+        if names and explicit:
             exact = known_exactly(drivers, self.drive.value)
-        count = len(self.structure.scene.drivers)
-        rolled = {n for n in self.given if n[0] in ("cos", "sin", "travel") and isinstance(n[1], int) and n[1] >= count}
-        kinds = ("lift", "rolled")
-        lifted = {name: column for name, column in self.given.items() if name in rolled or name[0] in kinds}
-        sines = [np.abs(groups[i].sine) for i in dyads]  # type: ignore[union-attr]
-        clear = np.broadcast_to(np.prod(np.broadcast_arrays(1.0, *sines), axis=0) > CLEAR, (self.n,))
-        clear = clear if not self.clusters else np.zeros_like(clear)
-        state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), clear, slack,
-                      np.where(exact, TINY, SINGULAR), lifted)  # fmt: skip
+        sharp = np.full(self.n, 0.0 if self.clusters else 1.0)
+        for i in dyads:
+            sharp = sharp * np.abs(groups[i].sine)  # type: ignore[union-attr]
+        slack = np.concatenate(self.slack, axis=1) if self.slack else np.zeros((self.n, 0))
+        state = State(poses, self.drive, dict(sorted(groups.items())), np.zeros(self.n, dtype=bool), sharp > CLEAR,
+                      slack, np.where(exact, TINY, SINGULAR), self._lifted())  # fmt: skip
         again = exact
-        whole = upto == len(self.structure.elements) and all(e.explicit for e in elements)
-        if names and self.fine and self.rates and whole:
+        if names and explicit and self.fine and self.rates and upto == len(self.structure.elements):
             again = exact | self._rough(state)
         if not again.any():
             return state
-        # the columns are those of the poses
-        return replace(state, refined=self._extended(_reals(asked)).place(again, asked, columns))
+        extended = self._extended(program.code((upto, self.rates), asked))
+        return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
+
+    def _lifted(self) -> dict[Name, Array]:
+        """What formulas take of followers of cams and of what rolls."""
+        count = len(self.structure.scene.drivers)
+        rolled = ((part, k) for k in range(count, len(self.structure.drivers)) for part in ("cos", "sin", "travel"))
+        names = [*rolled, *(name for name in self.given if name[0] in ("lift", "rolled"))]
+        return {name: self.given[name] for name in names if name in self.given}
 
     def _rough(self, state: State) -> Array:
         """Positions whose rates sixteen digits leave rough."""
@@ -370,15 +372,14 @@ class _Run:
 
     def _values(self, key: Hashable, asked: Sequence[Real | Vec]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
-        reals = _reals(asked)
-        program = self.dimensioned.program
+        code = self.dimensioned.program.code(key, asked)
         if self.known is not None and self.n == 1:
             try:
-                row = program.graph.values(reals, self._given_at_first, self.known)
-                return _as_asked(asked, [np.array([x]) for x in row])
+                row = iter(code.values(self._given_at_first, self.known))
             except (ZeroDivisionError, OverflowError):
                 self.known = None
-        code = program.code(key, reals)
+            else:
+                return [np.array([complex(next(row), next(row)) if isinstance(x, Vec) else next(row)]) for x in asked]
         params = self.dimensioned.params(code.params, self.rates_of)
         inputs = [self.given[name] for name in code.inputs]
         out: list[Array] = []
@@ -393,10 +394,10 @@ class _Run:
         """A number that the formulas are given, at the first position."""
         return float(self.given[name][0]) if name in self.given else self._known(name)
 
-    def _extended(self, asked: Sequence[Real]) -> ExtendedPrecision:
+    def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
         drivers = self.structure.drivers
-        return ExtendedPrecision(self.dimensioned, asked, drivers, self.drive.value, self.rate, self.second, signs)
+        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
 
 
 _LOST = np.full(1, np.nan)
@@ -406,16 +407,6 @@ def _pose(given: Mapping[str, Array]) -> Pose:
     zero, none = np.zeros(1), np.zeros(1, dtype=np.complex128)
     still = {"z": none, "u": none, "v": none, "omega": zero, "a": none, "alpha": zero}
     return Pose(**{**still, **given})
-
-
-def _reals(asked: Sequence[Real | Vec]) -> list[Real]:
-    return [x for one in asked for x in ((one.real, one.imag) if isinstance(one, Vec) else (one,))]
-
-
-def _as_asked(asked: Sequence[Real | Vec], columns: Iterable[Array]) -> list[Array]:
-    """Columns of reals as what was asked: two of a vector as one that is complex."""
-    rest = iter(columns)
-    return [next(rest) + 1j * next(rest) if isinstance(x, Vec) else next(rest) for x in asked]
 
 
 # whether a dyad closes

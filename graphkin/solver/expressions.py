@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
-    "DECIMALS", "FLOATS", "LEAVES", "ExpressionGraph", "Line", "Real", "Vec", "fmax", "fmin", "operands", "root",
-    "two_sum",
+    "DECIMALS", "FLOATS", "LEAVES", "OPERATIONS", "ExpressionGraph", "Line", "Real", "Vec", "components",
+    "fmax", "fmin", "operands", "root", "two_sum",
 ]  # fmt: skip
 
 Line = tuple[Any, ...]
@@ -73,39 +73,6 @@ class ExpressionGraph:
                     stack += [(k, False) for k in reversed(operands(self.lines[at])) if k not in done]
         return order
 
-    def values(
-        self, asked: Iterable[Real], given: Callable[[Name], Any], known: dict[int, Any],
-        operations: Mapping[str, Callable[..., Any]] | None = None,
-    ) -> list[Any]:  # fmt: skip
-        """Numbers at one position without code of their own: plain floats, or what the operations compute with.
-
-        Parameters
-        ----------
-        given : params and inputs by their names
-        known : the numbers of lines by their places; those that are computed are added
-
-        Raises
-        ------
-        ZeroDivisionError, OverflowError : a singular position; of decimals any ArithmeticError
-        """
-        operations, found = operations or _OPERATIONS, []
-        for real in asked:
-            waiting = [real.at]
-            while waiting:
-                at = waiting[-1]
-                line = self.lines[at]
-                missing = [k for k in operands(line) if k not in known]
-                if missing:
-                    waiting += missing
-                    continue
-                waiting.pop()
-                if line[0] in LEAVES:
-                    known[at] = operations["const"](line[1]) if line[0] == "const" else given(line[1])
-                else:
-                    known[at] = operations[line[0]](*(known[k] for k in line[1:]))
-            found.append(known[real.at])
-        return found
-
 
 def _fmin(a: float, b: float) -> float:
     return b if a != a or b < a else a
@@ -120,7 +87,7 @@ FLOATS: Mapping[str, Callable[..., float]] = {
     "sqrt": math.sqrt, "fmin": _fmin, "fmax": _fmax, "atan2": math.atan2,
 }  # fmt: skip
 """What formulas of one position call."""
-_OPERATIONS: Mapping[str, Callable[..., Any]] = {
+OPERATIONS: Mapping[str, Callable[..., Any]] = {
     **FLOATS,
     "add": operator.add,
     "sum": operator.add,
@@ -132,8 +99,9 @@ _OPERATIONS: Mapping[str, Callable[..., Any]] = {
     "root": lambda x: math.sqrt(abs(x)),
     "const": float,
 }
+"""What formulas of one position call that are computed one by one."""
 DECIMALS: Mapping[str, Callable[..., Any]] = {
-    **_OPERATIONS, "root": lambda x: abs(x).sqrt(), "fmin": min, "fmax": max, "const": Decimal,
+    **OPERATIONS, "root": lambda x: abs(x).sqrt(), "fmin": min, "fmax": max, "const": Decimal,
 }  # fmt: skip
 """What formulas in 50 digits call."""
 
@@ -343,6 +311,11 @@ class Vec:
 
     def conjugate(self) -> Vec:
         return Vec(self.real, -self.imag)
+
+
+def components(x: Real | Vec) -> tuple[Real, ...]:
+    """A number by itself, a vector by its two components."""
+    return (x.real, x.imag) if isinstance(x, Vec) else (x,)
 
 
 Array = NDArray[Any]

@@ -15,7 +15,7 @@ from graphkin.scene.model import Driver
 from graphkin.solver.code import Code
 from graphkin.solver.decimals import meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
-from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec
+from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.pose import GIVEN, Pose
 from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate
@@ -159,10 +159,10 @@ class Program:
 
     # code
 
-    def code(self, key: Hashable, asked: Sequence[Real]) -> Code:
-        """The code for some formulas, made once."""
+    def code(self, key: Hashable, asked: Sequence[Real | Vec]) -> Code:
+        """The code for some formulas, made once; of a vector both components."""
         if key not in self._codes:
-            self._codes[key] = Code(self.graph, asked)
+            self._codes[key] = Code(self.graph, [x for one in asked for x in components(one)])
         return self._codes[key]
 
 

@@ -26,7 +26,6 @@ from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import follow_path
 from graphkin.solver.decimals import PI, meant, working
 from graphkin.solver.drivers import own_values
-from graphkin.solver.expressions import Vec
 from graphkin.solver.pose import FIELDS, Drive
 from graphkin.structure import Structure, analyse
 
@@ -182,8 +181,7 @@ def _exact_rows(structure: Structure, drive: Drive, forms: dict[int, Any], degre
     program = run.dimensioned.program
     names = [n for n in structure.links if n != structure.scene.frame.name]
     asked = [getattr(program.poses[n], f) for n in names for f in FIELDS]
-    reals = [x for z in asked for x in ((z.real, z.imag) if isinstance(z, Vec) else (z,))]
-    again = run._extended(reals)
+    again = run._extended(program.code(("accuracy",), asked))
 
     def row(k: int) -> dict[str, _Exact]:
         exact = Decimal(float(degrees[k]))
