@@ -379,8 +379,9 @@ def _row_errors(
         found[order][:, layout.line_rows.entries] = layout.line_rows.of(moved[order] + leant[order]) / layout.size
         found[order][:, layout.driven] += given[order][:, layout.drivers] * layout.scales[1]
     found[0][:, layout.turn_rows] += lean[:, one] + lean[:, two] + FEW * unit + 1.5 * turning
-    found[0][:, layout.rolling_rows] += (lean + FEW * unit) @ weights
     for order, rate in enumerate(rates, start=1):
         found[order][:, layout.turn_rows] += unit * (rate[:, one] + rate[:, two])
-        found[order][:, layout.rolling_rows] += (FEW + 1) * unit * (rate @ weights)
+    if len(layout.rolling_rows):
+        for order, off in enumerate((lean + FEW * unit, *((FEW + 1) * unit * rate for rate in rates))):
+            found[order][:, layout.rolling_rows] += off @ weights
     return found

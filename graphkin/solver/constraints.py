@@ -333,9 +333,13 @@ class Constraints:
         found[0][:, layout.turn_rows] = np.angle(turn)
         for k, given in enumerate((drive.value, drive.rate, drive.second)[: order + 1]):
             found[k][:, layout.driven] -= given[:, layout.drivers] * layout.scales[k]
-        for k, rates in enumerate((all_.omega, all_.alpha)[:order], start=1):
-            found[k][:, layout.turn_rows] += rates[:, layout.one] - rates[:, layout.two]
-            found[k][:, layout.rolling_rows] += rates @ layout.rolled.T
+        rates = (all_.omega, all_.alpha)[:order]
+        for k, rate in enumerate(rates, start=1):
+            found[k][:, layout.turn_rows] += rate[:, layout.one] - rate[:, layout.two]
+        if not len(layout.rolling_rows):
+            return found
+        for k, rate in enumerate(rates, start=1):
+            found[k][:, layout.rolling_rows] += rate @ layout.rolled.T
         if self.near is None or self.kept is None:
             found[0][:, layout.rolling_rows] = 0.0  # the turns are not counted
         else:

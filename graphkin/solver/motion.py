@@ -20,7 +20,7 @@ from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism, PlacedContact, PlacedGear, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
-from graphkin.solver.bounds import FEW, Accuracy
+from graphkin.solver.bounds import BLOCK, FEW, Accuracy
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose
 from graphkin.solver.quantities import Posed, pole, value_of_symbol
 from graphkin.structure import Pair, Structure
@@ -260,13 +260,19 @@ class Motion:
         if measure not in self._scales:
             return value
         whole, least = self._scales[measure]
-        small = self.ok & (value != 0.0) & (np.abs(value) <= ends * SLIGHT * whole)
-        nothing = small & self.accuracy.clear & (np.abs(value) <= least)
-        open_ = np.flatnonzero(small & ~nothing)
+        large = np.abs(value)
+        small = self.ok & (large <= ends * SLIGHT * whole)
+        if not small.any():
+            return value
+        nothing = small & self.accuracy.clear & (large <= least)
+        open_ = np.flatnonzero(small & ~nothing & (value != 0.0))
         if len(open_):
-            bound = dict(zip(_FIELDS, self.accuracy.rows(open_).of(()), strict=True))[measure]
+            few = len(self) <= BLOCK  # then the bounds of all are found once
+            of = self.bound if few else self.accuracy.rows(open_).of(())
+            bound = dict(zip(_FIELDS, of, strict=True))[measure]
+            bound = bound[open_] if few else bound
             slight = bound <= SLIGHT * np.broadcast_to(whole, value.shape)[open_]
-            nothing[open_] = slight & (np.abs(value[open_]) <= ends * bound)
+            nothing[open_] = slight & (large[open_] <= ends * bound)
         return np.where(nothing, 0.0, value) + 0.0  # never -0
 
     @cached_property
