@@ -25,8 +25,7 @@ from graphkin.construction.forces.force_sheet import (
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Term
 from graphkin.plane import added_up
-from graphkin.scene.loads import LoadOn, Phase, SpringOn
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import LoadOn, Mechanism, Phase, SpringOn
 from graphkin.scene.symbol import Symbol
 from graphkin.words import Neutral, Phrase, Wording, about, listed
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off

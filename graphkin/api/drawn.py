@@ -333,8 +333,8 @@ def shown_positions(what: Plan, values: Mapping[str, float]) -> Shown:
 
 
 def _numbered(scene: Mechanism) -> tuple[str, ...]:
-    count = scene.question.positions.count if scene.question.positions else 0
-    return tuple(str(k) for k in range(1, count + 1))
+    positions = scene.question.positions
+    return positions.names[: positions.count] if positions else ()
 
 
 def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
@@ -342,7 +342,7 @@ def _outputs(scene: Mechanism, structure: Structure) -> list[str]:
     frame, found = scene.frame, []
     if scene.question.positions is not None:
         places = (scene.question.positions.first, *scene.question.positions.also.values())
-        found += [place.pair for place in places if place is not None and not isinstance(place, float)]
+        found += [place.stroke for place in places if place is not None and not isinstance(place, float)]
     last = [n for g in reversed(structure.groups) for n in g.links]
     found += [s.key for name in last for s in structure.slides if s.a == name and s.b == frame.name and not s.slot]
     found += [name for name in last if any(p in frame.points for p in structure.links[name].points)]

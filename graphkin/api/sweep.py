@@ -365,7 +365,7 @@ def sweep(
         _over_time_alone(at=at, measured=measured, **{name: tuple(names) for name, names in wishes.items()})
     start = driver_values(given, at) or {}
     if positions is None:
-        positions = (given.question.positions.count if given.question.positions is not None else 0) or ROWS
+        positions = (given.question.positions.count if given.question.positions else 0) or ROWS
     ways: dict[Way, list[str]] = {"derivative": wishes["differentiate"], "integral": wishes["integrate"]}
     on_paper = tuple((way, name) for way, names in ways.items() for name in names)
     if on_paper:

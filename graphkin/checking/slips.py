@@ -23,8 +23,7 @@ from graphkin.construction.polygons import Component
 from graphkin.construction.steps import Order
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
-from graphkin.scene.loads import LinkMass, Loading, LoadOn, SpringOn
-from graphkin.scene.model import Mechanism, PlacedGear
+from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedGear, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.solver import Forces, Motion, forces_of, solve, value_of
 from graphkin.structure import Pair

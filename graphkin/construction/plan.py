@@ -30,8 +30,7 @@ from graphkin.construction.triangles import (
     own_assembly,
 )
 from graphkin.errors import Unsolvable
-from graphkin.scene.loads import Loading
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Loading, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import (
     Driven,

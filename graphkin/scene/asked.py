@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Literal
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.bodies import Reading
-from graphkin.scene.model import Mechanism, NamedPositions, OnStroke, StatedValues
-from graphkin.scene.scene_tables import Positions, PrintedTable, StrokeStart
+from graphkin.scene.model import Driver, Mechanism, StatedValues
+from graphkin.scene.scene_tables import Positions, StrokeStart
 from graphkin.scene.symbol import Printed, Symbol, missing_names, stated
 from graphkin.scene.tables import Units, path_name
 from graphkin.words import Phrase
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     # all the ways in which people write are loaded where somebody wrote otherwise than a symbol and its number
     from graphkin.scene.spelling import Spelling
 
-__all__ = ["asked", "loops_named", "names_of_positions", "positions_named", "spelling_of", "stated_values"]
+__all__ = ["asked", "at_its_position", "loops_named", "positions_named", "spelling_of", "stated_values"]
 
 BY = ("drawing", "computation")
 Stated = float | str | Sequence[float]
@@ -29,7 +29,7 @@ Stated = float | str | Sequence[float]
 # -- quantities --------------------------------------------------------------------------------------------------------
 
 
-def _symbol(where: str, text: str, reading: Reading, positions: Sequence[str]) -> Symbol | Problem:
+def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
     """A symbol whose points, links and position exist, or what is wrong with it."""
     try:
         symbol = Symbol.parse(text[:120])
@@ -39,8 +39,9 @@ def _symbol(where: str, text: str, reading: Reading, positions: Sequence[str]) -
                             lambda point: reading.no_point(where, point), reading.points)  # fmt: skip
     if missing:
         return missing[0]
-    if symbol.at and symbol.at not in positions:
-        wanted = did_you_mean(symbol.at, positions) if positions else Phrase("name positions in positions")
+    if symbol.at and symbol.at not in reading.positions:
+        unnamed = Phrase("name positions in positions")
+        wanted = did_you_mean(symbol.at, reading.positions) if reading.positions else unnamed
         return Problem(where, Phrase("there is no position", at=symbol.at), wanted)
     if symbol.of is None:
         return symbol
@@ -60,22 +61,17 @@ def spelling_of(scene: Mechanism) -> Spelling:
     return Spelling.by_link(points, scene.units, [contact.name for contact in scene.contacts])
 
 
-def asked(find: Sequence[str], reading: Reading, positions: Sequence[str]) -> tuple[Symbol, ...]:
-    """The symbols of ``find``, each once, in its order; what is wrong with them is noted.
-
-    ``positions`` are the names of the file's positions.
-    """
-    found = [_symbol(path_name(("find", text)), text, reading, positions) for text in find]
+def asked(reading: Reading) -> tuple[Symbol, ...]:
+    """The symbols of ``find``, each once, in its order; what is wrong with them is noted."""
+    found = [_symbol(path_name(("find", text)), text, reading) for text in reading.file.find or ()]
     reading.wrong(*(s for s in found if isinstance(s, Problem)))
     return tuple(dict.fromkeys(s for s in found if isinstance(s, Symbol)))
 
 
-def stated_values(
-    printed: Mapping[str, Stated], rows: Sequence[Mapping[str, Stated]], csv: PrintedTable | None, reading: Reading,
-    positions: Sequence[str],
-) -> tuple[StatedValues, ...]:  # fmt: skip
+def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
     """All values that somebody states: ``[printed]``, ``[[printed_rows]]``, and the file of ``[printed_table]``; what
     is wrong with them is noted."""
+    file, positions = reading.file, reading.positions
     found = []
 
     def how(table: str, by: object) -> Literal["drawing", "computation"] | None:
@@ -85,11 +81,11 @@ def stated_values(
             return None
         return "computation" if by == "computation" else "drawing"
 
-    usual = how("printed", printed.get("by", "drawing")) or "drawing"
-    values = _values("printed", printed, reading, positions)
+    usual = how("printed", file.printed.get("by", "drawing")) or "drawing"
+    values = _values("printed", file.printed, reading)
     if values:
         found.append(StatedValues(None, values, usual))
-    for number, row in enumerate(rows, 1):
+    for number, row in enumerate(file.printed_rows, 1):
         where, at = f"printed_rows.{number}", row.get("at")
         if not isinstance(at, int | float | str):
             said = Phrase("is missing") if at is None else Phrase("is two numbers")
@@ -99,15 +95,13 @@ def stated_values(
             wanted = did_you_mean(at, positions) if positions else unnamed
             reading.say(f"{where}.at", Phrase("there is no position", at=at), wanted)
         elif by := how(where, row.get("by", usual)):
-            found.append(StatedValues(at, _values(where, row, reading, positions), by))
-    if csv is not None:
-        found.append(StatedValues(None, {}, csv.by, csv.file))
+            found.append(StatedValues(at, _values(where, row, reading), by))
+    if file.printed_table is not None:
+        found.append(StatedValues(None, {}, file.printed_table.by, file.printed_table.file))
     return tuple(found)
 
 
-def _values(
-    table: str, values: Mapping[str, Stated], reading: Reading, positions: Sequence[str]
-) -> dict[Symbol, Printed]:
+def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[Symbol, Printed]:
     """Stated values by symbol, each as a number or as people write it in a cell (``"0.483 m/s"``, ``"2.82 cw"``).
 
     A name that is no symbol may be one as people spell it, with a unit (``ω₃``, ``"v_B (m/s)"``).
@@ -117,14 +111,14 @@ def _values(
         if text in ("by", "at"):
             continue
         where = path_name((*table.split("."), text))
-        symbol, unit = _symbol(where, text, reading, positions), ""
+        symbol, unit = _symbol(where, text, reading), ""
         if isinstance(symbol, Problem):
             from graphkin.scene.spelling import Spelling
 
             spelling = Spelling.by_link(reading.points, reading.units, reading.contacts)
             name, unit = spelling.head(text)
             meant = spelling.symbol(name)
-            symbol = symbol if meant is None else _symbol(where, str(meant), reading, positions)
+            symbol = symbol if meant is None else _symbol(where, str(meant), reading)
         if isinstance(symbol, Problem):
             reading.wrong(symbol)
         elif symbol in found:
@@ -163,59 +157,49 @@ def _digits_of(number: float) -> str:
 # -- positions and loops -----------------------------------------------------------------------------------------------
 
 
-def names_of_positions(table: Positions | None) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The names of the numbered positions and of the others."""
-    if table is None:
-        return (), ()
-    return tuple(str(k) for k in range(1, (table.count or 0) + 1)), tuple(table.also)
-
-
-def positions_named(
-    table: Positions | None, reading: Reading, pairs: Sequence[str], slides: bool, by_law: bool
-) -> NamedPositions | None:
-    """The positions that a scene names; what is wrong with them is noted.
-
-    Parameters
-    ----------
-    pairs : keys of the sliding pairs and pins in slots
-    slides : whether the first driver slides
-    by_law : whether a driver moves by a law
-    """
-    if table is None:
-        return None
-    if by_law:
+def positions_named(table: Positions, reading: Reading) -> Positions:
+    """The positions that a scene names, in SI; what is wrong with them is noted."""
+    slides = reading.slides
+    if any(driver.law is not None for driver in reading.drivers.values()):
         reading.say("positions", Phrase("stand beside a driver with a law"), Phrase("name a moment at time 0.25"))
     if slides and (table.count or table.first is not None):
         reading.say(f"positions.{'count' if table.count else 'first'}", Phrase("the driver slides it makes no turn"),
                     Phrase("name its positions in positions.also by travel"))
 
-    def place(where: str, value: float | StrokeStart) -> float | OnStroke:
+    def place(where: str, value: float | StrokeStart) -> float | StrokeStart:
         if not isinstance(value, StrokeStart):
             return value * reading.metres if slides else math.radians(value)
-        if value.stroke not in pairs:
+        if value.stroke not in reading.pairs:
             reading.say(f"{where}.stroke", Phrase("there is no sliding pair of stroke", stroke=value.stroke),
-                        did_you_mean(value.stroke, pairs))
+                        did_you_mean(value.stroke, reading.pairs))
         if slides:
             reading.say(where, Phrase("the driver slides there is no stroke of"), Phrase("give a travel"))
-        return OnStroke(value.stroke, value.at, value.sense)
+        return value
 
     first = None if table.first is None else place("positions.first", table.first)
     also = {name: place(f"positions.also.{name}", value) for name, value in table.also.items()}
-    numbered, others = names_of_positions(table)
-    for name in others:
-        if name in numbered:
-            reading.say(f"positions.also.{name}", Phrase("is one of the numbered ones", count=len(numbered)),
+    for name in table.also:
+        if name in table.names[: table.count or 0]:
+            reading.say(f"positions.also.{name}", Phrase("is one of the numbered ones", count=table.count),
                         Phrase("give it another name"))
     show = tuple(map(str, table.show))
-    known = ("limits", "all", *numbered, *others)
+    known = ("limits", "all", *table.names)
     for name in show:
         if name not in known:
             reading.say("positions.show", Phrase("there is no position", at=name), did_you_mean(name, known))
-    return NamedPositions(len(numbered), first, also, show, tuple(table.marks))
+    return replace(table, count=table.count or 0, first=first, also=also, show=show)
 
 
-def loops_named(loops: Mapping[str, Sequence[str]], reading: Reading) -> dict[str, tuple[str, ...]]:
+def at_its_position(driver: Driver, positions: Positions) -> Driver:
+    """A driver at the position that it names, if its value does not follow from a stroke."""
+    first = positions.first if isinstance(positions.first, float) else None
+    place = positions.place(driver.position, first, -1.0 if driver.rate < 0 else 1.0)
+    return driver.at_value(place) if isinstance(place, float) else driver
+
+
+def loops_named(reading: Reading) -> dict[str, tuple[str, ...]]:
     """The vector loops that a scene names; what is wrong with their points is noted."""
+    loops = reading.file.loops
     for name, points in loops.items():
         where = f"loops.{name}"
         reading.wrong(*(reading.no_point(where, point) for point in points))

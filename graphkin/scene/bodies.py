@@ -9,86 +9,189 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
+from functools import cached_property
+from typing import TypeVar
 
 from graphkin.errors import Problem, did_you_mean
-from graphkin.files import OwnTables
 from graphkin.plane import direction
-from graphkin.scene.scene_tables import Compass, Frame, Guide, Link, Pin, Place, Polar, references
+from graphkin.scene.scene_tables import Compass, DrivenSlide, Driver, Frame, Guide, Link, Pin, Polar, SceneTables
 from graphkin.scene.tables import KeyPath, Units
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "CircularSlot", "Flaws", "PinInSlot", "Reading", "SlidingPair", "check_own_points", "check_references",
-    "islands", "not_held", "pins_in_slots", "sliding_pairs", "with_bars", "with_carriages",
+    "CircularSlot", "PinInSlot", "Reading", "SlidingPair", "check_own_points", "check_references", "driver_tables",
+    "islands", "listed", "not_held", "pins_in_slots", "references", "sliding_pairs", "with_bars", "with_carriages",
 ]  # fmt: skip
+
+AnyBody = TypeVar("AnyBody", Frame, Link)
 
 
 @dataclass(frozen=True)
-class Flaws:
-    """The paths of the entries that were reported and taken out of the file."""
+class SlidingPair:
+    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
 
-    paths: frozenset[KeyPath] = frozenset()
+    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
+    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
+    """
 
-    def under(self, *prefix: str) -> bool:
-        """True where something at or under this path, or a table that holds it, was taken out."""
-        n = len(prefix)
-        return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.paths)
+    link: str
+    on: str
+    guide: str
+    turn: complex
+    pin: str | None
 
-    def names(self, *table: str) -> set[str]:
-        """The names of the entries of a table that were taken out as a whole."""
-        n = len(table)
-        return {str(p[n]) for p in self.paths if len(p) == n + 1 and p[:n] == table}
+    @property
+    def key(self) -> str:
+        """The name of the pair: SLIDING/GUIDING."""
+        return f"{self.link}/{self.on}"
+
+
+@dataclass(frozen=True)
+class PinInSlot:
+    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
+
+    point: str
+    of: str
+    on: str
+    guide: str
+
+    @property
+    def key(self) -> str:
+        return f"{self.point}/{self.on}"
+
+
+@dataclass(frozen=True)
+class CircularSlot:
+    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
+
+    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
+    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
+    """
+
+    name: str
+    on: str
+    centre: str
+    radius: float
+    bar: str
+    point: str
+    block: bool = False
+    ends: tuple[float, float] | None = None
+
+
+def driver_tables(file: SceneTables) -> dict[str, Driver | DrivenSlide]:
+    """The drivers by their places in the file, whether written as one table or several."""
+    if isinstance(file.driver, Driver | DrivenSlide):
+        return {"driver": file.driver}
+    return {f"driver.{i}": table for i, table in enumerate(file.driver, 1)}
+
+
+def listed(refs: str | Sequence[str] | None) -> list[str]:
+    """Names of guides, written alone or in a list."""
+    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
+
+
+def references(entry: object) -> tuple[str, ...]:
+    """The points of a link from which one is placed."""
+    if isinstance(entry, Polar):
+        return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
+    return tuple(entry.origins) if isinstance(entry, Compass) else ()
 
 
 @dataclass(frozen=True)
 class Reading:
-    """A file under reading, the names in it, and the problems found so far, to which each reader adds its own.
+    """A file under reading, the paths of what was taken out of it, and the problems found so far, to which each reader
+    adds its own; and what was read of it already.
 
-    ``points`` and ``guides`` are by link, the frame's included.  ``unsure`` are the links of which a wrong entry was
-    taken out that may have held names, so that a name not found there is no second problem; "" stands for all links.
+    ``frame``, ``links`` and ``pins`` are the tables of the file, with bars in place of circular ``slots``;
+    ``slidings`` and ``running`` are its sliding pairs and pins in slots.
     """
 
+    file: SceneTables
+    lost: frozenset[KeyPath]
+    problems: list[Problem]
     frame: Frame
     links: Mapping[str, Link]
-    units: Units
-    flaws: Flaws
-    problems: list[Problem]
-    points: Mapping[str, tuple[str, ...]]
-    guides: Mapping[str, frozenset[str]]
-    contacts: frozenset[str]
-    unsure: frozenset[str]
+    pins: Mapping[str, Pin]
+    slots: tuple[CircularSlot, ...] = ()
+    slidings: tuple[SlidingPair, ...] = ()
+    running: tuple[PinInSlot, ...] = ()
 
-    @classmethod
-    def of(
-        cls, frame: Frame, links: Mapping[str, Link], contacts: Mapping[str, object], units: Units, flaws: Flaws,
-        problems: list[Problem],
-    ) -> Reading:  # fmt: skip
-        """The reading of a file by what is valid in it, what was taken out, and what was found wrong with its form."""
-        lost = flaws.names("links")
-        points = {name: tuple(dict.fromkeys((*link.points, *link.at, *sorted(flaws.names("links", name, "at")))))
-                  for name, link in links.items()}
-        guides = {name: frozenset(link.guides) | flaws.names("links", name, "guides") for name, link in links.items()}
-        points |= dict.fromkeys(lost, ())
-        guides |= dict.fromkeys(lost, frozenset())
-        if frame.name not in points:
-            points[frame.name] = (*frame.points, *sorted(flaws.names("frame", "points")))
-            guides[frame.name] = frozenset(frame.guides) | flaws.names("frame", "guides")
-        harmless = {"length", "on", "angle_on", "redundant"}
-        unsure = lost | {str(p[1]) for p in flaws.paths if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
-        if flaws.under("frame", "name") or any(p[0] == "frame" and len(p) == 2 for p in flaws.paths):
-            unsure |= {frame.name, ""}
-        if unsure:
-            unsure |= {""}
-        touching = frozenset(contacts) | flaws.names("contacts")
-        return cls(frame, links, units, flaws, problems, points, guides, touching, frozenset(unsure))
+    @cached_property
+    def units(self) -> Units:
+        return self.file.units
 
-    @property
+    @cached_property
     def metres(self) -> float:
         """One length unit of the file in m."""
         return self.units.metres
+
+    @cached_property
+    def drivers(self) -> Mapping[str, Driver | DrivenSlide]:
+        """The tables of the drivers by their places in the file."""
+        return driver_tables(self.file)
+
+    @cached_property
+    def slides(self) -> bool:
+        """Whether the first driver is a slide."""
+        return any(isinstance(table, DrivenSlide) for table in list(self.drivers.values())[:1])
+
+    @cached_property
+    def pairs(self) -> tuple[str, ...]:
+        """The keys of the sliding pairs and pins in slots."""
+        return *(pair.key for pair in self.slidings), *(pin.key for pin in self.running)
+
+    @cached_property
+    def positions(self) -> tuple[str, ...]:
+        """The names of the file's positions, the numbered ones first."""
+        table = self.file.positions
+        return (*map(str, range(1, (table.count or 0) + 1)), *table.also) if table else ()
+
+    @cached_property
+    def points(self) -> Mapping[str, tuple[str, ...]]:
+        """The points of each link, the frame's included."""
+        own = {name: (*link.points, *link.at, *sorted(self.lost_names("links", name, "at")))
+               for name, link in self.links.items()}  # fmt: skip
+        own |= dict.fromkeys(self.lost_names("links"), ())
+        own.setdefault(self.frame.name, (*self.frame.points, *sorted(self.lost_names("frame", "points"))))
+        return {name: tuple(dict.fromkeys(points)) for name, points in own.items()}
+
+    @cached_property
+    def guides(self) -> Mapping[str, frozenset[str]]:
+        """The names of the guides of each link, the frame's included."""
+        own = {name: frozenset(link.guides) | self.lost_names("links", name, "guides")
+               for name, link in self.links.items()}  # fmt: skip
+        own |= dict.fromkeys(self.lost_names("links"), frozenset[str]())
+        own.setdefault(self.frame.name, frozenset(self.frame.guides) | self.lost_names("frame", "guides"))
+        return own
+
+    @cached_property
+    def contacts(self) -> frozenset[str]:
+        """The names of the points of contact."""
+        return frozenset(self.file.contacts) | self.lost_names("contacts")
+
+    @cached_property
+    def unsure(self) -> frozenset[str]:
+        """The links of which a wrong entry was taken out that may have held names, so that a name not found there is no
+        second problem; "" stands for all links."""
+        harmless = {"length", "on", "angle_on", "redundant"}
+        own = {str(p[1]) for p in self.lost if p[0] == "links" and len(p) == 3 and p[2] not in harmless}
+        unsure = self.lost_names("links") | own
+        if self.lost_under("frame", "name") or any(p[0] == "frame" and len(p) == 2 for p in self.lost):
+            unsure |= {self.frame.name}
+        return frozenset(unsure | {""} if unsure else unsure)
+
+    def lost_under(self, *prefix: str) -> bool:
+        """True where something at or under this path, or a table that holds it, was taken out."""
+        n = len(prefix)
+        return any(p[:n] == prefix or p == prefix[: len(p)] for p in self.lost)
+
+    def lost_names(self, *table: str) -> set[str]:
+        """The names of the entries of a table that were taken out as a whole."""
+        n = len(table)
+        return {str(p[n]) for p in self.lost if len(p) == n + 1 and p[:n] == table}
 
     @property
     def bodies(self) -> list[tuple[str, str, Frame | Link]]:
@@ -160,14 +263,14 @@ def check_own_points(reading: Reading) -> None:
             key = "found with own points" if len(own) != 1 else "found with own point"
             say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(own)),
                 Phrase("a length needs two names in points"))
-        lost = name in reading.unsure or reading.flaws.under("links", name, "on")
+        lost = name in reading.unsure or reading.lost_under("links", name, "on")
         if not own and link.on is None and not lost:
             say(where, Phrase("has neither points nor on so nothing places"), Phrase("write points a b or on for a"))
 
 
-def check_references(reading: Reading, drawn: Mapping[str, Place]) -> None:
+def check_references(reading: Reading) -> None:
     """Note points that ``at`` and ``guides`` refer to and that are nowhere placed."""
-    drawn_lost, fixed = reading.flaws.under("drawn"), reading.frame.points
+    drawn, fixed, drawn_lost = reading.file.drawn, reading.frame.points, reading.lost_under("drawn")
     for name, link in reading.links.items():
         for point, entry in link.at.items():
             where = f"links.{name}.at.{point}"
@@ -216,69 +319,17 @@ def _circle_of_references(link: Link) -> list[str]:
 # -- pairs -------------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class SlidingPair:
-    """``link`` slides by its own origin on a guide of link ``on``, at a fixed angle.
-
-    ``turn`` is the unit complex number by which the link's own x axis is turned from the guide's
-    sense (``angle_on``).  ``pin`` names the link's first point if it has one.
-    """
-
-    link: str
-    on: str
-    guide: str
-    turn: complex
-    pin: str | None
-
-    @property
-    def key(self) -> str:
-        """The name of the pair: SLIDING/GUIDING."""
-        return f"{self.link}/{self.on}"
-
-
-@dataclass(frozen=True)
-class PinInSlot:
-    """Point ``point`` of link ``of`` runs in a guide of link ``on``: one constraint."""
-
-    point: str
-    of: str
-    on: str
-    guide: str
-
-    @property
-    def key(self) -> str:
-        return f"{self.point}/{self.on}"
-
-
-@dataclass(frozen=True)
-class CircularSlot:
-    """A slot of link ``on`` along a circle about its point ``centre`` (``radius`` in m), in which ``point`` runs.
-
-    ``bar`` is the link that moves it so: one that replaces a pin in the slot, or the block itself (``block``).
-    ``ends`` are the angles (rad, from the own x axis of ``on``) between which it is drawn, if the file has them.
-    """
-
-    name: str
-    on: str
-    centre: str
-    radius: float
-    bar: str
-    point: str
-    block: bool = False
-    ends: tuple[float, float] | None = None
-
-
 def sliding_pairs(reading: Reading) -> tuple[SlidingPair, ...]:
     """The sliding pairs of the file; what is wrong with them is noted."""
     pairs: list[SlidingPair] = []
     for name, link in reading.links.items():
         if link.on is None:
-            lost = name in reading.unsure or reading.flaws.under("links", name, "on")
+            lost = name in reading.unsure or reading.lost_under("links", name, "on")
             if link.angle_on is not None and not lost:
                 where = f"links.{name}.angle_on"
                 reading.say(where, Phrase("stands without on"), Phrase("say what the link slides on"))
             continue
-        refs = link.guide_refs
+        refs = listed(link.on)
         angles = _angles(link.angle_on) or [0.0] * len(refs)
         if len(angles) != len(refs):
             reading.say(f"links.{name}.angle_on", Phrase("found for guides", count=len(angles), guides=len(refs)),
@@ -309,22 +360,20 @@ def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: li
     return None
 
 
-def pins_in_slots(
-    tables: Mapping[str, Pin], reading: Reading, slidings: tuple[SlidingPair, ...]
-) -> tuple[PinInSlot, ...]:
+def pins_in_slots(reading: Reading) -> tuple[PinInSlot, ...]:
     """The pins in slots of the file; what is wrong with them is noted."""
     pins: list[PinInSlot] = []
-    for point, pin in tables.items():
+    for point, pin in reading.pins.items():
         where = f"pins.{point}"
         unknown = reading.wrong(
             reading.no_link(f"{where}.of", pin.of) or reading.no_point_of(f"{where}.of", pin.of, point)
         )
-        for ref in pin.guide_refs:
+        for ref in listed(pin.slots):
             on, _, guide = ref.partition(".")
             problem = reading.no_guide(f"{where}.in", ref) or _pin_problem(where, point, pin, ref, reading, pins)
             if reading.wrong(problem):
                 continue
-            if any(s.key == f"{point}/{on}" for s in slidings):
+            if any(s.key == f"{point}/{on}" for s in reading.slidings):
                 reading.say(where, Phrase("is also the name of a sliding pair", point=point, on=on),
                             Phrase("rename link", point=point))
             elif not unknown:
@@ -350,16 +399,16 @@ def _pin_problem(
     return Problem(f"{where}.in", found, wanted)
 
 
-def islands(
-    reading: Reading, pins: Mapping[str, Pin], touching: Iterable[Sequence[str]]
-) -> list[tuple[str, ...]]:
+def islands(reading: Reading) -> list[tuple[str, ...]]:
     """The sets of links that no chain of joints connects with the frame, in the order of the file.
 
-    ``touching`` are the outlines that contacts and gears join, LINK or LINK.NAME.  A link that does not exist is taken
-    for the one with the nearest name; empty where there is none near, since it may stand for the one that seems unheld.
+    A link that does not exist is taken for the one with the nearest name; empty where there is none near, since it may
+    stand for the one that seems unheld.
     """
-    slides = [(name, ref) for name, link in reading.links.items() for ref in link.guide_refs]
-    slides += [(pin.of, ref) for pin in pins.values() for ref in pin.guide_refs]
+    slides = [(name, ref) for name, link in reading.links.items() for ref in listed(link.on)]
+    slides += [(pin.of, ref) for pin in reading.pins.values() for ref in listed(pin.slots)]
+    touching = [contact.between for contact in reading.file.contacts.values()]
+    touching += [gear.between for gear in reading.file.gears.values()]
     sides = [tuple(ref.partition(".")[0] for ref in pair) for pair in (*slides, *touching)]
     known = reading.points
     meant = {n: n if n in known else "".join(get_close_matches(n, known, n=1)) for pair in sides for n in pair}
@@ -398,166 +447,142 @@ def not_held(group: tuple[str, ...], frame: str) -> Problem:
 # -- carriages ---------------------------------------------------------------------------------------------------------
 
 
-def with_carriages(frame: Frame, links: Mapping[str, Link], drawn: Mapping[str, Place]) -> dict[str, Link]:
-    """The links, with each sliding one of two own points that says neither their distance nor ``angle_on``, but
+def with_carriages(reading: Reading) -> Reading:
+    """The reading with each sliding link of two own points that says neither their distance nor ``angle_on``, but
 
     - in ``at`` where the second stands from the first, as a link of one own point: its axes lie along the guide, and
       all its places are in them; or
     - nothing, where both are drawn and the guide is one of the frame with an angle, at the angle drawn.
     """
-    return {name: _measured(frame, link, drawn) for name, link in links.items()}
+    return replace(reading, links={name: _measured(reading, link) for name, link in reading.links.items()})
 
 
-def _measured(frame: Frame, link: Link, drawn: Mapping[str, Place]) -> Link:
-    if len(link.points) != 2 or len(link.guide_refs) != 1 or link.angle_on is not None:
+def _measured(reading: Reading, link: Link) -> Link:
+    refs, drawn = listed(link.on), reading.file.drawn
+    if len(link.points) != 2 or len(refs) != 1 or link.angle_on is not None:
         return link
     first, second = link.points
     if second in link.at and link.at[second] != "drawn" and link.length is None:
         return replace(link, points=[first])
-    turned = _drawn_angle(frame, link, drawn)
-    return link if turned is None else replace(link, angle_on=turned)
-
-
-def _drawn_angle(frame: Frame, link: Link, drawn: Mapping[str, Place]) -> float | None:
-    """The angle (degrees) from the guide to both drawn points, if they tell it."""
-    on, _, name = link.guide_refs[0].partition(".")
-    guide = frame.guides.get(name)
-    if on != frame.name or (name and (guide is None or guide.angle is None)):
-        return None
-    if not all(point in drawn for point in link.points):
-        return None
-    one, two = (complex(*drawn[point]) for point in link.points)
-    if one == two:
-        return None
-    angle = math.degrees(cmath.phase(two - one)) - ((guide.angle or 0.0) if guide is not None else 0.0)
-    return math.remainder(angle, 360.0)
+    on, _, name = refs[0].partition(".")
+    guide = reading.frame.guides.get(name)
+    straight = on == reading.frame.name and (not name or (guide is not None and guide.angle is not None))
+    if not straight or not {first, second} <= drawn.keys():
+        return link
+    along = complex(*drawn[second]) - complex(*drawn[first])
+    if along == 0:
+        return link
+    angle = math.degrees(cmath.phase(along)) - ((guide.angle or 0.0) if guide is not None else 0.0)
+    return replace(link, angle_on=math.remainder(angle, 360.0))
 
 
 # -- circular slots ----------------------------------------------------------------------------------------------------
 
+Key = tuple[str, str]
+"""A link, and the name of a guide of it."""
 
-class _Slots:
-    """The circular slots of a file while bars and turning pairs take their place.
 
-    ``arcs`` are by link and name: centre, radius in the file's unit, guide; ``given`` are points that stand for places
-    of centres.
-    """
+def with_bars(reading: Reading) -> Reading:
+    """The reading with bars and turning pairs in place of circular slots; what is wrong is noted."""
+    guides = {(name, key): guide for _, name, body in reading.bodies for key, guide in body.guides.items()}
+    arcs = {k: g for k, g in guides.items() if g.centre is not None or g.r is not None or g.ends is not None}
+    if not arcs:
+        return reading
+    points = {name: {*getattr(body, "at", {}), *body.points} for _, name, body in reading.bodies}
+    given: dict[str, dict[str, list[float]]] = {name: {} for name in points}  # points that stand for places of centres
+    centres = {key: _centre(reading, key, arc, points, given[key[0]]) for key, arc in arcs.items()}
+    slots: list[CircularSlot] = []
 
-    def __init__(self, frame: Frame, links: Mapping[str, Link], flaws: Flaws, problems: list[Problem]) -> None:
-        self.flaws, self.problems = flaws, problems
-        self.holders: OwnTables = {**links, frame.name: frame}
-        self.points = {n: {*getattr(h, "at", {}), *h.points} for n, h in self.holders.items()}
-        self.given: dict[str, OwnTables] = {n: {} for n in self.holders}
-        self.arcs: dict[tuple[str, str], tuple[str, float, Guide]] = {}
-        self.found: list[CircularSlot] = []
-        for name, holder in self.holders.items():
-            where = "frame" if name == frame.name and name not in links else f"links.{name}"
-            for rail, guide in holder.guides.items():
-                if guide.centre is not None or guide.r is not None or guide.ends is not None:
-                    self.arcs[name, rail] = self._arc(f"{where}.guides.{rail}", name, guide)
-
-    def say(self, where: str, found: Wording, wanted: Wording) -> None:
-        self.problems.append(Problem(where, found, wanted))
-
-    def _arc(self, where: str, name: str, guide: Guide) -> tuple[str, float, Guide]:
-        both = [k for k in ("through", "angle", "toward") if getattr(guide, k) is not None]
-        if both:
-            hint = Phrase("a straight guide has through and angle a")
-            self.say(f"{where}.{both[0]}", Phrase("stands in a slot along a circle"), hint)
-        if guide.centre is None:
-            self.say(f"{where}.centre", Phrase("is missing"), Phrase("write centre m or x y and r"))
-        elif guide.r is None:
-            self.say(f"{where}.r", Phrase("is missing"), Phrase("write the slot's radius"))
-        centre, own = guide.centre, self.points[name]
-        if isinstance(centre, str) and centre not in own and not self.flaws.under(*where.split(".")[:2]):
-            self.say(f"{where}.centre", Phrase("link has no point of name and centre", name=name, centre=centre),
-                     did_you_mean(centre, sorted(own)))
-            centre = None
-        elif centre is not None and not isinstance(centre, str):
-            point = _free("M", {p for points in self.points.values() for p in points})
-            self.given[name][point] = list(centre)
-            own.add(point)
-            centre = point
-        return str(centre or ""), guide.r or 0.0, guide
-
-    def of(self, ref: str) -> tuple[str, str] | None:
-        """The link and the name of the circular slot that a guide's name means."""
+    def arc_of(ref: str) -> Key | None:
         link, _, guide = ref.partition(".")
-        return (link, guide) if (link, guide) in self.arcs else None
+        return (link, guide) if (link, guide) in arcs else None
 
-    def note(self, key: tuple[str, str], bar: str, point: str, metres: float, block: bool) -> None:
-        """Note what moves in a slot."""
-        centre, r, guide = self.arcs[key]
-        ends = None if guide.ends is None else (math.radians(guide.ends[0]), math.radians(guide.ends[1]))
-        self.found.append(CircularSlot(key[1], key[0], centre, r * metres, bar, point, block, ends))
+    def note(key: Key, bar: str, point: str, block: bool) -> None:
+        first, last = arcs[key].ends or (None, None)
+        ends = None if first is None or last is None else (math.radians(first), math.radians(last))
+        radius = (arcs[key].r or 0.0) * reading.metres
+        slots.append(CircularSlot(key[1], key[0], centres[key], radius, bar, point, block, ends))
 
-    def straight(self, name: str) -> dict[str, Guide]:
-        """The straight guides of a link."""
-        return {key: guide for key, guide in self.holders[name].guides.items() if (name, key) not in self.arcs}
+    def without_arcs(name: str, body: AnyBody) -> AnyBody:
+        return replace(body, guides={key: guide for key, guide in body.guides.items() if (name, key) not in arcs})
+
+    taken, kept, bars = {*points}, dict[str, Pin](), dict[str, Link]()
+    for point, pin in reading.pins.items():
+        where, refs = f"pins.{point}", listed(pin.slots)
+        straight = [ref for ref in refs if arc_of(ref) is None]
+        if straight:
+            kept[point] = replace(pin, slots=straight)
+        for slot in filter(None, map(arc_of, refs)):
+            if pin.of not in points:
+                reading.say(f"{where}.of", Phrase("there is no link", name=pin.of), did_you_mean(pin.of, taken))
+            elif point not in points[pin.of]:
+                reading.say(f"{where}.of", Phrase("link has no point of name and centre", name=pin.of, centre=point),
+                            did_you_mean(point, sorted(points[pin.of])))
+            elif pin.of == slot[0] or point in points[slot[0]]:
+                reading.say(f"{where}.in", Phrase("is a point of link itself", point=point, key=slot[0]),
+                            Phrase("name the slot of another link"))
+            elif centres[slot]:
+                bar = _free(slot[1], taken)
+                taken.add(bar)
+                bars[bar] = Link(points=[centres[slot], point], length=arcs[slot].r or 0.0)
+                note(slot, bar, point, block=False)
+
+    def on_bars(name: str, link: Link) -> Link:
+        # of the circular slots that it runs in a link has the centres, as points in its own axes
+        refs, at = listed(link.on), {**link.at, **given[name]}
+        keys, angles = [arc_of(ref) for ref in refs], [*_angles(link.angle_on), *([0.0] * len(refs))]
+        if any(keys):
+            straight = [k for k, key in enumerate(keys) if key is None]
+            link = replace(link, on=[refs[k] for k in straight] or None, angle_on=[angles[k] for k in straight] or None)
+        for key, angle in zip(keys, angles, strict=False):
+            if key is None:
+                continue
+            if key[0] == name:
+                reading.say(f"links.{name}.on", Phrase("link slides on itself", name=name), Phrase("name another link"))
+            elif not link.points:
+                reading.say(f"links.{name}.points", Phrase("is missing"),
+                            Phrase("name the point of the block that runs"))
+            elif centres[key]:
+                # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
+                way = 1j * direction(-angle) * (arcs[key].r or 0.0)
+                at[centres[key]] = [way.real, way.imag]
+                note(key, name, link.points[0], block=True)
+        return without_arcs(name, replace(link, at=at))
+
+    moving = {name: on_bars(name, link) for name, link in reading.links.items()}
+    frame = replace(reading.frame, points={**reading.frame.points, **given[reading.frame.name]})
+    return replace(reading, frame=without_arcs(frame.name, frame), links={**moving, **bars}, pins=kept,
+                   slots=tuple(slots))  # fmt: skip
+
+
+def _centre(
+    reading: Reading, key: Key, arc: Guide, points: Mapping[str, set[str]], given: dict[str, list[float]]
+) -> str:
+    """The point in the centre of a circular slot, "" where there is none; what is wrong is noted.  For a place a new
+    point is ``given``."""
+    name, own = key[0], points[key[0]]
+    body = "frame" if name == reading.frame.name and name not in reading.links else f"links.{name}"
+    where = f"{body}.guides.{key[1]}"
+    both = [k for k in ("through", "angle", "toward") if getattr(arc, k) is not None]
+    if both:
+        reading.say(f"{where}.{both[0]}", Phrase("stands in a slot along a circle"),
+                    Phrase("a straight guide has through and angle a"))
+    if arc.centre is None:
+        reading.say(f"{where}.centre", Phrase("is missing"), Phrase("write centre m or x y and r"))
+        return ""
+    if arc.r is None:
+        reading.say(f"{where}.r", Phrase("is missing"), Phrase("write the slot's radius"))
+    if not isinstance(arc.centre, str):
+        point = _free("M", {p for each in points.values() for p in each})
+        given[point] = list(arc.centre)
+        own.add(point)
+        return point
+    if arc.centre not in own and not reading.lost_under(*where.split(".")[:2]):
+        reading.say(f"{where}.centre", Phrase("link has no point of name and centre", name=name, centre=arc.centre),
+                    did_you_mean(arc.centre, sorted(own)))
+        return ""
+    return arc.centre
 
 
 def _free(name: str, taken: set[str]) -> str:
     return next(n for n in (name, *(f"{name}{k}" for k in range(1, 10_000))) if n not in taken)
-
-
-def with_bars(
-    frame: Frame, links: Mapping[str, Link], pins: Mapping[str, Pin], metres: float, flaws: Flaws,
-    problems: list[Problem],
-) -> tuple[Frame, dict[str, Link], dict[str, Pin], tuple[CircularSlot, ...]]:  # fmt: skip
-    """The frame, links and pins with bars and turning pairs in place of circular slots, and what they stand for; what
-    is wrong is added to ``problems``."""
-    slots = _Slots(frame, links, flaws, problems)
-    if not slots.arcs:
-        return frame, dict(links), dict(pins), ()
-    taken = {*slots.holders}
-    kept: dict[str, Pin] = {}
-    bars: dict[str, Link] = {}
-    for point, pin in pins.items():
-        straight = [ref for ref in pin.guide_refs if slots.of(ref) is None]
-        if straight:
-            kept[point] = replace(pin, slots=straight)
-        for slot in filter(None, map(slots.of, pin.guide_refs)):
-            where, (centre, r, _) = f"pins.{point}", slots.arcs[slot]
-            if pin.of not in slots.holders:
-                slots.say(f"{where}.of", Phrase("there is no link", name=pin.of), did_you_mean(pin.of, taken))
-            elif point not in slots.points[pin.of]:
-                slots.say(f"{where}.of", Phrase("link has no point of name and centre", name=pin.of, centre=point),
-                          did_you_mean(point, sorted(slots.points[pin.of])))
-            elif pin.of == slot[0] or point in slots.points[slot[0]]:
-                slots.say(f"{where}.in", Phrase("is a point of link itself", point=point, slot=slot[0]),
-                          Phrase("name the slot of another link"))
-            elif centre:
-                bar = _free(slot[1], taken)
-                taken.add(bar)
-                bars[bar] = Link(points=[centre, point], length=r)
-                slots.note(slot, bar, point, metres, block=False)
-    moving = {name: _on_bars(slots, name, link, metres) for name, link in links.items()}
-    points = {**frame.points, **slots.given[frame.name]}
-    frame = replace(frame, points=points, guides=slots.straight(frame.name))
-    return frame, {**moving, **bars}, kept, tuple(slots.found)
-
-
-def _on_bars(slots: _Slots, name: str, link: Link, metres: float) -> Link:
-    """A link without circular slots: of those that it runs in it has the centres, as points in its own axes."""
-    refs, at = link.guide_refs, {**link.at, **slots.given[name]}
-    keys = [slots.of(ref) for ref in refs]
-    on, angle_on = link.on, link.angle_on
-    if any(keys):
-        angles = [*_angles(angle_on), *([0.0] * len(refs))][: len(refs)]
-        straight = [k for k, key in enumerate(keys) if key is None]
-        on = [refs[k] for k in straight] or None
-        angle_on = [angles[k] for k in straight] or None
-        for key, angle in zip(keys, angles, strict=True):
-            if key is None:
-                continue
-            centre, r, _ = slots.arcs[key]
-            if key[0] == name:
-                slots.say(f"links.{name}.on", Phrase("link slides on itself", name=name), Phrase("name another link"))
-            elif not link.points:
-                slots.say(f"links.{name}.points", Phrase("is missing"), Phrase("name the point of the block that runs"))
-            elif centre:
-                # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
-                way = 1j * direction(-angle)
-                at[centre] = [r * way.real, r * way.imag]
-                slots.note(key, name, link.points[0], metres, block=True)
-    return replace(link, on=on, angle_on=angle_on, at=at, guides=slots.straight(name))

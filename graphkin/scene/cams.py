@@ -258,11 +258,11 @@ def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]
         reading.say(where, Phrase("link is the frame", name=name), Phrase("a cam turns"))
         return ""
     link = reading.links.get(name)
-    if link is None or reading.flaws.under("links", name):
+    if link is None or reading.lost_under("links", name):
         return ""
     if link.points and link.points[0] in places:
         return link.points[0]
-    if not reading.flaws.under("frame"):
+    if not reading.lost_under("frame"):
         no_point = Phrase("link has no point", name=name)
         said = Phrase("is no point of the frame", points=link.points[0]) if link.points else no_point
         reading.say(where, said, Phrase("a cam turns about its first point which"))
@@ -283,7 +283,7 @@ def _swings(
     if follower in lines:
         return False
     link = reading.links.get(follower)
-    if link is None or reading.flaws.under("links", follower) or reading.flaws.under("frame"):
+    if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
         return None
     pivots = [p for p in link.points if p in places]
     if len(pivots) != 1 or link.on is not None:

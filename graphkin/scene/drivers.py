@@ -10,15 +10,15 @@ travel) tells which one is meant where there are several.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.scene import model
-from graphkin.scene.bodies import PinInSlot, Reading, SlidingPair
+from graphkin.scene.bodies import Reading
 from graphkin.scene.laws import MotionLaw, motion_law
 from graphkin.scene.model import FromDeadPoint, Mechanism
-from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver
+from graphkin.scene.scene_tables import SMALLEST, DrivenSlide, Driver, Positions
 from graphkin.scene.tables import Units, in_si, in_units
 from graphkin.words import Phrase, alternatives
 
@@ -27,35 +27,27 @@ __all__ = ["asked_time", "at_time", "drives", "moments", "moves_by_law", "placed
 # -- reading -----------------------------------------------------------------------------------------------------------
 
 
-def drives(
-    tables: Mapping[str, Driver | DrivenSlide], reading: Reading, slidings: tuple[SlidingPair, ...],
-    pins: tuple[PinInSlot, ...], drawn: bool, numbered: Sequence[str], also: Sequence[str], first: bool,
-) -> dict[str, model.Driver]:  # fmt: skip
+def drives(reading: Reading) -> dict[str, model.Driver]:
     """The drivers of the file by their places in it; what is wrong with them is noted.
 
     The value of one that is to be taken from the drawn points, or from a named position, is not a number.
-
-    Parameters
-    ----------
-    drawn : whether the file draws points
-    numbered, also : names of the file's positions
-    first : whether the file says where the first of the numbered ones lies
     """
     found: dict[str, model.Driver] = {}
+    tables = reading.drivers
     several = "driver" not in tables
     for i, (where, driver) in enumerate(tables.items()):
         before = len(reading.problems)
-        there = (p for p in reading.flaws.paths if p[0] == "driver" and (not several or p[1:2] == (i,)))
+        there = (p for p in reading.lost if p[0] == "driver" and (not several or p[1:2] == (i,)))
         lost = {str(p[-1]) for p in there}
         if isinstance(driver, Driver):
             name, base = driver.link, driver.relative_to or reading.frame.name
-            reading.wrong(*_angle_problems(where, driver, reading, lost, len(tables) > 1))
+            reading.wrong(*_angle_problems(where, driver, reading, lost))
             if driver.position is not None:
-                reading.wrong(*_position_problems(where, i, driver, numbered, also, first, drawn))
+                reading.wrong(*_position_problems(where, i, driver, reading))
         else:
-            name, base = _pair_of(where, driver, reading, slidings, pins, lost), ""
+            name, base = _pair_of(where, driver, reading, lost), ""
         law = _law(where, driver, reading)
-        reading.wrong(*_origin_problems(where, driver, len(tables) > 1, drawn),
+        reading.wrong(*_origin_problems(where, driver, reading),
                       *_driven_twice(where, name, base, found), *_too_slow(where, driver))
         if len(reading.problems) > before or lost & {"angle", "travel", "law", "time"}:
             continue
@@ -75,7 +67,7 @@ def drives(
                 name, base, value, omega + 0.0, sign * si.alpha + 0.0, "", dead, position, rpm, speed, law
             )
         else:
-            ends = {**{p.key: (p.key, p.on) for p in pins}, **{s.key: (s.link, s.on) for s in slidings}}
+            ends = {p.key: (p.key, p.on) for p in reading.running} | {s.key: (s.link, s.on) for s in reading.slidings}
             sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
             found[where] = model.Driver(
                 sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law
@@ -115,7 +107,7 @@ def _too_slow(where: str, driver: Driver | DrivenSlide) -> Iterator[Problem]:
                           Phrase("write 0 or at least", smallest=f"{SMALLEST:g}"))
 
 
-def _origin_problems(where: str, driver: Driver | DrivenSlide, several: bool, drawn: bool) -> Iterator[Problem]:
+def _origin_problems(where: str, driver: Driver | DrivenSlide, reading: Reading) -> Iterator[Problem]:
     what, value = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
     if driver.origin is None:
         if driver.near is not None:
@@ -124,16 +116,14 @@ def _origin_problems(where: str, driver: Driver | DrivenSlide, several: bool, dr
     if value is None or value == 0.0:
         found = Phrase("is missing") if value is None else Phrase("0 is the dead point itself")
         yield Problem(f"{where}.{what}", found, Phrase("write the distance from the dead point"))
-    if several:
+    if len(reading.drivers) > 1:
         yield Problem(f"{where}.from", Phrase("a dead point is found for a single"), Phrase("give the value itself"))
-    if drawn:
+    if reading.file.drawn:
         yield Problem(f"{where}.from", Phrase("with drawn the value of the driver follows"),
                       Phrase("leave one of the two out"))
 
 
-def _angle_problems(
-    where: str, driver: Driver, reading: Reading, lost: set[str], several: bool
-) -> Iterator[Problem]:
+def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]) -> Iterator[Problem]:
     """What is wrong with a driven angle of which the keys ``lost`` were taken out."""
     links, frame = reading.links, reading.frame.name
     for name, link in (("link", driver.link), ("relative_to", driver.relative_to)):
@@ -170,7 +160,7 @@ def _angle_problems(
         if driver.of not in moving_points and not reading.unsure:
             wanted = did_you_mean(driver.of, moving_points)
             yield Problem(f"{where}.of", Phrase("no moving link has a point", name=driver.of), wanted)
-        if several:
+        if len(reading.drivers) > 1:
             yield Problem(f"{where}.speed", Phrase("the speed of a point tells the rate"), Phrase("give omega"))
     for name, rate in rates.items():
         if driver.sense is not None and rate < 0:
@@ -180,38 +170,34 @@ def _angle_problems(
         yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
 
 
-def _position_problems(
-    where: str, i: int, driver: Driver, numbered: Sequence[str], also: Sequence[str], first: bool, drawn: bool
-) -> Iterator[Problem]:
-    """What is wrong with a driver that names its position; the parameters are those of `drives`."""
-    named, here = str(driver.position), f"{where}.position"
-    known = [*numbered, *also]
+def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> Iterator[Problem]:
+    """What is wrong with driver number i, which names its position."""
+    named, here, known = str(driver.position), f"{where}.position", reading.positions
+    positions = reading.file.positions or Positions()
     if i > 0:
         yield Problem(here, Phrase("positions are those of the first driver"), Phrase("give the angle"))
     elif named not in known:
         wanted = did_you_mean(named, known) if known else Phrase("name it in positions")
         yield Problem(here, Phrase("there is no position", at=driver.position), wanted)
-    elif not first and named not in also:
+    elif positions.first is None and named not in positions.also:
         said = Phrase("the numbered positions count from the driver's own")
         yield Problem(here, said, Phrase("write positions.first or the angle"))
     if driver.angle is not None:
         yield Problem(here, Phrase("found angle too", angle=f"{driver.angle:g}"), Phrase("write one of the two"))
-    if driver.origin is not None or drawn:
+    if driver.origin is not None or reading.file.drawn:
         said = Phrase("what gives the driver's value stands here twice")
         yield Problem(here, said, Phrase("leave one of them out"))
 
 
-def _pair_of(
-    where: str, driver: DrivenSlide, reading: Reading, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
-    lost: set[str],
-) -> str:  # fmt: skip
+def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) -> str:
     """The key of the pair that a table drives, as far as it is known; what is wrong with it is noted."""
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
         reading.say(f"{where}.velocity", Phrase("is missing"), Phrase("write velocity per second it may be 0"))
     what, _, on = driver.slide.partition("/")
-    pairs = {p.key: p.on for p in slidings if p.link == what} or {p.key: p.on for p in pins if p.point == what}
+    pairs = {p.key: p.on for p in reading.slidings if p.link == what}
+    pairs = pairs or {p.key: p.on for p in reading.running if p.point == what}
     keys = [pair for pair, rail in pairs.items() if rail in (on or rail,) and rail == (driver.relative_to or rail)]
-    known = [p.key for p in slidings] + [p.key for p in pins]
+    known = reading.pairs
     meant, link, here = keys[0] if len(keys) == 1 else driver.slide, reading.links.get(what), f"{where}.slide"
     if "" in reading.unsure or (link is not None and link.on is not None and not pairs):
         return meant  # its pair has a problem of its own
@@ -247,16 +233,13 @@ def _driven_twice(where: str, name: str, base: str, found: Mapping[str, model.Dr
     return []
 
 
-def placed_driver(
-    where: str, driver: model.Driver, value: float, metres: float, problems: list[Problem]
-) -> model.Driver:
-    """The driver with its value, and the rates that its law gives it there; what is wrong is added to ``problems``.
+def placed_driver(where: str, driver: model.Driver, value: float, reading: Reading) -> model.Driver:
+    """The driver with its value, and the rates that its law gives it there; what is wrong is noted.
 
-    Parameters
-    ----------
-    value : what the file or its drawn points give (rad, m); not a number where they give none
-    metres : one length unit of the file
+    ``value`` is what the file or its drawn points give (rad, m); not a number where they give none.
     """
+    # where drawn points are wrong, that they give no value is no second problem
+    problems = [] if reading.problems and (reading.file.drawn or reading.lost_under("drawn")) else reading.problems
     if driver.position:  # its value is found where the positions are known
         return replace(driver, value=0.0)
     name, law = "angle" if driver.turns else "travel", driver.law
@@ -275,7 +258,7 @@ def placed_driver(
     if abs(law.at(law.time).lift - value) > 1e-12 * max(map(abs, law.span)):
         time = law.reached(value)  # where no moment is asked, the first at which it comes there
         if time is None:
-            unit = math.pi / 180 if driver.turns else metres
+            unit = math.pi / 180 if driver.turns else reading.metres
             low, high = (f"{end / unit:.6g}" for end in law.span)
             wanted = Phrase("the law goes from to", least=low, greatest=high, turns=" deg" * driver.turns)
             problems.append(Problem(f"{where}.{name}", Phrase("found value", value=f"{value / unit:.6g}"), wanted))

@@ -9,16 +9,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 from graphkin.errors import did_you_mean
 from graphkin.plane import direction
 from graphkin.scene.bodies import Reading
-from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Flywheel, Gravity, Load, LoadPhase, Mass, Spring
+from graphkin.scene.model import BalanceAt, LinkMass, Loading, LoadOn, Phase, SpringOn
+from graphkin.scene.scene_tables import STANDARD_GRAVITY, Balance, Load, LoadPhase, Mass, Spring
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
-__all__ = ["BalanceAt", "LinkMass", "LoadOn", "Loading", "Phase", "SpringOn", "loading_of"]
+__all__ = ["loading_of"]
 TURN = math.tau * (1 + 1e-12)
 
 # -- tables of the file ------------------------------------------------------------------------------------------------
@@ -27,125 +27,27 @@ TURN = math.tau * (1 + 1e-12)
 # -- what acts ---------------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class LinkMass:
-    """Mass (kg) and inertia (kg m2) of a link about its centre of mass, which lies ``at`` in its own axes (m)."""
-
-    link: str
-    at: complex
-    mass: float
-    inertia: float
-
-
-@dataclass(frozen=True)
-class Phase:
-    """When a load acts: while the pair ``stroke`` slides in a ``sense`` along its guide, between two parts of its
-    stroke, counted from where that stroke begins; or, without ``stroke``, while the first driver's value grows from
-    ``start`` to ``end`` (rad, m; of an angle at most a turn)."""
-
-    stroke: str
-    sense: int
-    start: float
-    end: float
-
-
-@dataclass(frozen=True)
-class LoadOn:
-    """A force (N) on a link at a place of its own axes (m), or a moment (N m; ``size`` of both, ``is_force`` tells).
-
-    ``turn`` is its direction, in the frame or from the axis of link ``follows``; with ``against`` it lies along the
-    guide of that sliding pair, opposite to its sliding velocity.
-    """
-
-    name: str
-    link: str
-    size: float
-    is_force: bool
-    at: complex = 0j
-    turn: complex = 1 + 0j
-    follows: str = ""
-    against: str = ""
-    phase: Phase | None = None
-
-
-@dataclass(frozen=True)
-class SpringOn:
-    """A spring between points of two links, which lie ``at`` in their own axes (m).
-
-    It pulls them together with preload + rate * (length - free) (N, N/m, m); ``P_name`` is its force on the first
-    link, the opposite acts on the second.
-    """
-
-    name: str
-    points: tuple[str, str]
-    links: tuple[str, str]
-    at: tuple[complex, complex]
-    rate: float
-    free: float
-    preload: float = 0.0
-
-    @property
-    def ends(self) -> tuple[tuple[str, complex], tuple[str, complex]]:
-        """Link and place of either end."""
-        return (self.links[0], self.at[0]), (self.links[1], self.at[1])
-
-
-@dataclass(frozen=True)
-class BalanceAt:
-    """What is unknown besides the joint forces: a moment on a link, or a force at a place of it along a line, whose
-    direction ``turn`` stands in the frame or, ``square``, is square to the link's own axis."""
-
-    link: str
-    kind: Literal["moment", "force"]
-    at: complex = 0j
-    turn: complex = 1 + 0j
-    square: bool = False
-
-
-@dataclass(frozen=True)
-class Loading:
-    """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2)."""
-
-    gravity: complex = 0j
-    masses: tuple[LinkMass, ...] = ()
-    loads: tuple[LoadOn, ...] = ()
-    balance: BalanceAt | None = None
-    flywheel: Flywheel | None = None
-    springs: tuple[SpringOn, ...] = ()
-
-    def __bool__(self) -> bool:
-        return bool(self.masses or self.loads or self.springs)
-
-
 # -- reading -----------------------------------------------------------------------------------------------------------
 
 
-def loading_of(
-    reading: Reading, gravity: Gravity | None, masses: Mapping[str, Mass], loads: Mapping[str, Load],
-    springs: Mapping[str, Spring], balance: Balance | None, flywheel: Flywheel | None,
-    places: Mapping[str, Mapping[str, complex]], pairs: Sequence[str], drivers: Sequence[bool],
-) -> Loading:  # fmt: skip
+def loading_of(reading: Reading, places: Mapping[str, Mapping[str, complex]]) -> Loading:
     """What the tables of a file say of forces; what is wrong is noted.
 
-    Parameters
-    ----------
-    places : points of each link in its own axes (m)
-    pairs : keys of the sliding pairs and pins in slots
-    drivers : of each driver whether it slides
+    ``places`` are the points of each link in its own axes (m).
     """
-    acting = _Acting(reading, places, pairs)
-    g = gravity.g if gravity else STANDARD_GRAVITY
-    down = g * direction(gravity.angle) if gravity else 0j
-    weighing = [acting.mass(link, mass, g) for link, mass in masses.items()]
-    carried = [acting.load(name, load, drivers) for name, load in loads.items()]
-    pulling = [acting.spring(name, spring, loads) for name, spring in springs.items()]
-    balancing, evening = acting.balance(balance, len(drivers)), None
-    if flywheel is not None and not acting.not_moving("flywheel.on", flywheel.on):
-        evening = flywheel
-        if flywheel.delta >= 2.0:
-            reading.say("flywheel.delta", Phrase("found value", value=f"{flywheel.delta:g}"),
+    file, acting = reading.file, _Acting(reading, places)
+    g = file.gravity.g if file.gravity else STANDARD_GRAVITY
+    down = g * direction(file.gravity.angle) if file.gravity else 0j
+    weighing = [acting.mass(link, mass, g) for link, mass in file.masses.items()]
+    carried = [acting.load(name, load) for name, load in file.loads.items()]
+    pulling = [acting.spring(name, spring) for name, spring in file.springs.items()]
+    balancing, evening = acting.balance(file.balance), None
+    if file.flywheel is not None and not acting.not_moving("flywheel.on", file.flywheel.on):
+        evening = file.flywheel
+        if evening.delta >= 2.0:
+            reading.say("flywheel.delta", Phrase("found value", value=f"{evening.delta:g}"),
                         Phrase("a part of the mean speed below 2"))
-    if (balancing or evening) and not (masses or loads or springs):
+    if (balancing or evening) and not (file.masses or file.loads or file.springs):
         where = "balance" if balancing else "flywheel"
         reading.say(where, Phrase("there is nothing to balance"), Phrase("give masses.link loads.name or springs.name"))
     return Loading(down, tuple(filter(None, weighing)), tuple(filter(None, carried)), balancing, evening,
@@ -154,11 +56,10 @@ def loading_of(
 
 @dataclass(frozen=True)
 class _Acting:
-    """The reading of what acts on links, with the points of each link (m) and the keys of pairs that slide."""
+    """The reading of what acts on links, with the points of each link (m)."""
 
     reading: Reading
     places: Mapping[str, Mapping[str, complex]]
-    pairs: Sequence[str]
 
     def not_moving(self, where: str, link: str) -> bool:
         """Whether this is no moving link, which is noted."""
@@ -184,11 +85,11 @@ class _Acting:
 
     def pair(self, where: str, ref: str) -> str:
         """The key of a sliding pair, "6" standing for the one pair of link 6."""
-        near = [pair for pair in self.pairs if ref in (pair, pair.split("/")[0])]
+        near = [pair for pair in self.reading.pairs if ref in (pair, pair.split("/")[0])]
         if len(near) == 1:
             return near[0]
         found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
-        self.reading.say(where, found, did_you_mean(ref, self.pairs))
+        self.reading.say(where, found, did_you_mean(ref, self.reading.pairs))
         return ""
 
     def mass(self, link: str, table: Mass, g: float) -> LinkMass | None:
@@ -204,8 +105,8 @@ class _Acting:
         heavy = si.weight / g if si.weight is not None else si.mass or 0.0
         return LinkMass(link, self.place(f"{where}.at", link, si.at), heavy, si.inertia)
 
-    def load(self, name: str, load: Load, drivers: Sequence[bool]) -> LoadOn | None:
-        """A load; ``drivers`` as of `loading_of`."""
+    def load(self, name: str, load: Load) -> LoadOn | None:
+        """A load."""
         where, say, si = f"loads.{name}", self.reading.say, in_si(load, self.reading.units)
         if self.not_moving(f"{where}.on", load.on):
             return None
@@ -213,7 +114,7 @@ class _Acting:
             neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
             say(where, neither if load.force is None else both, Phrase("give one of them"))
             return None
-        phase = self.phase(f"{where}.when", load.when, drivers) if load.when is not None else None
+        phase = self.phase(f"{where}.when", load.when) if load.when is not None else None
         if si.moment is not None:
             for beside in ("at", "angle", "follows", "against"):
                 if getattr(load, beside) is not None:
@@ -238,10 +139,10 @@ class _Acting:
             say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
         return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
 
-    def spring(self, name: str, table: Spring, loads: Mapping[str, Load]) -> SpringOn | None:
+    def spring(self, name: str, table: Spring) -> SpringOn | None:
         """A spring, whose name is none of a load."""
         where, say, known = f"springs.{name}", self.reading.say, len(self.reading.problems)
-        if name in loads:
+        if name in self.reading.file.loads:
             say(where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name))
         if len(table.between) != 2 or table.between[0] == table.between[1]:
             given = ", ".join(table.between) or "nothing"
@@ -280,8 +181,8 @@ class _Acting:
         reading.wrong(reading.no_point_of(f"{where}.links", link, point))
         return link
 
-    def phase(self, where: str, when: LoadPhase, drivers: Sequence[bool]) -> Phase | None:
-        """When a load acts; ``drivers`` as of `loading_of`."""
+    def phase(self, where: str, when: LoadPhase) -> Phase | None:
+        """When a load acts."""
         say = self.reading.say
         if (when.stroke is None) == (when.driver is None):
             neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
@@ -299,7 +200,7 @@ class _Acting:
         for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
             if said:
                 say(f"{where}.{beside}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
-        slides = bool(drivers) and drivers[0]
+        slides = self.reading.slides
         start, end = (value * self.reading.units.of("length" if slides else "angle").si for value in when.driver)
         found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
         if slides and start >= end:
@@ -309,12 +210,12 @@ class _Acting:
             say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
         return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
 
-    def balance(self, table: Balance | None, drivers: int) -> BalanceAt | None:
-        """What balances, where there are so many drivers."""
+    def balance(self, table: Balance | None) -> BalanceAt | None:
+        """What balances."""
         if table is None or self.not_moving("balance.on", table.on):
             return None
         say, si = self.reading.say, in_si(table, self.reading.units)
-        if drivers > 1:
+        if len(self.reading.drivers) > 1:
             say("balance", Phrase("one balance cannot stand for several drivers"),
                 Phrase("leave it out each driver has its own"))
         if si.at is None:

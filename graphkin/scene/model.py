@@ -18,17 +18,107 @@ from typing import Any, Literal
 from graphkin.scene.bodies import CircularSlot, PinInSlot, SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
-from graphkin.scene.loads import Loading
-from graphkin.scene.scene_tables import SheetWishes, Vary
+from graphkin.scene.scene_tables import Flywheel, Positions, SheetWishes, Vary
 from graphkin.scene.sheet import PlacedBackground, PlacedScan
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 
 __all__ = [
-    "Dimension", "Driver", "FromDeadPoint", "Mechanism", "NamedPositions", "OnStroke", "PlacedContact",
-    "PlacedDisc", "PlacedGear", "PlacedGuide", "PlacedLink", "Question", "StatedValues", "changed_beside",
-    "dimensions", "same_but_for_dimensions", "with_dimensions",
+    "BalanceAt", "Dimension", "Driver", "FromDeadPoint", "LinkMass", "LoadOn", "Loading", "Mechanism", "Phase",
+    "PlacedContact", "PlacedDisc", "PlacedGear", "PlacedGuide", "PlacedLink", "Question", "SpringOn",
+    "StatedValues", "changed_beside", "dimensions", "same_but_for_dimensions", "with_dimensions",
 ]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class LinkMass:
+    """Mass (kg) and inertia (kg m2) of a link about its centre of mass, which lies ``at`` in its own axes (m)."""
+
+    link: str
+    at: complex
+    mass: float
+    inertia: float
+
+
+@dataclass(frozen=True)
+class Phase:
+    """When a load acts: while the pair ``stroke`` slides in a ``sense`` along its guide, between two parts of its
+    stroke, counted from where that stroke begins; or, without ``stroke``, while the first driver's value grows from
+    ``start`` to ``end`` (rad, m; of an angle at most a turn)."""
+
+    stroke: str
+    sense: int
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class LoadOn:
+    """A force (N) on a link at a place of its own axes (m), or a moment (N m; ``size`` of both, ``is_force`` tells).
+
+    ``turn`` is its direction, in the frame or from the axis of link ``follows``; with ``against`` it lies along the
+    guide of that sliding pair, opposite to its sliding velocity.
+    """
+
+    name: str
+    link: str
+    size: float
+    is_force: bool
+    at: complex = 0j
+    turn: complex = 1 + 0j
+    follows: str = ""
+    against: str = ""
+    phase: Phase | None = None
+
+
+@dataclass(frozen=True)
+class SpringOn:
+    """A spring between points of two links, which lie ``at`` in their own axes (m).
+
+    It pulls them together with preload + rate * (length - free) (N, N/m, m); ``P_name`` is its force on the first
+    link, the opposite acts on the second.
+    """
+
+    name: str
+    points: tuple[str, str]
+    links: tuple[str, str]
+    at: tuple[complex, complex]
+    rate: float
+    free: float
+    preload: float = 0.0
+
+    @property
+    def ends(self) -> tuple[tuple[str, complex], tuple[str, complex]]:
+        """Link and place of either end."""
+        return (self.links[0], self.at[0]), (self.links[1], self.at[1])
+
+
+@dataclass(frozen=True)
+class BalanceAt:
+    """What is unknown besides the joint forces: a moment on a link, or a force at a place of it along a line, whose
+    direction ``turn`` stands in the frame or, ``square``, is square to the link's own axis."""
+
+    link: str
+    kind: Literal["moment", "force"]
+    at: complex = 0j
+    turn: complex = 1 + 0j
+    square: bool = False
+
+
+@dataclass(frozen=True)
+class Loading:
+    """Everything that makes forces; ``gravity`` is 0 where weights do not pull (m/s2)."""
+
+    gravity: complex = 0j
+    masses: tuple[LinkMass, ...] = ()
+    loads: tuple[LoadOn, ...] = ()
+    balance: BalanceAt | None = None
+    flywheel: Flywheel | None = None
+    springs: tuple[SpringOn, ...] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.masses or self.loads or self.springs)
+
 
 
 @dataclass(frozen=True)
@@ -261,51 +351,11 @@ class StatedValues:
 
 
 @dataclass(frozen=True)
-class OnStroke:
-    """A place on the stroke of a sliding pair: ``at`` of it is done, along the guide's sense or (-1) against it."""
-
-    pair: str
-    at: float
-    sense: int
-
-
-@dataclass(frozen=True)
-class NamedPositions:
-    """Positions with names: ``count`` over a turn of the driver from ``first`` on, numbered from 1, and ``also``.
-
-    A place is a driver value (rad, m) or a place on a stroke; ``first`` is None for the driver's own value.  ``show``
-    and ``marks`` say what stands on their figure.
-    """
-
-    count: int
-    first: float | OnStroke | None
-    also: Mapping[str, float | OnStroke]
-    show: tuple[str, ...]
-    marks: tuple[str, ...]
-
-    def place(self, name: str, first: float | None, sense: float) -> float | OnStroke | None:
-        """Where a position lies; of a numbered one (rad) from ``first``, the value of position 1, None if that is not
-        known.  ``sense`` is that of the driver (1 or -1)."""
-        if name in self.also:
-            return self.also[name]
-        return None if first is None else first + sense * 2 * math.pi * (int(name) - 1) / self.count
-
-    def placed(self, driver: Driver) -> Driver:
-        """A driver at the position that it names, if its value does not follow from a stroke."""
-        first = self.first if isinstance(self.first, float) else None
-        place = self.place(driver.position, first, -1.0 if driver.rate < 0 else 1.0)
-        return driver.at_value(place) if isinstance(place, float) else driver
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        return *(str(k) for k in range(1, self.count + 1)), *self.also
-
-
-@dataclass(frozen=True)
 class Question:
     """What is asked of a mechanism, and how it shall be told.
 
-    ``find`` are the quantities asked for, none where all are; ``stated`` holds all that somebody printed, digit by
+    ``find`` are the quantities asked for, none where all are; the places of ``positions`` are driver values (rad, m) or
+    places on a stroke, the first None for the driver's own value; ``stated`` holds all that somebody printed, digit by
     digit, first that of the scene's own position; ``loops`` are vector loops by name, each through its points;
     ``vary`` says how a set of problems is drawn from the scene, ``grading`` for what there are points.  ``background``
     lies under the drawing; ``scans`` are drawings to be judged.  ``written`` is the file that was read, None where the
@@ -319,7 +369,7 @@ class Question:
     find: tuple[Symbol, ...] = ()
     sheet: SheetWishes = field(default_factory=SheetWishes)
     stated: tuple[StatedValues, ...] = ()
-    positions: NamedPositions | None = None
+    positions: Positions | None = None
     loops: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     vary: Vary | None = None
     grading: Mapping[str, float] = field(default_factory=dict)

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross, cross_arcs, degrees, direction, dot
-from graphkin.scene.bodies import PinInSlot, Reading, SlidingPair
+from graphkin.scene.bodies import Reading, references
 from graphkin.scene.model import Driver, PlacedContact, PlacedGuide
-from graphkin.scene.scene_tables import Compass, Guide, Link, Polar, references
+from graphkin.scene.scene_tables import Compass, Guide, Polar
 from graphkin.scene.tables import in_si
 from graphkin.words import Phrase, Wording
 
@@ -165,7 +165,7 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
                                 Phrase("a bar has two points apart"))
             if body.length is not None:
                 body.local[own[1]] = complex(body.length)
-            elif not reading.flaws.under("links", name, "length") and not reading.flaws.under("drawn"):
+            elif not reading.lost_under("links", name, "length") and not reading.lost_under("drawn"):
                 undrawn = " and ".join(p for p in own if p not in given)
                 reading.say(f"{body.where}.length", Phrase("is missing"),
                             Phrase("write length or give in drawn", undrawn=undrawn))
@@ -211,18 +211,14 @@ class DrawnPosition:
     pairs by key with the travel (m).
     """
 
+    reading: Reading
     bodies: Mapping[str, Placement]
-    frame: str
     drawn: Mapping[str, complex]
-    slidings: tuple[SlidingPair, ...]
-    pins: tuple[PinInSlot, ...]
     angles: tuple[tuple[str, str, complex], ...]
     travels: Mapping[str, float]
-    metres: float
-    problems: list[Problem]
 
     def __post_init__(self) -> None:
-        fixed = self.bodies[self.frame].local
+        fixed = self.bodies[self.reading.frame.name].local
         self.given = {**self.drawn, **fixed}
         self.places = dict(self.given)
         self.news = False
@@ -230,7 +226,7 @@ class DrawnPosition:
         spans = [b.length for b in bodies if b.length]
         spans += [abs(complex(*e)) for b in bodies for e in b.at.values() if isinstance(e, list)]
         spans += [abs(a - b) for a in (*fixed.values(), *self.drawn.values()) for b in fixed.values()]
-        self.size = max(spans, default=0.0) or self.metres
+        self.size = max(spans, default=0.0) or self.reading.metres
         """The largest distance that the file gives (m)."""
 
     @property
@@ -238,17 +234,13 @@ class DrawnPosition:
         """How far apart two statements of one place may be (m)."""
         return GIVEN_TWICE * self.size
 
-    def say(self, where: Wording, found: Wording, wanted: Wording) -> None:
-        """Note a problem."""
-        self.problems.append(Problem(where, found, wanted))
-
     def number(self, length: float) -> str:
         """A length (m) in the file's unit, to ten digits."""
-        return f"{length / self.metres:.10g}"
+        return f"{length / self.reading.metres:.10g}"
 
     def pair(self, z: complex) -> str:
         """A place (m) as the file has it."""
-        return f"[{z.real / self.metres:.8g}, {z.imag / self.metres:.8g}]"
+        return f"[{z.real / self.reading.metres:.8g}, {z.imag / self.reading.metres:.8g}]"
 
     def set_turn(self, body: Placement, turn: complex, arm: float) -> None:
         """Note the direction of a link, if it is news."""
@@ -262,10 +254,10 @@ class DrawnPosition:
 
     def travel_of(self, key: str) -> float | None:
         """The travel of a sliding pair or pin in slot at the known position (m), None if it is not known."""
-        for pair in self.slidings:
+        for pair in self.reading.slidings:
             if pair.key == key:
                 return _along(self.bodies[pair.on], pair.guide, self.bodies[pair.link].origin)
-        for pin in self.pins:
+        for pin in self.reading.running:
             if pin.key == key:
                 return _along(self.bodies[pin.on], pin.guide, self.places.get(pin.point))
         return None
@@ -284,26 +276,21 @@ class DrawnPosition:
         return math.nan
 
 
-def drawn_position(
-    reading: Reading, drawn: Places, slidings: tuple[SlidingPair, ...], pins: tuple[PinInSlot, ...],
-    drivers: Iterable[Driver],
-) -> DrawnPosition:  # fmt: skip
+def drawn_position(reading: Reading, drivers: Collection[Driver]) -> DrawnPosition:
     """Everything placed that can be placed, in the links' own axes and in the world; what is wrong is noted.
 
-    Parameters
-    ----------
-    drawn : the drawn points (m)
-    drivers : those whose value is not known yet have none
+    Those of the drivers whose value is not known yet have none.
     """
     told = [d for d in drivers if not math.isnan(d.value)]
+    drawn = {point: complex(*place) * reading.metres for point, place in reading.file.drawn.items()}
     bodies = bodies_of(reading, drawn)
-    referred = {p.on for p in slidings} | {p.on for p in pins} | {name for d in drivers if d.turns for name in d.links}
+    referred = {pair.on for pair in reading.slidings} | {pin.on for pin in reading.running}
+    referred |= {name for d in drivers if d.turns for name in d.links}
     for other in sorted(referred):  # links that were taken out for something wrong are placed nowhere
         bodies.setdefault(other, Placement(other, f"links.{other}", (), {}, {}, guides={}))
     position = DrawnPosition(
-        bodies, reading.frame.name, drawn, slidings, pins,
-        tuple((*d.links, cmath.rect(1.0, d.value)) for d in told if d.turns),
-        {d.key: d.value for d in told if not d.turns}, reading.metres, reading.problems,
+        reading, bodies, drawn, tuple((*d.links, cmath.rect(1.0, d.value)) for d in told if d.turns),
+        {d.key: d.value for d in told if not d.turns},
     )  # fmt: skip
     _find(position)
     return position
@@ -329,11 +316,11 @@ def _place_points(position: DrawnPosition, body: Placement) -> None:
     for point, entry in body.at.items():
         if point in body.local or point in body.failed:
             continue
-        found = _place_of(f"{body.where}.at.{point}", entry, position.metres, body.local)
+        found = _place_of(f"{body.where}.at.{point}", entry, position.reading.metres, body.local)
         if entry == "drawn" and point in position.given:
             found = body.in_own_axes(position.given[point])
         if isinstance(found, Problem):
-            position.problems.append(found)
+            position.reading.problems.append(found)
             body.failed.add(point)
         elif found is not None:
             body.local[point] = found
@@ -347,7 +334,7 @@ def _place_guides(position: DrawnPosition, body: Placement) -> None:
         where = f"{body.where}.guides.{name}"
         found = _guide_of(where, name, entry, body, position.places, position.tolerance)
         if isinstance(found, Problem):
-            position.problems.append(found)
+            position.reading.problems.append(found)
             body.failed.add(f".{name}")
         elif found is not None:
             body.guides[name] = found
@@ -389,7 +376,7 @@ def _move_by_points(position: DrawnPosition, body: Placement) -> None:
 
 
 def _turn_by_slidings(position: DrawnPosition) -> None:
-    for pair in position.slidings:
+    for pair in position.reading.slidings:
         slider, rail = position.bodies[pair.link], position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
         if guide is None:
@@ -410,7 +397,7 @@ def _turn_by_drivers(position: DrawnPosition) -> None:
 
 
 def _move_by_travels(position: DrawnPosition) -> None:
-    for pair in position.slidings:
+    for pair in position.reading.slidings:
         slider, rail = position.bodies[pair.link], position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
         if pair.key not in position.travels or guide is None:
@@ -424,10 +411,10 @@ def _move_by_travels(position: DrawnPosition) -> None:
 
 def _running_points(position: DrawnPosition) -> Iterable[tuple[str, str, str, complex | None]]:
     """Each guiding link and guide with the point that runs in it: (link, guide, what runs, its place or None)."""
-    for pair in position.slidings:
+    for pair in position.reading.slidings:
         place = position.places.get(pair.pin) if pair.pin else position.bodies[pair.link].origin
         yield pair.on, pair.guide, pair.link, place
-    for pin in position.pins:
+    for pin in position.reading.running:
         yield pin.on, pin.guide, pin.point, position.places.get(pin.point)
 
 
@@ -457,8 +444,9 @@ def _turn_to_positive_side(position: DrawnPosition) -> bool:
 
 def _turn_to_drawn_point(position: DrawnPosition) -> bool:
     """Choose the x axis of a link that has one own point and nothing measured from its axis; True if there was one."""
-    used = {p.on for p in position.slidings if not p.guide} | {p.on for p in position.pins if not p.guide}
-    used |= {p.link for p in position.slidings} | {name for link, base, _ in position.angles for name in (link, base)}
+    slidings, running = position.reading.slidings, position.reading.running
+    used = {p.on for p in slidings if not p.guide} | {p.on for p in running if not p.guide}
+    used |= {p.link for p in slidings} | {name for link, base, _ in position.angles for name in (link, base)}
     for name, body in position.bodies.items():
         measured = any(isinstance(e, list) or (isinstance(e, Polar) and not e.toward) for e in body.at.values())
         aimed = all(g.toward and isinstance(g.through, str) for g in body.rails.values())
@@ -484,43 +472,41 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
 # -- where rolling starts ----------------------------------------------------------------------------------------------
 
 
-def check_starts(links: Mapping[str, Link], position: DrawnPosition) -> None:
+def check_starts(position: DrawnPosition) -> None:
     """Note where rolling is said to start of links that stand elsewhere by given places.  Of a driven link it starts
     where the driver stands."""
     driven = {link for link, _, _ in position.angles}
-    for name, link in links.items():
+    for name, link in position.reading.links.items():
         if link.start is None or name in driven:
             continue
-        keys = [s.key for s in position.slidings if s.link == name]
+        keys = [s.key for s in position.reading.slidings if s.link == name]
         turn, travel = position.bodies[name].turn, None
         if keys and keys[0] not in position.travels:
             travel = position.travel_of(keys[0])
-        if travel is not None and abs(link.start * position.metres - travel) > position.tolerance:
+        if travel is not None and abs(link.start * position.reading.metres - travel) > position.tolerance:
             told = position.number(travel)
         elif not keys and turn is not None and abs(cmath.phase(turn / direction(link.start))) > GIVEN_TWICE:
             told = f"{degrees(turn):.10g} deg"
         else:
             continue
         said = Phrase("found but the given places make it", start=f"{link.start:.10g}", value=told)
-        position.say(f"links.{name}.start", said, Phrase("one of the two is wrong leave start"))
+        position.reading.say(f"links.{name}.start", said, Phrase("one of the two is wrong leave start"))
 
 
-def starts_of(
-    links: Mapping[str, Link], position: DrawnPosition, contacts: Sequence[PlacedContact]
-) -> dict[str, float]:
+def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
     as the file or its drawn points tell."""
     found: dict[str, float] = {}
-    for name, link in links.items():
+    for name, link in position.reading.links.items():
         turn = position.bodies[name].turn
-        own = [s.key for s in position.slidings if s.link == name]
+        own = [s.key for s in position.reading.slidings if s.link == name]
         if link.start is not None and own:
-            found[own[0]] = link.start * position.metres
+            found[own[0]] = link.start * position.reading.metres
         elif link.start is not None:
             found[name] = math.radians(link.start)
         elif turn is not None:
             found[name] = cmath.phase(turn)
-    for pair in position.slidings:
+    for pair in position.reading.slidings:
         travel = position.travel_of(pair.key)
         if travel is not None:
             found.setdefault(pair.key, travel)
@@ -540,19 +526,20 @@ def check_placed_twice(position: DrawnPosition) -> None:
     """Note points that the file places twice in one link, or fixes and draws, at different places."""
     for body in position.bodies.values():
         for point in body.own:
-            local = _place_of(body.where, body.at.get(point), position.metres, body.local)
+            local = _place_of(body.where, body.at.get(point), position.reading.metres, body.local)
             if isinstance(local, complex) and point in body.local:
                 own = body.local[point]
                 if abs(local - own) > position.tolerance:
                     places = {"pair": position.pair(local), "other": position.pair(own)}
                     found = Phrase("puts it at but as an own point", **places)
-                    position.say(f"{body.where}.at.{point}", found, Phrase("leave one of the two out or correct"))
+                    position.reading.say(f"{body.where}.at.{point}", found,
+                                         Phrase("leave one of the two out or correct"))
         for point, place in body.local.items() if body.where == "frame" else ():
             drawn = position.drawn.get(point, place)
             if abs(drawn - place) > position.tolerance:
                 places = {"pair": position.pair(drawn), "other": position.pair(place)}
                 found = Phrase("found but it is a fixed point at", **places)
-                position.say(f"drawn.{point}", found, Phrase("leave it out or correct it"))
+                position.reading.say(f"drawn.{point}", found, Phrase("leave it out or correct it"))
 
 
 def check_all_found(position: DrawnPosition) -> None:
@@ -561,8 +548,9 @@ def check_all_found(position: DrawnPosition) -> None:
         missing = [f"at.{point}" for point in body.at if point not in body.local]
         missing += [f"guides.{guide}" for guide in body.rails if guide not in body.guides]
         for key in missing:
-            position.say(f"{body.where}.{key}", Phrase("where link lies does not follow from what", body=body.name),
-                         Phrase("draw two points of link or give it", body=body.name))
+            found = Phrase("where link lies does not follow from what", body=body.name)
+            position.reading.say(f"{body.where}.{key}", found,
+                                 Phrase("draw two points of link or give it", body=body.name))
 
 
 def check_distances(position: DrawnPosition) -> None:
@@ -579,17 +567,18 @@ def check_distances(position: DrawnPosition) -> None:
     places += [(length, f"links.{b.name}.length") for length, b in bars]
     far, where = max(places, key=lambda place: place[0])
     if far > FARTHEST * short:
-        metres = position.metres
+        metres = position.reading.metres
         said = Phrase("lies away beside a bar of link", distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}",
                       body=body.name)
-        position.say(where, said, Phrase("too far apart sixteen digits hold at most", farthest=f"{FARTHEST:.0e}"))
+        wanted = Phrase("too far apart sixteen digits hold at most", farthest=f"{FARTHEST:.0e}")
+        position.reading.say(where, said, wanted)
 
 
 def check_agreement(position: DrawnPosition) -> None:
     """Note what is given twice and differs by more than 1e-6 of the size, both values named."""
     for body in position.bodies.values():
         _check_points(position, body)
-    for pair in position.slidings:
+    for pair in position.reading.slidings:
         slider, rail = position.bodies[pair.link], position.bodies[pair.on]
         guide = rail.guides.get(pair.guide)
         if guide and slider.turn is not None and rail.turn is not None:
@@ -603,10 +592,10 @@ def check_agreement(position: DrawnPosition) -> None:
             beside = abs(cross(guide.direction, local - guide.through))
             if beside > position.tolerance * _reach(rail, local):
                 ref = f"{name}.{guide_name}" if guide_name else name
-                off = f"{beside / position.metres:.6g}"
+                off = f"{beside / position.reading.metres:.6g}"
                 said = Phrase("the given places put it beside the guide", beside=off, ref=ref)
                 where = f"links.{what}.on" if what in position.bodies else f"pins.{what}.in"
-                position.say(where, said, Phrase("correct a coordinate or the guide"))
+                position.reading.say(where, said, Phrase("correct a coordinate or the guide"))
     for link, base, turn in position.angles:
         driven, from_body = position.bodies[link], position.bodies[base]
         if driven.turn is not None and from_body.turn is not None:
@@ -617,7 +606,7 @@ def check_agreement(position: DrawnPosition) -> None:
         if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
             said = Phrase("found but the given places make it", start=position.number(travel),
                           value=position.number(seen_travel))
-            position.say(Phrase("driver.travel of", key=key), said, Phrase("one of the two is wrong"))
+            position.reading.say(Phrase("driver.travel of", key=key), said, Phrase("one of the two is wrong"))
 
 
 def _reach(body: Placement, local: complex) -> float:
@@ -633,7 +622,7 @@ def _check_angle(
     if abs(seen - given) * min(one.arm, other.arm, position.size) > position.tolerance:
         said = Phrase("found deg but the given places make it", degrees=f"{degrees(given):.10g}",
                       other=f"{degrees(seen):.10g}")
-        position.say(where, said, Phrase("one of the two is wrong"))
+        position.reading.say(where, said, Phrase("one of the two is wrong"))
 
 
 def _check_points(position: DrawnPosition, body: Placement) -> None:
@@ -644,7 +633,7 @@ def _check_points(position: DrawnPosition, body: Placement) -> None:
         if abs(drawn - body.length) > position.tolerance:
             said = Phrase("found but and are given apart", length=position.number(body.length), name=own[0],
                           other=own[1], value=position.number(drawn))
-            position.say(f"links.{body.name}.length", said, Phrase("one of the two is wrong"))
+            position.reading.say(f"links.{body.name}.length", said, Phrase("one of the two is wrong"))
             return
     for point, local in body.local.items():
         place = body.world(local)
@@ -653,7 +642,7 @@ def _check_points(position: DrawnPosition, body: Placement) -> None:
         if abs(given[point] - place) > position.tolerance * _reach(body, local):
             said = Phrase("link puts it at but it is given", body=body.name, pair=position.pair(place),
                           other=position.pair(given[point]))
-            position.say(Phrase("point", point=point), said, Phrase("one of the two is wrong"))
+            position.reading.say(Phrase("point", point=point), said, Phrase("one of the two is wrong"))
 
 
 def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -> None:
@@ -675,5 +664,5 @@ def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -
             key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
         if abs(found - wanted) > position.tolerance:
             drawn = Phrase(key, distance=position.number(found), given=position.number(wanted))
-            position.say(f"contacts.{c.name}", Phrase("what is drawn", value=drawn),
+            position.reading.say(f"contacts.{c.name}", Phrase("what is drawn", value=drawn),
                          Phrase("correct a place a radius or the side"))

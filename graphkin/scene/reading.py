@@ -15,12 +15,12 @@ from graphkin.errors import Problem, SceneError
 from graphkin.files import OwnTables
 from graphkin.plane import degrees
 from graphkin.scene import position as places
-from graphkin.scene.asked import asked, loops_named, names_of_positions, positions_named, stated_values
+from graphkin.scene.asked import asked, at_its_position, loops_named, positions_named, stated_values
 from graphkin.scene.bodies import (
-    Flaws,
     Reading,
     check_own_points,
     check_references,
+    driver_tables,
     islands,
     not_held,
     pins_in_slots,
@@ -31,9 +31,9 @@ from graphkin.scene.bodies import (
 from graphkin.scene.cams import LawCam, cams_of
 from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.force_names import no_force
-from graphkin.scene.loads import Loading, loading_of
-from graphkin.scene.model import Mechanism, PlacedDisc, PlacedLink, Question
-from graphkin.scene.scene_tables import DrivenSlide, Frame, Guide, Link, SceneTables
+from graphkin.scene.loads import loading_of
+from graphkin.scene.model import Loading, Mechanism, PlacedDisc, PlacedLink, Question
+from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
 from graphkin.scene.sheet import background_of, scans_of
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
@@ -65,65 +65,52 @@ def mechanism_said(
     ------
     SceneError : with everything that is wrong, the form first
     """
-    problems, flaws, metres = list(problems), Flaws(lost), file.units.metres
+    reading = Reading(file, lost, list(problems), file.frame, file.links, file.pins)
+    problems, metres = reading.problems, reading.metres
     _refuse_too_much(file, problems)
-    links = with_carriages(file.frame, file.links, file.drawn)
-    frame, links, pin_tables, slots = with_bars(file.frame, links, file.pins, metres, flaws, problems)
-    reading = Reading.of(frame, links, file.contacts, file.units, flaws, problems)
+    reading = with_bars(with_carriages(reading))
     _check_texts(file, reading)
     check_own_points(reading)
-    slidings = sliding_pairs(reading)
-    pins = pins_in_slots(pin_tables, reading, slidings)
-    pairs = [*(s.key for s in slidings), *(p.key for p in pins)]
+    reading = dataclasses.replace(reading, slidings=sliding_pairs(reading))
+    reading = dataclasses.replace(reading, running=pins_in_slots(reading))
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
-    contacts = contacts_of(file.contacts, reading, discs) if file.contacts else ()
-    gears = gears_of(file.gears, reading, slidings) if file.gears else ()
-    sliding = [isinstance(table, DrivenSlide) for table in file.drivers.values()]
-    numbered, also = names_of_positions(file.positions)
-    first = file.positions is not None and file.positions.first is not None
-    driven = drives(file.drivers, reading, slidings, pins, bool(file.drawn), numbered, also, first)
+    contacts = contacts_of(reading, discs) if file.contacts else ()
+    gears = gears_of(reading) if file.gears else ()
+    driven = drives(reading)
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
-    find = asked(file.find or (), reading, (*numbered, *also))
-    stated = stated_values(file.printed, file.printed_rows, file.printed_table, reading, (*numbered, *also))
-    by_law = any(table.law is not None for table in file.drivers.values())
-    positions = positions_named(file.positions, reading, pairs, sliding[:1] == [True], by_law)
-    loops = loops_named(file.loops, reading)
-    check_references(reading, file.drawn)
-    if not reading.unsure and not flaws.under("pins") and not any(p[2:] == ("on",) for p in flaws.paths):
+    find = asked(reading) if file.find else ()
+    stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
+    positions = positions_named(file.positions, reading) if file.positions else None
+    loops = loops_named(reading) if file.loops else {}
+    check_references(reading)
+    if not reading.unsure and not reading.lost_under("pins") and not any(p[2:] == ("on",) for p in lost):
         bare = {p.where for p in problems}
-        touching = [*(c.between for c in file.contacts.values()), *(g.between for g in file.gears.values())]
-        apart = (group for group in islands(reading, pin_tables, touching) if f"links.{group[0]}" not in bare)
-        reading.wrong(*(not_held(group, frame.name) for group in apart))
+        apart = (group for group in islands(reading) if f"links.{group[0]}" not in bare)
+        reading.wrong(*(not_held(group, reading.frame.name) for group in apart))
 
-    drawn = {p: complex(*place) * metres for p, place in file.drawn.items()}
-    position = places.drawn_position(reading, drawn, slidings, pins, driven.values())
+    position = places.drawn_position(reading, driven.values())
     places.check_placed_twice(position)
     if not problems:
-        places.check_starts(links, position)
-    if not problems and drawn:
+        places.check_starts(position)
+    if not problems and position.drawn:
         places.check_agreement(position)
         places.check_contacts(contacts, position)
     if not problems:
         places.check_all_found(position)
         places.check_distances(position)
-    local, fixed = {n: b.local for n, b in position.bodies.items()}, position.bodies[frame.name].local
-    cams = _cams(file, reading, position) if file.cams else ()
+    local = {name: body.local for name, body in position.bodies.items()}
+    cams = _cams(position) if file.cams else ()
     if (contacts or gears) and not problems:
-        guides = {n: b.guides for n, b in position.bodies.items()}
-        wrong_distances(contacts, gears, slidings, local, guides, reading)
-    loading = Loading()
-    if file.masses or file.loads or file.springs or file.balance or file.flywheel:
-        loading = loading_of(reading, file.gravity, file.masses, file.loads, file.springs, file.balance, file.flywheel,
-                             local, pairs, sliding)  # fmt: skip
+        wrong_distances(contacts, gears, local, {n: b.guides for n, b in position.bodies.items()}, reading)
+    acting = file.masses or file.loads or file.springs or file.balance or file.flywheel
+    loading = loading_of(reading, local) if acting else Loading()
     wish = file.sheet.background
-    under = background_of(wish, {**drawn, **fixed}, reading) if wish else None
-    scans = scans_of(file.scans, reading) if file.scans else ()
-    hopeless = bool(problems) and (bool(drawn) or flaws.under("drawn"))
-    drivers = [placed_driver(where, d, position.value_of(d), metres, [] if hopeless else problems)
-               for where, d in driven.items()]
+    under = background_of(wish, {**position.drawn, **local[reading.frame.name]}, reading) if wish else None
+    scans = scans_of(reading) if file.scans else ()
+    drivers = [placed_driver(where, driver, position.value_of(driver), reading) for where, driver in driven.items()]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
-        drivers[0] = positions.placed(drivers[0])
+        drivers[0] = at_its_position(drivers[0], positions)
     if problems:
         raise SceneError(*dict.fromkeys(problems))
     question = Question(
@@ -132,12 +119,12 @@ def mechanism_said(
         background=under, scans=scans, written=file,
     )  # fmt: skip
     made = Mechanism(
-        name=name, frame=_placed(frame.name, position, discs),
-        links=tuple(_placed(n, position, discs, link) for n, link in links.items()),
-        slidings=slidings, pins=pins, drivers=tuple(drivers), units=file.units,
-        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=drawn, loading=loading,
-        cams=cams, contacts=contacts, gears=gears,
-        starts=places.starts_of(links, position, contacts) if contacts or gears else {}, slots=slots,
+        name=name, frame=_placed(reading.frame.name, position, discs),
+        links=tuple(_placed(n, position, discs, link) for n, link in reading.links.items()),
+        slidings=reading.slidings, pins=reading.running, drivers=tuple(drivers), units=file.units,
+        sketch={p: complex(*place) * metres for p, place in file.sketch.items()}, drawn=position.drawn,
+        loading=loading, cams=cams, contacts=contacts, gears=gears,
+        starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
         question=question,
     )  # fmt: skip
     _check_forces(made)
@@ -175,12 +162,13 @@ def _check_forces(made: Mechanism) -> None:
         raise SceneError(*dict.fromkeys(problems))
 
 
-def _cams(file: SceneTables, reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
+def _cams(position: places.DrawnPosition) -> tuple[LawCam, ...]:
     """The cams, with the lines of the frame on which followers slide."""
-    frame = position.bodies[reading.frame.name]
-    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in position.slidings if s.on == frame.name}
+    reading = position.reading
+    frame, file = position.bodies[reading.frame.name], reading.file
+    rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slidings if s.on == frame.name}
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
-    seen = {p: complex(*place) * position.metres for p, place in file.sketch.items()} | dict(position.drawn)
+    seen = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
     return cams_of(file.cams, reading, lines, frame.local, seen)
 
 
@@ -209,7 +197,8 @@ def as_mapping(scene: Mechanism) -> OwnTables:
     assert isinstance(file, SceneTables)  # a mechanism is made by reading
     held = {contact.round[0].centre for contact in scene.contacts if contact.rolling and contact.flat}
     sketch = {point: z for point, z in {**scene.drawn, **scene.sketch}.items() if point not in scene.frame.points}
-    drivers = [stated_driver(*pair, scene.units) for pair in zip(file.drivers.values(), scene.drivers, strict=False)]
+    tables = driver_tables(file).values()
+    drivers = [stated_driver(*pair, scene.units) for pair in zip(tables, scene.drivers, strict=False)]
     made = plain(dataclasses.replace(
         file, driver=drivers, frame=_body(scene, scene.frame, file.frame, file.frame.points, "points"),
         links={name: _link(scene, scene.by_name[name], table) for name, table in file.links.items()

@@ -7,6 +7,7 @@ open, the docstring of `graphkin.scene` says how it is read.
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -22,7 +23,7 @@ __all__ = [
     "EndName", "Flywheel", "Frame", "FramePlace", "Gear", "Gravity", "Guide", "Keys", "LawName", "LawPiece",
     "Level", "Link", "Load", "LoadPhase", "Mass", "OneDriver", "Pin", "Polar", "Positions", "PrintedTable", "Range",
     "ReadScan", "SceneTables", "SheetWishes", "Spring", "Start", "StrokeStart", "TimePiece", "Tools", "TwoOutlines",
-    "TwoTeeth", "Vary", "references",
+    "TwoTeeth", "Vary",
 ]  # fmt: skip
 
 SMALLEST, LARGEST = 1e-15, 1e15
@@ -211,11 +212,6 @@ class Link(FileTable):
     )  # fmt: skip
     redundant: Switch = key("The link only repeats what others already hold.", default=False)
 
-    @property
-    def guide_refs(self) -> list[str]:
-        """What it slides on."""
-        return _as_list(self.on)
-
 
 @file_table
 class Pin(FileTable):
@@ -223,23 +219,6 @@ class Pin(FileTable):
 
     of: LinkName = key("The link that has the pin.")
     slots: GuideRefs = key('The guide it runs in ("3.s"), or a list of guides.', name="in")
-
-    @property
-    def guide_refs(self) -> list[str]:
-        """What it runs in."""
-        return _as_list(self.slots)
-
-
-def _as_list(refs: str | Sequence[str] | None) -> list[str]:
-    """Names of guides, written alone or in a list."""
-    return [] if refs is None else [refs] if isinstance(refs, str) else list(refs)
-
-
-def references(entry: object) -> tuple[str, ...]:
-    """The points of a link from which one is placed."""
-    if isinstance(entry, Polar):
-        return (entry.origin,) if entry.toward is None else (entry.origin, entry.toward)
-    return tuple(entry.origins) if isinstance(entry, Compass) else ()
 
 
 # -- what touches, cams ------------------------------------------------------------------------------------------------
@@ -559,6 +538,18 @@ class Positions(FileTable):
         "What is drawn and dimensioned there.", default=("theta", "stroke", "K", "gamma")
     )
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of all positions, the numbered ones first."""
+        return *map(str, range(1, (self.count or 0) + 1)), *self.also
+
+    def place(self, name: str, first: float | None, sense: float) -> float | StrokeStart | None:
+        """Where a position lies; of a numbered one (rad) from ``first``, the value of position 1, None if that is not
+        known.  ``sense`` is that of the driver (1 or -1)."""
+        if name in self.also:
+            return self.also[name]
+        return None if first is None else first + sense * math.tau * (int(name) - 1) / (self.count or 1)
+
 
 @file_table
 class PrintedTable(FileTable):
@@ -738,13 +729,6 @@ class SceneTables(FileTable):
         "Points of a class: for equations, drawing, values, and for single quantities by symbol.", default_factory=dict
     )
     sheet: SheetWishes = SheetWishes()
-
-    @property
-    def drivers(self) -> dict[str, Driver | DrivenSlide]:
-        """The drivers by their places in the file, whether written as one table or several."""
-        if isinstance(self.driver, Driver | DrivenSlide):
-            return {"driver": self.driver}
-        return {f"driver.{i}": table for i, table in enumerate(self.driver, 1)}
 
 
 SCENE = Form(SceneTables, "graphkin scene", needed="links")

@@ -12,7 +12,7 @@ from pathlib import Path
 from graphkin.errors import Problem, did_you_mean
 from graphkin.files import opened
 from graphkin.scene.bodies import Reading
-from graphkin.scene.scene_tables import Background, Drawing, ReadScan
+from graphkin.scene.scene_tables import Background
 from graphkin.words import Phrase, from_others
 
 __all__ = ["PlacedBackground", "PlacedScan", "background_of", "scans_of"]
@@ -54,10 +54,10 @@ class PlacedScan:
     data: bytes = field(default=b"", repr=False)
 
 
-def scans_of(tables: Mapping[Drawing, ReadScan], reading: Reading) -> tuple[PlacedScan, ...]:
+def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
     """The scans of a file; what is wrong with them is noted."""
     made = []
-    for diagram, scan in tables.items():
+    for diagram, scan in reading.file.scans.items():
         where, before = f"scans.{diagram}", len(reading.problems)
         points, read = ({n: complex(x, -y) for n, (x, y) in ends.items()} for ends in (scan.points, scan.read))
         if len(points) != 2 or len(set(points.values())) < len(points):

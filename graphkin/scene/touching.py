@@ -51,11 +51,11 @@ class _Side:
     guide: str
 
 
-def contacts_of(tables: Mapping[str, Contact], reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
+def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
     """The contacts of a file; what is wrong with them is noted."""
     found: list[PlacedContact] = []
     blocks: set[str] = set()
-    for name, contact in tables.items():
+    for name, contact in reading.file.contacts.items():
         where = f"contacts.{name}"
         if any(name in points for points in reading.points.values()):
             reading.say(where, Phrase("is a point of a link already", name=name),
@@ -81,7 +81,7 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
     if link not in reading.links and not frame:
         return None
     outlines = (reading.frame if frame else reading.links[link]).discs
-    lost = reading.flaws.names("links", link, "discs") | (reading.flaws.names("frame", "discs") if frame else set())
+    lost = reading.lost_names("links", link, "discs") | (reading.lost_names("frame", "discs") if frame else set())
     if part in outlines or part in lost:
         disc = discs.get((link, part))
         return _Side(link, disc, "") if disc else None  # what is wrong with it is told already
@@ -152,17 +152,13 @@ def _contact(name: str, contact: Contact, one: _Side, two: _Side, reading: Readi
 # -- gears -------------------------------------------------------------------------------------------------------------
 
 
-def gears_of(
-    tables: Mapping[str, Gear], reading: Reading, slidings: tuple[SlidingPair, ...]
-) -> tuple[PlacedGear, ...]:
+def gears_of(reading: Reading) -> tuple[PlacedGear, ...]:
     """The wheels with teeth of a file, with their carriers; what is wrong with them is noted."""
-    found = (_gear(f"gears.{name}", name, gear, reading, slidings) for name, gear in tables.items())
+    found = (_gear(f"gears.{name}", name, gear, reading) for name, gear in reading.file.gears.items())
     return tuple(placed for placed in found if placed is not None)
 
 
-def _gear(
-    where: str, name: str, gear: Gear, reading: Reading, slidings: tuple[SlidingPair, ...]
-) -> PlacedGear | None:
+def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | None:
     first, _, part = gear.between[0].partition(".")
     second, _, guide = gear.between[1].partition(".")
     (z1, z2), between, teeth, carrier_key = gear.teeth, f"{where}.between", f"{where}.teeth", f"{where}.carrier"
@@ -201,7 +197,7 @@ def _gear(
     for carrier in [gear.carrier] if gear.carrier else others:
         axis = _axis(reading, first, carrier)
         if rack:
-            pair = next((s for s in slidings if {s.link, s.on} == {second, carrier}), None)
+            pair = next((s for s in reading.slidings if {s.link, s.on} == {second, carrier}), None)
             if axis and pair:
                 return PlacedGear(name, (first, second), (z1, None), carrier, (axis, ""), guide, pair.key)
             continue
@@ -226,8 +222,8 @@ def _axis(reading: Reading, wheel: str, carrier: str) -> str:
 
 
 def wrong_distances(
-    contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], slidings: tuple[SlidingPair, ...],
-    points: Mapping[str, Mapping[str, complex]], guides: Mapping[str, Mapping[str, PlacedGuide]], reading: Reading,
+    contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], points: Mapping[str, Mapping[str, complex]],
+    guides: Mapping[str, Mapping[str, PlacedGuide]], reading: Reading,
 ) -> None:  # fmt: skip
     """Note wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that
     are not parallel to their slide; centres on the other body.
@@ -254,7 +250,7 @@ def wrong_distances(
             if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
                 reading.say(where, Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart"))
             continue
-        height, tilt, far = rack_place(g, slidings, points, guides)
+        height, tilt, far = rack_place(g, reading.slidings, points, guides)
         if abs(tilt) > AGREE:
             reading.say(where, Phrase("the pitch line is not parallel to the", slide=g.slide),
                         Phrase("name a guide of link along which it", wheels=g.wheels[1]))

@@ -19,8 +19,7 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints, opposite
-from graphkin.scene.loads import BalanceAt, LoadOn, Phase, SpringOn
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import BalanceAt, LoadOn, Mechanism, Phase, SpringOn
 from graphkin.solver.cams import contact_of
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point

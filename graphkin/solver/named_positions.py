@@ -10,7 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
-from graphkin.scene.model import Driver, Mechanism, NamedPositions, OnStroke
+from graphkin.scene.model import Driver, Mechanism
+from graphkin.scene.scene_tables import Positions, StrokeStart
 from graphkin.scene.symbol import Symbol
 from graphkin.search import last_true
 from graphkin.solver.driver_range import DriverRange, Extremes, extremes, range_of
@@ -28,7 +29,7 @@ SAME = 1e-9
 class PlacesByName:
     """The positions that a scene names, and where they lie on the way of its first driver."""
 
-    names: NamedPositions
+    names: Positions
     reach: DriverRange
 
     @cached_property
@@ -52,13 +53,13 @@ class PlacesByName:
         first = self.names.first
         return self.reach.scene.drivers[0].values[0] if first is None else self._value(first)
 
-    def _value(self, place: float | OnStroke | None) -> float:
+    def _value(self, place: float | StrokeStart | None) -> float:
         assert place is not None
-        return self._on_stroke(place) if isinstance(place, OnStroke) else place
+        return self._on_stroke(place) if isinstance(place, StrokeStart) else place
 
-    def _on_stroke(self, place: OnStroke) -> float:
+    def _on_stroke(self, place: StrokeStart) -> float:
         """The driver's value where so much of a stroke is done."""
-        sliding, guiding = place.pair.split("/")
+        sliding, guiding = place.stroke.split("/")
         symbol = Symbol("stroke", link=sliding, other=guiding)
         found = self._extremes(symbol)
         begin, end = (found.low_offset, found.high_offset) if place.sense > 0 else (found.high_offset, found.low_offset)
@@ -67,7 +68,7 @@ class PlacesByName:
         goal = start + place.sense * place.at * found.stroke
 
         def before(part: Array) -> Array:
-            travel = self.reach.motion((begin + part) % math.tau).slide(place.pair).travel
+            travel = self.reach.motion((begin + part) % math.tau).slide(place.stroke).travel
             return np.asarray(place.sense * (travel - goal) < 0.0)
 
         part = span * place.at if place.at in (0.0, 1.0) else last_true(before, 0.0, span)

@@ -23,8 +23,7 @@ from graphkin.files import json_text as one_line
 from graphkin.plane import dot
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.force_names import no_force
-from graphkin.scene.loads import Phase
-from graphkin.scene.model import Mechanism
+from graphkin.scene.model import Mechanism, Phase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.cams import contact_of

@@ -19,7 +19,7 @@ from graphkin.construction.links_on_paper import travel
 from graphkin.construction.sheet import Sheet
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import unit
-from graphkin.scene.loads import LinkMass, LoadOn, Phase, SpringOn
+from graphkin.scene.model import LinkMass, LoadOn, Phase, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
 from graphkin.words import Phrase
