@@ -29,8 +29,8 @@ from graphkin.api.report_text import report_text
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.readings import read_off
 from graphkin.construction import EXACT, Plan, execute, plan
-from graphkin.construction.limits import Turned, TurnOfCrank
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.limits import TurnOfCrank
+from graphkin.construction.sheet import LimitPosition, Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import Shown
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list, unfit
@@ -386,10 +386,10 @@ def _least(
         return None
     joint = joint_of_dyad(structure, group)
 
-    def directions(turned: Turned) -> tuple[complex, complex]:
+    def directions(turned: LimitPosition) -> tuple[complex, complex]:
         return joint.directions(lambda link, place: turned.poses[link].place(place / structure.scene.size))
 
-    def gamma(turned: Turned) -> float:
+    def gamma(turned: LimitPosition) -> float:
         first, second = directions(turned)
         across = first.conjugate() * second
         return math.atan2(abs(across.imag), abs(across.real))

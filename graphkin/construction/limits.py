@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -28,7 +28,7 @@ from graphkin.structure import Element, Pair, Structure
 from graphkin.structure.transmission import sliding_pair
 from graphkin.words import Phrase
 
-__all__ = ["TurnOfCrank", "Turned", "limits_asked", "limits_on_paper"]
+__all__ = ["TurnOfCrank", "limits_asked", "limits_on_paper"]
 
 STEP = math.radians(3.0)
 SURPRISE, AT_FIRST = 0.05, 0.28  # so far from where it was expected a link may be found, and at first
@@ -44,16 +44,9 @@ _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, NODES - 1))
 
 
 @dataclass(frozen=True)
-class Turned:
-    """A position of the turn: the crank's value (rad), and all links on paper of the mechanism's size."""
-
-    value: float
-    poses: Poses
-
-
-@dataclass(frozen=True)
 class TurnOfCrank:
-    """Positions over a whole turn of the first driver, each followed from the one before.
+    """Positions over a whole turn of the first driver, each followed from the one before, on paper of the mechanism's
+    size.
 
     ``elements`` are what is placed, ``values`` the driver values at the start (rad, m).
     """
@@ -62,7 +55,7 @@ class TurnOfCrank:
     elements: Sequence[Element]
     values: Mapping[str, float]
     choices: Choices
-    positions: tuple[Turned, ...]
+    positions: tuple[LimitPosition, ...]
 
     @classmethod
     def of(cls, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], poses: Poses,
@@ -82,36 +75,36 @@ class TurnOfCrank:
         if not driver.turns:
             raise Unsolvable("no whole turn", Problem(why, Phrase("belongs to a whole turn but the driver"),
                                                       Phrase("ask for s_ theta_ or d_ at single")))  # fmt: skip
-        choices = Choices(structure, elements)
         placed = {structure.scene.frame.name, *(n for e in elements for n in e.members)}
-        start = {name: pose for name, pose in poses.items() if name in placed}
-        value = values[driver.key]
-        turn = cls(structure, elements, values, choices, (Turned(value, start),))
-        found = [*turn.positions]
+        start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in placed})
+        turn = cls(structure, elements, values, Choices(structure, elements), (start,))
+        end = start.value + math.tau
         pace = Pace(STEP, STEP, SURPRISE, AT_FIRST, SMALLEST * STEP)
-        end = value + math.tau
-        found += (Turned(*one) for one in walk(lambda at, guess, _: turn._poses(at, guess), start, value, end, pace))
-        at = found[-1]
-        if at.value < end:
-            raise Unsolvable("no whole turn", _short(why, driver.link, at.value))
-        if moved(start, at.poses) > CLOSED:
+
+        def near(value: float, guess: Poses, _: Poses) -> Poses | None:
+            here = turn.near(value, guess)
+            return None if here is None else here.poses
+
+        found = [start, *(LimitPosition(*at) for at in walk(near, start.poses, start.value, end, pace))]
+        if found[-1].value < end:
+            raise Unsolvable("no whole turn", _short(why, driver.link, found[-1].value))
+        if moved(start.poses, found[-1].poses) > CLOSED:
             raise Unsolvable("no whole turn", Problem(why, Phrase("the motion does not repeat after one turn")))
-        return cls(structure, elements, values, choices, tuple(found))
+        return replace(turn, positions=tuple(found))
 
-    def near(self, value: float, guess: Poses) -> Turned | None:
+    def near(self, value: float, guess: Poses) -> LimitPosition | None:
         """The position at a crank's value, near to where it is expected; None where nothing fits there."""
-        poses = self._poses(value, guess)
-        return None if poses is None else Turned(value, poses)
-
-    def _poses(self, value: float, guess: Poses) -> Poses | None:
         values = {**self.values, self.structure.scene.drivers[0].key: value}
-        return found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
+        poses = found_near(self.choices, self.elements, values, guess, self.positions[0].poses)
+        return None if poses is None else LimitPosition(value, poses)
 
-    def limits(self, output: Pair | str, why: str) -> tuple[Turned, Turned, float]:
+    def limits(self, output: Pair | str, why: str) -> tuple[LimitPosition, LimitPosition, float]:
         """The lowest and the highest position of a slide (by its travel) or of a link (by its angle), and how far it
         goes from one to the other (mm of paper, or rad).  Raises Unsolvable for a link that turns on and on.
         """
-        travels = _travels(output, self.positions)
+        travels: list[float] = []
+        for here in self.positions:
+            travels.append(_along(output, here, travels[-1] if travels else 0.0))
         if isinstance(output, str) and abs(travels[-1] - travels[0]) > 1.0:
             found = Phrase("link turns on and on it has no", output=output)
             raise Unsolvable("no whole turn", Problem(why, found, Phrase("ask for a link that swings or a")))
@@ -122,45 +115,40 @@ class TurnOfCrank:
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
         return low[0], high[0], high[1] - low[1]
 
-    def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[Turned, float]:
-        n = len(travels) - 1
+    def _extreme(self, output: Pair | str, travels: Sequence[float], sign: float) -> tuple[LimitPosition, float]:
         height = [sign * value for value in travels]
-        tops = [k for k in range(n) if height[k] >= max(height[k - 1 if k else n - 1], height[k + 1])]
-        best = max(height[k] for k in tops)
-        near = [k for k in tops if height[k] > best - 0.02 * (max(travels) - min(travels))]
-        found = [self._refined(output, k, travels) for k in near]
+        before = height[-2], *height
+        tops = [k for k in range(len(height) - 1) if height[k] >= max(before[k], height[k + 1])]
+        best, swing = max(height[k] for k in tops), max(travels) - min(travels)
+        found = [self._refined(output, k, travels[k]) for k in tops if height[k] > best - 0.02 * swing]
         most = max(sign * value for _, value in found)
-        equal = [one for one in found if sign * one[1] > most - EQUAL * (max(travels) - min(travels))]
+        equal = [one for one in found if sign * one[1] > most - EQUAL * swing]
         return min(equal, key=lambda one: (one[0].value + EQUAL) % math.tau)
 
-    def _refined(self, output: Pair | str, k: int, travels: Sequence[float]) -> tuple[Turned, float]:
+    def _refined(self, output: Pair | str, k: int, roughly: float) -> tuple[LimitPosition, float]:
         """The place where a curve through the positions about the k-th is at rest."""
-        base = self.positions[k]
-        middle, half = base.value, 2 * STEP
-        guess = base
-
-        def value(at: float) -> float:
-            nonlocal guess
-            here = self.near(at, guess.poses)
-            if here is None:
-                raise Unsolvable("no whole turn", _short(str(output), self.structure.scene.drivers[0].key, at))
-            return _along(output, here, travels[k])
-
+        here = self.positions[k]
+        middle, half = here.value, 2 * STEP
         for _ in range(24):
-            c = _FIT @ np.array([value(float(middle + half * x)) for x in _NODES])
-            slope = chebyshev.chebder(c)
-            roots = [z.real for z in chebyshev.chebroots(slope) if abs(z.imag) < 1e-6 and abs(z.real) <= 1.0]
-            x = min(roots, key=abs, default=0.0)
-            good = float(np.abs(c[-3:]).max()) <= RESOLVED * float(np.abs(c).max())
-            curved = float(np.abs(c[1:]).max()) > 1e-3 * abs(float(c[0])) * SMALLEST
-            middle += half * x
-            near = self.near(middle, guess.poses)
-            guess = near or guess
+            heights = []
+            for at in middle + half * _NODES:
+                near = self.near(float(at), here.poses)
+                if near is None:
+                    raise Unsolvable("no whole turn", _short(str(output), self.structure.scene.drivers[0].key, at))
+                here = near
+                heights.append(_along(output, here, roughly))
+            c = _FIT @ np.array(heights)
+            roots = chebyshev.chebroots(chebyshev.chebder(c))
+            x = min((z.real for z in roots if abs(z.imag) < 1e-6 and abs(z.real) <= 1.0), key=abs, default=0.0)
+            good = np.abs(c[-3:]).max() <= RESOLVED * np.abs(c).max()
+            curved = np.abs(c[1:]).max() > 1e-3 * abs(c[0]) * SMALLEST
+            middle += half * float(x)
+            here = self.near(middle, here.poses) or here
             if (good and abs(x) < 0.7) or not curved or half < 1e-3:
                 break
-            half = half / 2 if not good else half
-        at = self.near(middle, guess.poses) or base
-        return at, _along(output, at, travels[k])
+            half = half if good else half / 2
+        at_rest = self.near(middle, here.poses) or self.positions[k]
+        return at_rest, _along(output, at_rest, roughly)
 
 
 def limits_asked(
@@ -187,7 +175,7 @@ def limits_asked(
         if symbol.scope != "turn" or symbol.pair in found:
             continue
         output = sliding_pair(structure, symbol) if symbol.other else symbol.link
-        if not {n for e in elements for n in e.members} <= set(poses):
+        if not {n for e in elements for n in e.members} <= poses.keys():
             continue
         turn = turn or TurnOfCrank.of(structure, elements, values, poses, str(symbol))
         low, high, swing = turn.limits(output, str(symbol))
@@ -200,25 +188,19 @@ def limits_on_paper(
     scales: Scales, hand: Instrument,
 ) -> dict[str, Limits]:  # fmt: skip
     """Limit positions that exact hands found on paper of the mechanism's size, drawn at a scale by any hands."""
-    mm = 1.0 / scales.length
+    mm, key, found_again = 1.0 / scales.length, structure.scene.drivers[0].key, dict[str, Limits]()
     if hand.faultless or structure.scene.instead_of is not None:
         return {pair: limits.scaled(structure.scene.size * mm) for pair, limits in found.items()}
-    return {pair: _drawn_again(limits, structure, elements, values, mm, hand) for pair, limits in found.items()}
-
-
-def _drawn_again(
-    limits: Limits, structure: Structure, elements: Sequence[Element], values: Mapping[str, float], mm: float,
-    hand: Instrument,
-) -> Limits:  # fmt: skip
-    key = structure.scene.drivers[0].key
-
-    def drawn(limit: LimitPosition) -> LimitPosition:
-        there = {**values, key: limit.value}
-        paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
-        branches, trials = nearest_assembly(Choices(structure, elements), elements, paper, limit.poses)
-        return LimitPosition(limit.value, place(structure, elements, mm, there, branches, hand, trials).paper.poses)
-
-    return Limits(drawn(limits.low), drawn(limits.high), limits.swing)
+    for pair, limits in found.items():
+        drawn = []
+        for limit in (limits.low, limits.high):
+            there = {**values, key: limit.value}
+            paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
+            branches, trials = nearest_assembly(Choices(structure, elements), elements, paper, limit.poses)
+            placed = place(structure, elements, mm, there, branches, hand, trials).paper
+            drawn.append(LimitPosition(limit.value, placed.poses))
+        found_again[pair] = Limits(drawn[0], drawn[1], limits.swing)
+    return found_again
 
 
 def _short(why: str, link: str, value: float) -> Problem:
@@ -227,19 +209,10 @@ def _short(why: str, link: str, value: float) -> Problem:
     return Problem(why, found, Phrase("ask for s_ theta_ or d_ at single"))
 
 
-def _along(output: Pair | str, here: Turned, near: float) -> float:
+def _along(output: Pair | str, here: LimitPosition, near: float) -> float:
     """Travel of a slide (mm of paper of the mechanism's size, from anywhere), or a link's angle that lies nearest to a
     known one."""
     if isinstance(output, str):
         angle = cmath.phase(here.poses[output].axis)
         return angle + math.tau * round((near - angle) / math.tau)
     return travel(output, here.poses, 0.0)  # from wherever the guide has its origin: only differences are of interest
-
-
-def _travels(output: Pair | str, positions: Sequence[Turned]) -> list[float]:
-    travels: list[float] = []
-    for here in positions:
-        travels.append(_along(output, here, travels[-1] if travels else 0.0))
-    return travels
-
-

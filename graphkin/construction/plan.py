@@ -20,10 +20,10 @@ from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_a
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
-from graphkin.construction.steps import ORDERS, Order, Step
+from graphkin.construction.steps import ORDERS, Order
 from graphkin.construction.triangles import (
     Inversion,
-    TriangleDrawn,
+    carried_over,
     drawn_apart,
     inversions_of,
     opened_at_triangles,
@@ -49,8 +49,7 @@ if TYPE_CHECKING:
     from graphkin.construction.group_position import GroupTrial
 
 __all__ = [
-    "GoneOn", "OnBoard", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan",
-    "positioned",
+    "GoneOn", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan", "positioned",
 ]  # fmt: skip
 
 
@@ -114,63 +113,56 @@ class Task:
 # -- carried out on a board --------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class OnBoard:
-    """What stands on a board.
-
-    assembly : the words for each assembly
-    held : what was drawn with a link held still
-    """
-
-    polygons: Polygons
-    assembly: Mapping[str, Phrase]
-    held: tuple[Step, ...]
-
-
 def positioned(
     task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP, with_steps: bool = True
-) -> OnBoard:
-    """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where it is
+) -> Polygons:
+    """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where they
     are wanted."""
     board = Board(instrument)
-    found: list[TriangleDrawn] = []
-    values, rates = dict(task.values), dict[str, tuple[float, float]]()
-    for inversion, branch in task.triangles:
-        carried = drawn_apart(inversion, instrument, scales, task.values, branch)
-        values[inversion.key] = inversion.near(task.values[inversion.key], carried.value)
-        rates[inversion.key] = carried.rate, carried.second
-        found.append(carried)
-    board.causes += [cause for carried in found for cause in carried.causes]
+    triangles = [(inversion, drawn_apart(board, inversion, scales, task.values, branch))
+                 for inversion, branch in task.triangles]  # fmt: skip
+    values = {**task.values, **{v.key: v.near(task.values[v.key], found[0]) for v, found in triangles}}
     before = list(board.causes)
-    told = [part for carried in found for part in carried.carried_over()]
     position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
-    assembly: Mapping[str, Phrase] = {}
     if with_steps:
-        assembly = draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
+        draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
     board.causes[:] = [*before, *position.causes]
     polygons = Polygons(board, task.opened, position.paper, scales, slip)
-    polygons.given.update(rates)
+    polygons.given.update({inversion.key: found[1:] for inversion, found in triangles})
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
     polygons.plans.update(task.plans)
-    for step in told:
-        board.do(step)
-    return OnBoard(polygons, assembly, tuple(step for carried in found for step in carried.steps))
+    for inversion, found in triangles:
+        for step in carried_over(inversion.triangle, found):
+            board.do(step)
+    return polygons
 
 
-def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> OnBoard:
+def carried_out(task: Task, scales: Scales, instrument: Instrument = EXACT, slip: Slip = NO_SLIP) -> Polygons:
     """Position and both polygons on a board."""
-    made = positioned(task, scales, instrument, slip)
-    for order, element in task.in_order:
-        draw_element(made.polygons, order, element)
+    *_, made = _stages(task, positioned(task, scales, instrument, slip))
     return made
 
 
-def finished(task: Task, made: OnBoard) -> Sheet:
+def _stages(task: Task, polygons: Polygons, first: int = 0, kept: Instrument | None = None) -> Iterator[Polygons]:
+    """The polygons after so many elements, and after each further one; drawn on by other hands where what stood before
+    is ``kept``."""
+    yield polygons
+    for order, element in [*task.in_order][first:]:
+        polygons = polygons.again(kept) if kept else polygons
+        draw_element(polygons, order, element)
+        yield polygons
+
+
+def finished(task: Task, polygons: Polygons) -> Sheet:
     """What stands on the board as a sheet, with the vectors that only a question asks for."""
-    polygons = made.polygons
     draw_asked(polygons, task.asked)
-    board = polygons.board
+    board, limits = polygons.board, task.limits
+    if limits:
+        from graphkin.construction.limits import limits_on_paper
+
+        hand = EXACT if task.triangles else board.instrument
+        limits = limits_on_paper(limits, task.structure, task.elements, task.values, polygons.scales, hand)
     sheet = Sheet(
         scene=task.structure.scene,
         structure=task.structure,
@@ -183,9 +175,9 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         omega=dict(polygons.rates["velocity"]),
         alpha=dict(polygons.rates["acceleration"]),
         steps=tuple(board.steps),
-        held_still=made.held,
+        held_still=tuple(board.held_still),
         equations=tuple(board.equations),
-        assembly=made.assembly,
+        assembly=board.assembly,
         noticed=tuple(board.noticed),
         left_out=task.left_out,
         groups=tuple(_drawn_groups(task, polygons)),
@@ -194,19 +186,10 @@ def finished(task: Task, made: OnBoard) -> Sheet:
         acting=task.acting,
         growing=task.growing,
         trains=tuple(polygons.trains.values()),
-        limits=_limits(task, polygons.scales, board.instrument),
+        limits=limits,
         readings=dict(board.readings),
     )
     return without_residues(sheet) if board.instrument.faultless else sheet
-
-
-def _limits(task: Task, scales: Scales, hand: Instrument) -> Mapping[str, Limits]:
-    if not task.limits:
-        return {}
-    from graphkin.construction.limits import limits_on_paper
-
-    hand = EXACT if task.triangles else hand
-    return limits_on_paper(task.limits, task.structure, task.elements, task.values, scales, hand)
 
 
 def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
@@ -226,29 +209,22 @@ class Redrawn:
 
     def __init__(self, what: Task, scales: Scales, still: ErringInstrument) -> None:
         self.what, self.scales = what, scales
-        made = positioned(what, scales, still)
-        self.kept: list[tuple[int, Polygons]] = []
+        begun = positioned(what, scales, still)
+        self.kept = [(still.acts, polygons) for polygons in _stages(what, begun, kept=still)]
         """What stood there after so many acts."""
-        for order, element in what.in_order:
-            self.kept.append((still.acts, made.polygons.again(still)))
-            draw_element(made.polygons, order, element)
-        self.kept.append((still.acts, made.polygons.again(still)))
-        self.sheet = finished(what, made)
+        self.sheet = finished(what, self.kept[-1][1].again(still))
 
     def by(self, hand: ErringInstrument, first: int = 0) -> Sheet:
         """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
         position may be missing.  Raises as `execute`."""
         before = [(acts, polygons) for acts, polygons in self.kept if acts < first]
         if not before:
-            made = positioned(self.what, self.scales, hand, with_steps=False)
-            left = [*self.what.in_order]
+            begun = positioned(self.what, self.scales, hand, with_steps=False)
         else:
-            hand.acts, polygons = before[-1]
-            made = OnBoard(polygons.again(hand), {}, ())
-            left = [*self.what.in_order][len(before) - 1 :]
-        for order, element in left:
-            draw_element(made.polygons, order, element)
-        return finished(self.what, made)
+            hand.acts, kept = before[-1]
+            begun = kept.again(hand)
+        *_, polygons = _stages(self.what, begun, max(0, len(before) - 1))
+        return finished(self.what, polygons)
 
 
 Own = Mapping[Symbol, Value]
@@ -266,17 +242,13 @@ class GoneOn:
     def __init__(self, what: Task, scales: Scales, slip: Callable[[Own], Slip]) -> None:
         self.what, self.slip = what, slip
         self.in_order = tuple(what.in_order)
-        polygons = positioned(what, scales, with_steps=False).polygons
-        self.kept = [polygons]
+        self.kept = [*_stages(what, positioned(what, scales, with_steps=False), kept=EXACT)]
         """What stands there after so many elements."""
         self.found_by: dict[Symbol, int] = {}
         """How many elements lead to each vector and rate; one more than there are, to what only a question asks for."""
-        for number, (order, element) in enumerate(self.in_order, 1):
-            polygons = polygons.again(EXACT)
-            draw_element(polygons, order, element)
+        for number, polygons in enumerate(self.kept[1:], 1):
             self._note(polygons, number)
-            self.kept.append(polygons)
-        polygons = polygons.again(EXACT)
+        polygons = self.kept[-1].again(EXACT)
         draw_asked(polygons, what.asked)
         self._note(polygons, len(self.kept))
         self.others: dict[tuple[int, frozenset[tuple[Symbol, Value]]], Polygons] = {}
@@ -365,14 +337,12 @@ class Plan(Task):
         chains = {dyad: chain for dyad, chain in self.chains.items() if dyad not in touching}
         other = replace(self, chains=chains, plans={}, touching=True)
         try:
-            made = carried_out(other, NATURAL)
+            polygons = carried_out(other, NATURAL)
         except Unsolvable:  # a contact at a pivot, which turns nothing there
             return None
-        exact = finished(other, made)
-        return replace(
-            other, exact=exact, scales=chosen_scales(self.structure.scene, exact.extents, None),
-            chains=made.polygons.chains, plans=made.polygons.plans,
-        )  # fmt: skip
+        exact = finished(other, polygons)
+        scales = chosen_scales(self.structure.scene, exact.extents, None)
+        return replace(other, exact=exact, scales=scales, chains=polygons.chains, plans=polygons.plans)
 
 
 def plan(
@@ -425,11 +395,10 @@ def _known(sheet: Sheet) -> Known:
 
 
 def _planned(task: Task, room: Room | None) -> Plan:
-    made = carried_out(task, NATURAL)
-    polygons = made.polygons
+    polygons = carried_out(task, NATURAL)
     size = NATURAL.length / task.structure.scene.size
     poses = {name: pose.scaled(size) for name, pose in polygons.paper.poses.items()}
-    exact = finished(task, made)
+    exact = finished(task, polygons)
     asked = task.asked
     if exact.has_forces:
         from graphkin.construction.forces.known import acting_loads, strokes_of_loads
@@ -440,7 +409,7 @@ def _planned(task: Task, room: Room | None) -> Plan:
 
         found = limits_asked(task.structure, needed(task.structure, task.asked), asked, task.values, poses)
         task = replace(task, limits=found)
-        exact = finished(task, made)
+        exact = finished(task, polygons)
     if exact.has_forces:
         growing = _growing(task, exact)
         moves = any(driver.values[1] for driver in task.structure.scene.drivers)

@@ -88,14 +88,13 @@ def draw_position(
     position: Position,
     branches: Mapping[int, int],
     trials: Mapping[LargerGroup, GroupTrial] | None = None,
-) -> dict[str, Phrase]:
-    """Record how each link was placed; returns the words for each assembly, by the group's links."""
+) -> None:
+    """Record how each link was placed, and the words for each assembly, by the group's links."""
     paper = position.paper
     ground = structure.scene.frame
     fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
     board.do(Step("mark", "frame", strokes=fixed, link=ground.name, points=tuple(ground.points)))
     named = set(ground.points)
-    assembly: dict[str, Phrase] = {}
     so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
     for i, element in enumerate(elements):
         if isinstance(element, Driven):
@@ -110,7 +109,7 @@ def draw_position(
             story = meeting.tell(index)
             key = ", ".join(element.links)
             which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
-            assembly[key] = Phrase(which, tuple(pair.key for pair in element.pairs))
+            board.assembly[key] = Phrase(which, tuple(pair.key for pair in element.pairs))
         found: set[str] = set()
         left = list(element.members)
 
@@ -132,7 +131,6 @@ def draw_position(
             _mark_points(board, structure, paper, name, named)
         for name in element.members:
             so_far.poses[name] = paper.poses[name]
-    return assembly
 
 
 def _mark_points(board: Board, structure: Structure, paper: PlacedLinks, name: str, named: set[str]) -> None:

@@ -487,7 +487,8 @@ def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) ->
 class Board:
     """Steps in the order in which they are done, and what was read; the one thing in this room that grows.
 
-    ``readings`` are the lengths (mm) that hands which err have read, as in `Sheet`: they are used at each later use.
+    ``readings`` are the lengths (mm) that hands which err have read, as in `Sheet`: they are used at each later use;
+    ``assembly`` are the words for that of each group, and ``held_still`` what was drawn apart with a link held still.
     """
 
     instrument: Instrument
@@ -496,6 +497,8 @@ class Board:
     noticed: list[Remark] = field(default_factory=list)
     causes: list[tuple[int, Cause]] = field(default_factory=list)  # acts of the hand up to which each step reaches
     readings: dict[Symbol | frozenset[str], float] = field(default_factory=dict)
+    assembly: dict[str, Phrase] = field(default_factory=dict)
+    held_still: list[Step] = field(default_factory=list)
 
     def again(self, hand: Instrument) -> Board:
         """What stands on the board, to go on with by other hands."""

@@ -13,7 +13,7 @@ from itertools import product
 
 from graphkin.construction.assembly import assembly_at
 from graphkin.construction.elements import draw_element
-from graphkin.construction.instruments import EXACT, Instrument
+from graphkin.construction.instruments import EXACT
 from graphkin.construction.links_on_paper import (
     PlacedLinks,
     Pose,
@@ -30,7 +30,7 @@ from graphkin.construction.polygons import Polygons
 from graphkin.construction.position import draw_position, place
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board
-from graphkin.construction.steps import DIAGRAMS, ORDERS, Cause, Step
+from graphkin.construction.steps import DIAGRAMS, ORDERS, Step
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Driver, Mechanism
@@ -38,7 +38,7 @@ from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick, without
 from graphkin.words import Phrase
 
-__all__ = ["Inversion", "TriangleDrawn", "drawn_apart", "inversions_of", "opened_at_triangles", "own_assembly"]
+__all__ = ["Inversion", "carried_over", "drawn_apart", "inversions_of", "opened_at_triangles", "own_assembly"]
 
 FITS = 1e-6  # of the size: so well the slide must have its travel in an assembly
 
@@ -206,40 +206,30 @@ def _has_its_travel(paper: PlacedLinks, inversion: Inversion, poses: Mapping[str
 # -- driven triangles, drawn apart -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class TriangleDrawn:
-    """What a triangle gives at its common pair: value, rate and second rate (SI); and how it was drawn."""
-
-    triangle: DrivenTriangle
-    value: float
-    rate: float
-    second: float
-    causes: tuple[tuple[int, Cause], ...]
-    steps: Sequence[Step]
-
-    def carried_over(self) -> Iterator[Step]:
-        """What is carried over to each diagram."""
-        t = self.triangle
-        kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
-        for diagram, kind, value in zip(DIAGRAMS, kinds, (self.value, self.rate, self.second), strict=True):
-            yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
-                       kind=kind, value=value)  # fmt: skip
-
-
 def drawn_apart(
-    inversion: Inversion, instrument: Instrument, scales: Scales, values: Mapping[str, float], branch: int
-) -> TriangleDrawn:
-    """The triangle on a board of its own, with its two polygons."""
-    board = Board(instrument)
-    elements = [*inversion.structure.dyads.values()]
-    position = place(inversion.structure, elements, 1.0 / scales.length, values, {0: branch}, instrument)
-    draw_position(board, inversion.structure, elements, position, {0: branch})
-    board.causes[:] = position.causes
-    polygons = Polygons(board, inversion.structure, position.paper, scales)
+    board: Board, inversion: Inversion, scales: Scales, values: Mapping[str, float], branch: int
+) -> tuple[float, float, float]:
+    """The triangle on a board of its own, with its two polygons, which stand on that of the mechanism as drawn with
+    a link held still; what it gives at its common pair: value, rate and second rate (SI)."""
+    apart, structure = Board(board.instrument), inversion.structure
+    elements = [*structure.dyads.values()]
+    position = place(structure, elements, 1.0 / scales.length, values, {0: branch}, board.instrument)
+    draw_position(apart, structure, elements, position, {0: branch})
+    apart.causes[:] = position.causes
+    polygons = Polygons(apart, structure, position.paper, scales)
     for order in ORDERS:
         draw_element(polygons, order, elements[0])
-    value, rates = inversion.read(position.paper), _rates_apart(inversion, polygons)
-    return TriangleDrawn(inversion.triangle, value, *rates, tuple(board.causes), board.steps)
+    board.causes += apart.causes
+    board.held_still += apart.steps
+    return inversion.read(position.paper), *_rates_apart(inversion, polygons)
+
+
+def carried_over(t: DrivenTriangle, found: Sequence[float]) -> Iterator[Step]:
+    """What is carried over from a triangle to each diagram: value, rate and second rate (SI) at its common pair."""
+    kinds = ("angle", "omega", "alpha") if t.pair.turns else ("travel", "velocity", "acceleration")
+    for diagram, kind, value in zip(DIAGRAMS, kinds, found, strict=True):
+        yield Step("carry over", "held still", diagram, held=t.held, link=t.links[0], pairs=(t.driver.key,),
+                   kind=kind, value=value)  # fmt: skip
 
 
 def _rates_apart(inversion: Inversion, polygons: Polygons) -> tuple[float, float]:

@@ -195,7 +195,7 @@ def test_a_contour_is_drawn_again_by_hands_that_err_in_one_of_its_acts(name: str
 @pytest.mark.parametrize("name", ["four-bar", "through a block"])
 def test_polygons_that_other_hands_go_on_with_leave_the_first_as_they_stood(name: str) -> None:
     what = plan(mechanism_of(SCENES[name]), find=())
-    begun = positioned(what, what.scales).polygons
+    begun = positioned(what, what.scales)
     before = copy.deepcopy(vars(begun)["ends"]), set(begun.special), set(begun.ties), set(begun.seen)
     gone_on = begun.again(EXACT)
     for order, element in what.in_order:
