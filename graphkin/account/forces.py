@@ -13,7 +13,6 @@ from typing import NamedTuple
 from graphkin.account.headings import number, written
 from graphkin.account.notation import Letters, force_letters
 from graphkin.construction.forces.force_sheet import (
-    Arm,
     ForceGroup,
     ForceSheet,
     ForceState,
@@ -21,9 +20,10 @@ from graphkin.construction.forces.force_sheet import (
     Inertia,
     Lever,
     MomentEquation,
+    MomentTerm,
+    opposite,
 )
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Term
 from graphkin.plane import added_up
 from graphkin.scene.model import LoadOn, Mechanism, Phase, SpringOn
 from graphkin.scene.symbol import Symbol
@@ -90,20 +90,20 @@ def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[
         said = Phrase("force reason along", (held.link.split("/")[0], name))
         lines.append(ForceSentence(said, (), held.symbol, "n"))
     for one in group.moments:
-        links = _links(one.links)
+        links, symbol, part = _links(one.links), one.unknown.symbol, one.unknown.part
         if not one.terms and group.way == "polygon" and group.kind != "RPR":
-            name = f"${force_letters(letters.convention, one.symbol)}$"
+            name = f"${force_letters(letters.convention, symbol)}$"
             args = links, name, f"${letters.point(one.about)}$"
-            lines.append(ForceSentence(Phrase("force two-force member", args), (), one.symbol, one.part))
+            lines.append(ForceSentence(Phrase("force two-force member", args), (), symbol, part))
             continue
-        name = f"${force_letters(letters.convention, one.symbol, one.part if _parted(sheet, group, one) else '')}$"
+        name = f"${force_letters(letters.convention, symbol, part if _parted(sheet, group, one) else '')}$"
         key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
             "force reason pin"
         )  # fmt: skip
         about = f"${letters.point(one.about)}$"
         said = Phrase(key, (about, links, name))
         work: tuple[Wording, ...] = (*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name))
-        lines.append(ForceSentence(said, work, one.symbol, one.part))
+        lines.append(ForceSentence(said, work, symbol, part))
     return lines
 
 
@@ -115,7 +115,8 @@ def _links(names: Sequence[str]) -> object:
 def _parted(sheet: Sheet, group: ForceGroup, one: MomentEquation) -> bool:
     """Whether what the moments give is a part of the force: both parts stand in the polygon, or this part is nought and
     the force lies along the bar."""
-    return sum(v.symbol == one.symbol and v.part != "" for v in group.polygon) > 1 or not balance(sheet, one).value
+    parts = sum(v.symbol == one.unknown.symbol and v.part != "" for v in group.polygon)
+    return parts > 1 or not balance(sheet, one).value
 
 
 def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:
@@ -125,18 +126,19 @@ def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[
     for one in group.couples:
         if not any(link in sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
             continue
-        name = f"${force_letters(letters.convention, one.symbol)}$"
-        if one.symbol.other and not one.value:
-            lines.append(ForceSentence(Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), one.symbol))
+        symbol = one.unknown.symbol
+        name = f"${force_letters(letters.convention, symbol)}$"
+        if symbol.other and not one.value:
+            lines.append(ForceSentence(Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), symbol))
             continue
-        key = "force reason couple" if one.symbol.other else "force reason balance"
+        key = "force reason couple" if symbol.other else "force reason balance"
         work: list[Wording] = [*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name)]
-        for line in group.lines:
-            if line.symbol.link == one.symbol.link and line.symbol.other == one.symbol.other:
-                force = f"${force_letters(letters.convention, line.symbol)}$"
-                shift = number(abs(line.shifted) / units.metres, DIGITS)
-                work.append(Phrase("force line shifted", (force, shift, units.length)))
-        lines.append(ForceSentence(Phrase(key, (_links(one.links), name)), tuple(work), one.symbol))
+        for force, (_, shifted) in group.lines.items():
+            if (force.link, force.other) == (symbol.link, symbol.other):
+                shift = number(abs(shifted) / units.metres, DIGITS)
+                name_of = f"${force_letters(letters.convention, force)}$"
+                work.append(Phrase("force line shifted", (name_of, shift, units.length)))
+        lines.append(ForceSentence(Phrase(key, (_links(one.links), name)), tuple(work), symbol))
     return lines
 
 
@@ -163,13 +165,14 @@ def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) ->
 def lever_sum(sheet: Sheet, state: ForceState, lever: Lever, letters: Letters) -> tuple[Phrase, Phrase]:
     """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
     units = sheet.scene.units
-    name = f"${force_letters(letters.convention, lever.balance)}$"
-    moment = lever.balance.kind == "M"
+    balance = lever.unknown.symbol
+    name = f"${force_letters(letters.convention, balance)}$"
+    moment = balance.kind == "M"
     total = added_up(row.moment for row in lever.rows) / units.newtons
     if moment:
-        values = lever.value, float(state.moments.get(lever.balance) or 0.0)
+        values = lever.value, float(state.moments.get(balance) or 0.0)
     else:
-        values = abs(lever.value), abs(state.vectors.get(lever.balance, 0j)) * sheet.scales.force
+        values = abs(lever.value), abs(state.vectors.get(balance, 0j)) * sheet.scales.force
     lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), DIGITS)}"
     rest = f"{'+' if total >= 0 else '−'} {number(abs(total), DIGITS)}"
     unit = f"{units.force}·m" if moment else units.force
@@ -190,7 +193,7 @@ def read_off(
     seen: set[Symbol] = set()
     vectors = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
     for vector in vectors:
-        back = Symbol(vector.symbol.kind, vector.symbol.of, link=vector.symbol.other, other=vector.symbol.link)
+        back = opposite(vector.symbol)
         if vector.known or vector.symbol in seen or (vector.symbol.other and back in seen):
             continue
         seen.add(vector.symbol)
@@ -215,10 +218,10 @@ def laid_off(group: ForceGroup) -> tuple[ForceVector, ...]:
     """The forces of a polygon that are known before it is closed, given or by moments, one behind the other."""
     turned = list(group.polygon)
     for _ in turned:  # from the first known one behind an unknown one
-        if _known(group, turned[0]) and not _known(group, turned[-1]):
+        if turned[0].by != "closing" and turned[-1].by == "closing":
             break
         turned.append(turned.pop(0))
-    return tuple(v for v in turned if _known(group, v) and abs(v.span) > ZERO)
+    return tuple(v for v in turned if v.by != "closing" and abs(v.span) > ZERO)
 
 
 def corners(group: ForceGroup) -> tuple[tuple[str, complex, ForceVector], ...]:
@@ -250,7 +253,7 @@ def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Let
     scale = written(amount(per, 12))
     for v in laid_off(group):
         value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
-        of = (m for m in group.moments if m.symbol == v.symbol and (m.part == v.part or not v.part))
+        of = (m for m in group.moments if m.unknown.symbol == v.symbol and (m.unknown.part == v.part or not v.part))
         by_moments = next((m for m in of if abs(abs(m.value) / forces.per_mm - abs(v.span)) < SAME), None)
         if by_moments is not None:
             # as their sum gave it
@@ -265,7 +268,7 @@ def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Let
 
 def closed_by(group: ForceGroup, letters: Letters, frame: str) -> Phrase | None:
     """Through which ends of the chain the lines of the unknown forces go; None where that is not so."""
-    chain, unknown = laid_off(group), [v for v in group.polygon if not _known(group, v)]
+    chain, unknown = laid_off(group), [v for v in group.polygon if v.by == "closing"]
     if not chain or not unknown or len(unknown) > 2:
         return None
     first, last = chain[0], chain[-1]
@@ -278,8 +281,8 @@ def closed_by(group: ForceGroup, letters: Letters, frame: str) -> Phrase | None:
     before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
     if behind is None or before is None:
         return None
-    ways = [_way(group, v, letters, frame) for v in (behind, before)]
-    if not all(ways):
+    ways = [f"${way}$" for v in (behind, before) if (way := letters.direction(v.direction, frame))]
+    if len(ways) < 2:
         return None
     ends = (_name(last, letters), ways[0], _name(behind, letters))
     corner = [corner_at(group, place) for place in (last.tip, first.tail, behind.tip)]
@@ -311,41 +314,27 @@ def balance(sheet: Sheet, one: MomentEquation) -> Balance:
 
 
 def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) -> Balance:
-    def metres(arm: Arm | None) -> str:
-        return "" if arm is None else amount(abs(arm.mm) * sheet.scales.length, carried)
+    def metres(term: MomentTerm) -> str:
+        return "" if term.arm is None else amount(abs(term.arm) * sheet.scales.length, carried)
 
     terms = []
     for term in one.terms:
         # a force has its sense from its arm, a couple from itself
         size = amount(abs(term.size) / sheet.scene.units.newtons, of_forces)
-        turn = term.arm.mm if term.arm else term.size
-        terms.append(("-" if turn < 0 else "+", (size, metres(term.arm)) if term.arm else (size,)))
+        turn = term.size if term.arm is None else term.arm
+        terms.append(("-" if turn < 0 else "+", tuple(filter(None, (size, metres(term))))))
     total = -sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
-    arm = metres(one.arm)
+    arm = metres(one.unknown)
     return Balance(tuple(terms), arm, total / Decimal(arm) if arm else total)
 
 
 def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> list[Phrase]:
     """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
-    of = [(f"${force_letters(letters.convention, t.symbol, t.part)}$", t.arm) for t in one.terms]
-    arms = [f"{force} {written(on_paper(abs(arm.mm)))} mm" for force, arm in (*of, (name, one.arm)) if arm is not None]
+    of = [(f"${force_letters(letters.convention, t.symbol)}$", t.arm) for t in one.terms]
+    of.append((name, one.unknown.arm))
+    arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
     scale = Neutral(f"× {amount(sheet.scales.length, 12)} m/mm")
     return [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
-
-
-def _known(group: ForceGroup, vector: ForceVector) -> bool:
-    term = _term(group, vector)
-    return vector.known or (term is not None and term.size_known and term.direction_known)
-
-
-def _term(group: ForceGroup, vector: ForceVector) -> Term | None:
-    return next((t for t in group.equation if (t.symbol, t.part) == (vector.symbol, vector.part)), None)
-
-
-def _way(group: ForceGroup, vector: ForceVector, letters: Letters, frame: str) -> str:
-    term = _term(group, vector)
-    way = letters.direction(term.direction, frame) if term is not None else ""
-    return f"${way}$" if way else ""
 
 
 def _name(vector: ForceVector, letters: Letters) -> str:

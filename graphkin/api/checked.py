@@ -173,8 +173,8 @@ class Checked(OfScene, Result):
                 ways["by_centres"] = float(unit.of(abs(value) if symbol.is_vector else float(value.real) + 0.0))
         if self.forces is not None and symbol.scope == "force":
             balance = replace(symbol, plus=False, at="")
-            for lever in self.forces.levers[-1 if symbol.plus else 0]:
-                if lever.balance == balance:
+            for lever in self.forces.states[-1 if symbol.plus else 0].levers:
+                if lever.unknown.symbol == balance:
                     ways["by_lever"] = float(unit.of(0.0 + (lever.value if balance.kind == "M" else abs(lever.vector))))
                     break
         other = self if self.at_contacts is None and scene.pins else self.at_contacts

@@ -104,12 +104,13 @@ def lever_lines(checked: Checked, language: str) -> list[str]:
     found = []
     units = checked.mechanism.units
     rows = {str(row.symbol): row for row in checked.report.rows}
-    for number, levers in enumerate(checked.forces.levers if checked.forces else ()):
-        for lever in levers:
-            row = rows.get(f"{lever.balance}+" if number else "", rows.get(str(lever.balance)))
+    for number, state in enumerate(checked.forces.states if checked.forces else ()):
+        for lever in state.levers:
+            balance = lever.unknown.symbol
+            row = rows.get(f"{balance}+" if number else "", rows.get(str(balance)))
             if row is None:
                 continue
-            moment = lever.balance.kind == "M"
+            moment = balance.kind == "M"
             unit = f"{units.force} m" if moment else units.force
             values = lever.value if moment else abs(lever.vector), row.measured if moment else abs(row.measured)
             by_lever, by_polygons = (f"{amount(float(v.real) / units.newtons, MOST)} {unit}" for v in values)

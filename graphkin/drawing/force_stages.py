@@ -21,7 +21,7 @@ from graphkin.account.forces import (
     spring_lines,
 )
 from graphkin.account.notation import Letters, force_letters, pole
-from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, LeverRow
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
@@ -145,7 +145,7 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
     sheet, letters, links = writer.sheet, writer.letters, listed(group.links)
     drawn = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
     forces = list(dict.fromkeys(v.symbol for v in drawn if v.known and v.span))
-    turning = [t.symbol for t in state.turning if t.moment and t.link in group.links]
+    turning = [t.symbol for t in state.known if t.moment and t.link in group.links]
     names = [writer.name(s) for s in dict.fromkeys((*forces, *turning))]
     cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
     steps = [writer.step(cut)]
@@ -159,7 +159,7 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
     laid = made.known
     if group.way == "drawn system":
         steps.append(writer.step(Phrase("force reason system", (links,))))
-    elif len(group.equation) > 1:
+    elif len(group.polygon) > 1:
         if laid_off(group):
             lines = laid_lines(sheet, writer.forces, group, letters)
             steps.append(writer.step(Phrase("force step lay"), lines))
@@ -191,13 +191,13 @@ def _group(writer: _StageWriter, state: ForceState, group: ForceGroup, count: in
 def _levers(writer: _StageWriter) -> Iterator[ForceStage]:
     forces, c = writer.forces, writer.letters.convention
     for k, state in enumerate(forces.states):
-        for lever in forces.levers[k]:
+        for lever in state.levers:
             why = Phrase("lever reason", (f"${pole(c, 'velocity')}$",))
             first = Phrase("two sentences", (why, Phrase("lever virtual"))) if lever.virtual else why
             steps = [writer.step(first), writer.step(Phrase("lever step forces"))]
             shown, _ = lever_on_page(writer.sheet, lever)
             total, balance = lever_sum(writer.sheet, state, shown, writer.letters)
-            steps.append(writer.step(balance, [total], [lever.balance]))
+            steps.append(writer.step(balance, [total], [lever.unknown.symbol]))
             yield ForceStage("lever", writer.said(Phrase("lever")), tuple(steps), state, again=bool(k))
 
 
@@ -211,9 +211,10 @@ def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
     per_mm = fitting_scale(extent, (WIDEST, HIGHEST), 1.0 / metres) * metres
     times = lever.per_mm / per_mm
 
-    def larger(row: LeverRow) -> LeverRow:
+    def larger(row: MomentTerm) -> MomentTerm:
         pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
-        return replace(row, at=row.at * times, arm=row.arm * times, moment=row.moment * times, pair=pair)
+        arm = None if row.arm is None else row.arm * times
+        return replace(row, at=row.at * times, arm=arm, moment=row.moment * times, pair=pair)
 
     made = replace(
         lever, per_mm=per_mm, ends={name: z * times for name, z in lever.ends.items()},

@@ -185,7 +185,7 @@ def _forces(lesson: Lesson, layers: Layers, paper: Paper) -> Iterator[Block]:
         return
     scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
     heading = said("forces", language)
-    counts = [len(g.equation) for g in forces.states[0].groups if g.way != "drawn system" and len(g.equation) > 1]
+    counts = [len(g.polygon) for g in forces.states[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
     if counts and (sheet.scene.question.vary is None or sheet.scene.question.vary.level != "hard"):
         blank = blank_sums(counts, lesson.letters, language, min(paper.body.width, A4.body.width))

@@ -1,4 +1,5 @@
-"""What stands on the sheet of forces: known forces, moment equations, force polygons, and what was found by them.
+"""What stands on the sheet of forces: forces and couples on links, moment equations, force polygons, and what was found
+by them.
 
 Places are complex numbers in mm on the drawn mechanism, force vectors in mm of their polygons at ``per_mm`` N; sizes
 are in N and N m, counter-clockwise positive.
@@ -7,52 +8,79 @@ are in N and N m, counter-clockwise positive.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
-from graphkin.construction.steps import Part, Term
+from graphkin.construction.steps import Direction, Part, Term
+from graphkin.plane import cross, unit
 from graphkin.scene.symbol import Symbol
 
 __all__ = [
-    "Acting",
-    "Arm",
-    "ForceGroup",
-    "ForceLine",
-    "ForceSheet",
-    "ForceState",
-    "ForceVector",
-    "Inertia",
-    "KnownMoment",
-    "Lever",
-    "LeverRow",
-    "MomentEquation",
-    "MomentTerm",
-    "Way",
+    "ForceGroup", "ForceSheet", "ForceState", "ForceVector", "Inertia", "Lever", "MomentEquation", "MomentTerm", "Way",
+    "opposite",
 ]  # fmt: skip
 
 Way = Literal["polygon", "driver", "drawn system"]
 """How the forces of a group are found: by moments and one polygon, at last at a driver, by one drawn system."""
 
 
-@dataclass(frozen=True)
-class Acting:
-    """A known force (N) on a link at a place (mm); ``turned`` where it is the opposite of its symbol's."""
-
-    symbol: Symbol
-    link: str
-    force: complex
-    at: complex
-    turned: bool = False
+def opposite(symbol: Symbol) -> Symbol:
+    """The force or couple of the second link on the first."""
+    return Symbol(symbol.kind, symbol.of, link=symbol.other, other=symbol.link)
 
 
 @dataclass(frozen=True)
-class KnownMoment:
-    """A known moment (N m) on a link; ``turned`` where it is the opposite of its symbol's."""
+class ForceVector:
+    """A force, or a couple, that acts on a link; in a polygon it stands from ``tail`` to ``tip``.
+
+    Parameters
+    ----------
+    symbol, part : what it is called, and which part of it this is
+    link, at : on which it acts, and at which place of the mechanism (mm)
+    force, moment : of a force the vector (N; of a direction alone the direction), of a couple the moment (N m)
+    turned : whether it is the opposite of its symbol's
+    by : how it is known: given, by moments before its polygon is drawn, or by closing a polygon
+    direction : as it is written where it was found by that
+    tail, tip : in a polygon (mm)
+    """
 
     symbol: Symbol
     link: str
-    moment: float
+    force: complex = 0j
+    at: complex = 0j
+    moment: float = 0.0
     turned: bool = False
+    part: Part = ""
+    by: Literal["given", "moments", "closing"] = "given"
+    direction: Direction | None = None
+    tail: complex = 0j
+    tip: complex = 0j
+
+    @property
+    def known(self) -> bool:
+        """Whether it was known before the group was looked at."""
+        return self.by == "given"
+
+    @property
+    def span(self) -> complex:
+        return self.tip - self.tail
+
+    @property
+    def term(self) -> Term:
+        """It as a term of the vector equation of its polygon."""
+        sized = self.by != "closing"
+        return Term(self.symbol, sized, sized or self.direction is not None, None, self.direction, self.part,
+                    self.turned)  # fmt: skip
+
+    def between(self, tail: complex, tip: complex) -> ForceVector:
+        """It as it stands in a polygon (mm)."""
+        return replace(self, tail=tail, tip=tip)
+
+    def back(self, link: str) -> ForceVector:
+        """What acts for it on the other link."""
+        named = opposite(self.symbol) if self.symbol.other else self.symbol
+        turned = self.turned if self.symbol.other else not self.turned
+        return replace(self, symbol=named, link=link, force=-self.force, moment=-self.moment, turned=turned)
 
 
 @dataclass(frozen=True)
@@ -79,124 +107,80 @@ class Inertia:
 
 
 @dataclass(frozen=True)
-class Arm:
-    """The distance of a force's line from a point, measured on the drawing (mm; positive where the force turns
-    counter-clockwise about it), with the foot on the line."""
-
-    about: complex
-    foot: complex
-    mm: float
-
-
-@dataclass(frozen=True)
 class MomentTerm:
-    """A term of a moment equation: a force (N) times its arm, or a couple (N m, without arm)."""
+    """The moment of a force (N) that stands ``at`` a place about another, ``about`` (mm on the mechanism; on a lever mm
+    from its pole); or a couple.
+
+    ``arm`` is the distance of its line, as measured (mm; positive where the force turns counter-clockwise; None of a
+    couple), ``moment`` what it comes to (N m; N mm on a lever).  On a lever a couple is a ``pair`` of forces at two end
+    points of an image; its arm is their distance, its force the couple over the length of the bar.
+    """
 
     symbol: Symbol
-    part: Part
-    size: float
-    arm: Arm | None
+    force: complex
+    arm: float | None
     moment: float
+    at: complex = 0j
+    about: complex = 0j
+    part: Part = ""
     turned: bool = False
+    pair: tuple[complex, complex] | None = None
+
+    @property
+    def size(self) -> float:
+        """Of the force, or the couple with its sense (N, N m)."""
+        return self.moment if self.arm is None else abs(self.force)
+
+    @property
+    def foot(self) -> complex:
+        """Of the arm, on the line of the force (mm)."""
+        along = unit(self.force)
+        return self.about - 1j * along * cross(self.at - self.about, along)
 
 
 @dataclass(frozen=True)
 class MomentEquation:
     """The moments of all that acts on some links about a point are in balance, which gives one unknown.
 
-    ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``value`` (N, or N m where
-    there is no ``arm``) is that of the unknown ``symbol``, positive along its ``along``.
+    ``about`` is the letter of the point, or the name of the link at whose origin it lies; ``unknown`` is a force of
+    size 1, or a couple, ``value`` (N, N m) how large it is.
     """
 
     links: tuple[str, ...]
     about: str
     terms: tuple[MomentTerm, ...]
-    symbol: Symbol
-    part: Part
-    arm: Arm | None
+    unknown: MomentTerm
     value: float
-    along: complex = 0j
 
 
-@dataclass(frozen=True)
-class ForceVector:
-    """A force in a polygon, ``tail`` to ``tip`` (mm), that acts on ``link`` at a place of the mechanism (mm)."""
-
-    symbol: Symbol
-    part: Part
-    link: str
-    at: complex
-    tail: complex
-    tip: complex
-    known: bool
-    turned: bool = False
-
-    @property
-    def span(self) -> complex:
-        return self.tip - self.tail
-
-
-@dataclass(frozen=True)
-class ForceLine:
-    """The line of action of a force that is known by its direction only, or of a sliding pair's force where its couple
-    puts it: ``at`` and ``along`` on the mechanism (mm)."""
-
-    symbol: Symbol
-    at: complex
-    along: complex
-    shifted: float = 0.0
-
-
-@dataclass(frozen=True)
+@dataclass
 class ForceGroup:
-    """A group cut free, and its forces found.
+    """A group cut free, and its forces found; it grows while it is drawn.
 
-    ``equation`` are terms that sum to nought; ``polygon`` the same head to tail, closed; ``inner`` the polygons of
-    single links that give the forces inside, by link; ``points`` are letters of the special points used.
+    Parameters
+    ----------
+    links, kind, way : of the group, and how its forces are found
+    moments : equations that give parts of forces
+    polygon : what acts on it head to tail, closed; of a group drawn link by link nothing
+    inner : the polygons of single links that give the forces inside, by link
+    couples : equations that give couples of sliding pairs, and moments that balance
+    lines : where a couple puts the line of action of the force of its pair: a place (mm), and how far that is shifted
+        (m), by the symbol of the force
     """
 
     links: tuple[str, ...]
     kind: str
-    way: Way
-    moments: tuple[MomentEquation, ...] = ()
-    equation: tuple[Term, ...] = ()
-    polygon: tuple[ForceVector, ...] = ()
-    inner: Mapping[str, tuple[ForceVector, ...]] = field(default_factory=dict)
-    couples: tuple[MomentEquation, ...] = ()
-    lines: tuple[ForceLine, ...] = ()
+    way: Way = "polygon"
+    moments: list[MomentEquation] = field(default_factory=list)
+    polygon: list[ForceVector] = field(default_factory=list)
+    inner: dict[str, list[ForceVector]] = field(default_factory=dict)
+    couples: list[MomentEquation] = field(default_factory=list)
+    lines: dict[Symbol, tuple[complex, float]] = field(default_factory=dict)
 
-
-@dataclass(frozen=True)
-class ForceState:
-    """All forces of the mechanism, with or without the loads that begin or end exactly at the position.
-
-    ``vectors`` are drawn forces by symbol (mm of polygon), ``moments`` by symbol (N m); ``known`` and ``turning`` are
-    what acts from outside, inertia included.
-    """
-
-    known: tuple[Acting, ...]
-    turning: tuple[KnownMoment, ...]
-    groups: tuple[ForceGroup, ...]
-    vectors: Mapping[Symbol, complex]
-    moments: Mapping[Symbol, float]
-
-
-@dataclass(frozen=True)
-class LeverRow:
-    """A force on the lever at the end point of its point's velocity (mm from the pole, turned), with its arm about the
-    pole (mm, signed) and its moment there (N mm).
-
-    A couple is a ``pair`` of forces at two end points of an image; its arm is their distance, its size force is the
-    couple over the length of the bar.
-    """
-
-    symbol: Symbol
-    force: complex
-    at: complex
-    arm: float
-    moment: float
-    pair: tuple[complex, complex] | None = None
-    turned: bool = False
+    @property
+    def polygons(self) -> list[list[ForceVector]]:
+        """That of the group and those of single links, those of no force left out."""
+        return [polygon for polygon in (self.polygon, *self.inner.values()) if polygon]
 
 
 @dataclass(frozen=True)
@@ -205,18 +189,32 @@ class Lever:
     moment of a force about the pole is its power.
 
     ``per_mm`` is m/s for one mm; ``virtual`` where the mechanism rests (or has several drivers) and the polygon is that
-    of a unit rate.  ``balance`` is the symbol of what balances, ``value`` (N m, or N along its line) what the moments
-    give for it.
+    of a unit rate.  ``rows`` are the moments of the known forces, ``unknown`` that of what balances, of size 1,
+    ``value`` (N m, or N along its line) what they give for it.
     """
 
     per_mm: float
     virtual: bool
     ends: Mapping[str, complex]
-    rows: tuple[LeverRow, ...]
-    balance: Symbol
-    unknown: LeverRow
+    rows: tuple[MomentTerm, ...]
+    unknown: MomentTerm
     value: float
     vector: complex = 0j
+
+
+@dataclass(frozen=True)
+class ForceState:
+    """All forces of the mechanism, with or without the loads that begin or end exactly at the position.
+
+    ``vectors`` are drawn forces by symbol (mm of polygon), ``moments`` by symbol (N m); ``known`` are the forces and
+    couples that act from outside, inertia included.
+    """
+
+    known: tuple[ForceVector, ...]
+    groups: tuple[ForceGroup, ...]
+    vectors: Mapping[Symbol, complex]
+    moments: Mapping[Symbol, float]
+    levers: tuple[Lever, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -226,9 +224,13 @@ class ForceSheet:
     per_mm: float
     inertias: Mapping[str, Inertia]
     states: tuple[ForceState, ...]
-    levers: tuple[tuple[Lever, ...], ...] = ()
 
     @property
     def ways(self) -> tuple[Way, ...]:
         """How its groups were found, each way once."""
         return tuple(dict.fromkeys(group.way for group in self.states[0].groups))
+
+    @property
+    def largest(self) -> float:
+        """The largest force (mm of polygon)."""
+        return max((abs(v) for state in self.states for v in state.vectors.values()), default=0.0)

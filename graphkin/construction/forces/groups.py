@@ -1,4 +1,4 @@
-"""The forces of a group: of a dyad, of a driven link, of a larger group.
+"""The forces of a group cut free: of a dyad, of a driven link, of a larger group.
 
 Of a dyad one polygon is drawn.  Moments about the inner pin give the part of a turning pair's force that is square to
 the bar; what slides on the other body is pushed along the guide by its own pin alone.  The polygon of the whole group,
@@ -8,113 +8,225 @@ driven last balances, and links that a driver holds together have a couple or a 
 
 Of a larger group one system is drawn: for each link two projections and the moments about one point, with arms measured
 on the mechanism; then the polygon of each link, which closes.
+
+Forces are complex numbers in N while they are found; each is taken off the polygon in which it was drawn.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from graphkin.construction.forces.cut_free import Chain, CutFree, across, dead_point, end_of, guide_letters
-from graphkin.construction.forces.force_sheet import (
-    Acting,
-    ForceGroup,
-    ForceLine,
-    ForceVector,
-    KnownMoment,
-    MomentEquation,
-    Way,
-)
-from graphkin.construction.forces.joints import BalanceForm, opposite
-from graphkin.construction.steps import Direction, Part, Term
-from graphkin.plane import added_up, cross, dot, unit
+from graphkin.construction.forces.force_sheet import ForceGroup, ForceVector, MomentEquation, MomentTerm, opposite
+from graphkin.construction.forces.joints import BalanceForm, Images, JointNames
+from graphkin.construction.instruments import Instrument
+from graphkin.construction.steps import Direction, Part
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import added_up, cross, cross_lines, dot, unit
 from graphkin.scene.symbol import Symbol
-from graphkin.structure import Body, Driven, DrivenJoint, Dyad, LargerGroup, Pair
+from graphkin.structure import Driven, DrivenJoint, Dyad, LargerGroup, Pair
+from graphkin.words import Phrase
 
-__all__ = ["at_driver", "of_dyad", "of_larger_group"]
+__all__ = ["NORMAL", "TANGENT", "CutFree", "at_driver", "of_dyad", "of_larger_group"]
 
+NORMAL, TANGENT = "n-n", "t-t"
+"""The common normal and tangent of what touches, by name as a guide."""
+PARALLEL = 1e-12
 SINGULAR = 1e-13
 """Reciprocal condition of a drawn system that tells nothing."""
 
 
-# -- a body of a group, and what is drawn of the group as it grows -----------------------------------------------------
+def _dead_point(links: Sequence[str]) -> Unsolvable:
+    """What is said where the lines that should close a polygon are parallel."""
+    found = Phrase("the balance does no work in this position or")
+    return Unsolvable(
+        "dead point",
+        Problem(Phrase("links", links=", ".join(links)), found, Phrase("move the driver off this position")),
+    )
 
 
-@dataclass(frozen=True)
-class CutBody:
-    """A body with its outer pair."""
+Chain = list[ForceVector]
+"""Vectors of a polygon laid head to tail, from the origin on."""
 
-    cut: CutFree
-    body: Body
-    outer: Pair
 
-    @property
-    def links(self) -> tuple[str, ...]:
-        return self.body.links
-
-    @property
-    def name(self) -> str:
-        """The link of the body that the outer pair holds."""
-        return self.outer.a if self.outer.a in self.body.links else self.outer.b
-
-    @property
-    def at(self) -> complex:
-        """Where the outer force acts (mm)."""
-        if not self.outer.turns:
-            return self.cut.images.foot(self.outer)
-        return self.cut.images.point(self.outer.a, self.outer.point)
-
-    @property
-    def symbol(self) -> Symbol:
-        """The outer force on the body."""
-        if self.outer.turns:
-            return self.cut.names.of_pin(self.outer.point, self.outer.a)
-        named = self.cut.names.of_slide(self.outer)
-        return named if self.outer.a in self.body.links else opposite(named)
-
-    def force(self, force: complex) -> Acting:
-        """The outer force (N) on the body."""
-        return Acting(self.symbol, self.name, force, self.at)
-
-    def square(self) -> complex:
-        """The direction square to the guide of the outer pair."""
-        return 1j * self.cut.images.along(self.outer)
+def _end_of(chain: Chain) -> complex:
+    """Where the next vector of a polygon begins (mm)."""
+    return chain[-1].tip if chain else 0j
 
 
 @dataclass
-class GroupFigure:
-    """What is drawn of a group, as it grows; fields as in `ForceGroup`."""
+class CutFree:
+    """What is known of all links while their forces are found; the last group comes first.
 
-    moments: list[MomentEquation] = field(default_factory=list)
-    terms: list[Term] = field(default_factory=list)
-    chain: Chain = field(default_factory=list)
-    inner: dict[str, tuple[ForceVector, ...]] = field(default_factory=dict)
-    couples: list[MomentEquation] = field(default_factory=list)
-    lines: list[ForceLine] = field(default_factory=list)
+    ``acting`` are the known forces and couples by link, ``pins`` the forces of pins on links, ``slides`` force and
+    couple of each guiding link on its sliding one, ``done`` the links whose forces are known.
+    """
 
-    def group(self, links: tuple[str, ...], kind: str, way: Way = "polygon") -> ForceGroup:
-        return ForceGroup(
-            links, kind, way, tuple(self.moments), tuple(self.terms), tuple(self.chain), self.inner,
-            tuple(self.couples), tuple(self.lines),
-        )  # fmt: skip
+    images: Images
+    hand: Instrument
+    per_mm: float
+    names: JointNames
+    acting: defaultdict[str, list[ForceVector]] = field(default_factory=lambda: defaultdict(list))
+    pins: defaultdict[tuple[str, str], complex] = field(default_factory=lambda: defaultdict(complex))
+    slides: dict[str, tuple[complex, float]] = field(default_factory=dict)
+    balances: dict[Symbol, complex | float] = field(default_factory=dict)
+    done: set[str] = field(default_factory=set)
 
-    def unknown(self, symbol: Symbol, part: Part, written: Direction | None, turned: bool = False) -> None:
-        self.terms.append(Term(symbol, False, written is not None, None, written, part, turned))
+    # -- what acts -----------------------------------------------------------------------------------------------------
 
-    def knowns(self, cut: CutFree, links: Sequence[str]) -> None:
-        self.terms += [Term(f.symbol, True, True, turned=f.turned) for f in cut.forces_on(links)]
+    def push(self, *acting: ForceVector) -> None:
+        """Forces and couples act on links; the frame bears what comes."""
+        for one in acting:
+            if one.link != self.names.structure.scene.frame.name:
+                self.acting[one.link].append(one)
 
-    def line_of_action(self, cut: CutFree, force: Acting, couple: float) -> None:
-        """Where a couple (N m) puts the line of action of its force."""
-        if force.force:
-            along, shift = unit(force.force), couple / abs(force.force)
-            self.lines.append(ForceLine(force.symbol, force.at - 1j * along * (shift * cut.images.mm), along, shift))
+    def on(self, links: Iterable[str]) -> list[ForceVector]:
+        """What is known to act on some links, of no size left out."""
+        return [one for link in links for one in self.acting[link] if one.force or one.moment]
+
+    def load_pins(self, members: Iterable[str]) -> None:
+        """Links found before hang on pins of these: what they do there acts on the first that has the pin."""
+        inside = set(members)
+        for point, holders in self.names.structure.hinges.items():
+            mine = [n for n in holders if n in inside]
+            others = [n for n in holders if n not in inside]
+            if not mine or not others or any(n not in self.done for n in others):
+                continue
+            carrier, at = mine[0], self.images.point(mine[0], point)
+            hung = {opposite(self.names.of_pin(point, other)): -self.pins[point, other] for other in others}
+            if len(holders) > 2 and carrier != self.names.holders[point][0]:
+                hung = {Symbol("F", link=point, other=carrier): added_up(hung.values(), 0j)}
+            for symbol, force in hung.items():
+                self.push(ForceVector(symbol, carrier, force, at))
+                self.pins[point, carrier] += force
+
+    def at_pair(self, pair: Pair, links: Sequence[str]) -> ForceVector:
+        """The force of a pair on that of some links which it holds, of no size yet."""
+        link = pair.a if pair.a in links else pair.b
+        if pair.turns:
+            symbol, at = self.names.of_pin(pair.point, pair.a), self.images.point(pair.a, pair.point)
+        else:
+            symbol, at = self.names.of_slide(pair), self.images.foot(pair)
+            symbol = symbol if link == pair.a else opposite(symbol)
+        return ForceVector(symbol, link, at=at, by="closing")
+
+    def set_slide(self, slide: Pair, force: ForceVector, couple: float, inside: Iterable[str]) -> None:
+        """The force of a sliding pair on one of its links, with its couple; both load the other link, if that comes
+        later."""
+        forward = force if force.link == slide.a else force.back(slide.a)
+        moment = couple if force.link == slide.a else -couple
+        self.slides[slide.key] = forward.force, moment
+        turned = ForceVector(self.names.of_slide(slide, "M"), slide.a, moment=moment)
+        for one in (forward, turned):
+            one = replace(one, by="given", direction=None, part="")
+            self.push(*(acting for acting in (one, one.back(slide.b)) if acting.link not in inside))
+
+    # -- moments -------------------------------------------------------------------------------------------------------
+
+    @property
+    def size(self) -> float:
+        """The mechanism, in mm on paper."""
+        return self.images.sheet.scene.size * self.images.mm
+
+    def term(self, one: ForceVector, about: complex) -> MomentTerm:
+        """The moment of a force about a place, its arm measured on the mechanism; a couple is its own."""
+        if not one.force:
+            return MomentTerm(one.symbol, 0j, None, one.moment, turned=one.turned)
+        mm = cross(one.at - about, unit(one.force))
+        arm = 0.0
+        if abs(mm) >= 1e-12 * self.size:
+            read = self.hand.read(abs(mm))
+            arm = read if mm > 0 else -read
+        moment = abs(one.force) * arm / self.images.mm
+        return MomentTerm(one.symbol, one.force, arm, moment, one.at, about, turned=one.turned)
+
+    def terms(self, acting: Iterable[ForceVector], about: complex) -> tuple[MomentTerm, ...]:
+        """The moments of forces, then couples."""
+        return tuple(self.term(one, about) for one in sorted(acting, key=lambda one: not one.force))
+
+    def by_moments(
+        self, links: Sequence[str], about: complex, letter: str, unknown: ForceVector, more: Sequence[ForceVector] = ()
+    ) -> MomentEquation:
+        """The size of a force of known line from the moments of all that acts on some links.
+
+        Parameters
+        ----------
+        about, letter : the place of the moments, and its name
+        unknown : the force, of size 1
+        more : forces found already that are not yet among the known
+        """
+        sought = self.term(unknown, about)
+        assert sought.arm is not None
+        if abs(sought.arm) <= PARALLEL * self.size:
+            raise _dead_point(links)
+        terms = self.terms([*self.on(links), *(m for m in more if m.force)], about)
+        value = -added_up(t.moment for t in terms) / (sought.arm / self.images.mm)
+        return MomentEquation(tuple(links), letter, terms, replace(sought, part=unknown.part), value)
+
+    def couple(
+        self, links: Sequence[str], about: complex, letter: str, symbol: Symbol, more: Sequence[ForceVector] = ()
+    ) -> MomentEquation:
+        """The couple that is left of the moments of all that acts on some links."""
+        terms = self.terms([*self.on(links), *(m for m in more if m.force or m.moment)], about)
+        value = -added_up(t.moment for t in terms)
+        # what is left of terms that cancel is rounding
+        if abs(value) <= 1e-13 * added_up(abs(t.moment) for t in terms):
+            value = 0.0
+        return MomentEquation(tuple(links), letter, terms, MomentTerm(symbol, 0j, None, 1.0), value)
+
+    # -- polygons ------------------------------------------------------------------------------------------------------
+
+    def lay(self, chain: Chain, *forces: ForceVector) -> complex:
+        """Lay off forces head to tail; what they come to then in N."""
+        begin = _end_of(chain)
+        for one in forces:
+            tail = tip = _end_of(chain)
+            mm = abs(one.force) / self.per_mm
+            if mm > 0.0:
+                tip = self.hand.point(tail + self.hand.direction(unit(one.force)) * self.hand.length(mm))
+            chain.append(one.between(tail, tip))
+        return (_end_of(chain) - begin) * self.per_mm
+
+    def lay_known(self, chain: Chain, links: Iterable[str]) -> None:
+        """Lay off the known forces on some links."""
+        self.lay(chain, *(one for one in self.on(links) if one.force))
+
+    def closed(
+        self, links: Sequence[str], chain: Chain, last: ForceVector, first: ForceVector | None = None
+    ) -> complex:
+        """Close a polygon: by one force, or by two of known directions, the one before its first vector and the other
+        behind its last; returns where they meet (mm).
+
+        Raises
+        ------
+        Unsolvable : "dead point": the two directions are parallel
+        """
+        end, corner = _end_of(chain), 0j
+        if first is not None:
+            d, e = self.hand.direction(last.force), self.hand.direction(first.force)
+            met = cross_lines(end, d, 0j, e) if abs(cross(d, e)) >= PARALLEL else None
+            if met is None:
+                raise _dead_point(links)
+            corner = self.hand.point(met)
+            chain.insert(0, first.between(corner, 0j))
+        chain.append(last.between(end, corner))
+        return corner
 
 
-def _along_guide(slide: Pair) -> Direction:
-    return Direction("along", guide_letters(slide))
+def _across(pair: Pair) -> Direction:
+    """The direction of a sliding pair's force: square to the guide; of what touches along the normal, or the tangent of
+    pitch circles."""
+    other = {NORMAL: TANGENT, TANGENT: NORMAL}.get(pair.guide.name.rstrip("'"))
+    return Direction("along", (other,)) if other else Direction("square", _along(pair).names)
+
+
+def _along(slide: Pair) -> Direction:
+    """The direction of a guide, as it is written."""
+    return Direction("along", (slide.guide.name or f"x{slide.b}",))
 
 
 def _foot_name(slide: Pair) -> str:
@@ -123,41 +235,32 @@ def _foot_name(slide: Pair) -> str:
 
 
 def _slide_found(
-    cut: CutFree, side: CutBody, force: Acting, about: complex, letter: str, figure: GroupFigure,
-    inside: tuple[str, ...], more: Sequence[Acting] = (), turning: Sequence[KnownMoment] = (),
-) -> None:  # fmt: skip
-    """The couple of an outer sliding pair, from the moments about a place (mm), and the line of action of its force."""
-    slide = side.outer
-    found = cut.couple(side.links, about, letter, replace(side.symbol, kind="M"), (force, *more), turning)
-    figure.couples.append(found)
-    figure.line_of_action(cut, force, found.value)
-    sign = 1.0 if slide.a in side.links else -1.0
-    cut.set_slide(slide, sign * force.force, sign * found.value, inside)
+    cut: CutFree, group: ForceGroup, links: Sequence[str], slide: Pair, force: ForceVector, about: complex, letter: str,
+    acting: Sequence[ForceVector], inside: Sequence[str],
+) -> MomentEquation:  # fmt: skip
+    """The couple of a sliding pair on links, from the moments about a place (mm), and where it puts the line of action
+    of the pair's force.
+
+    Parameters
+    ----------
+    acting : forces and couples found already that are not yet among the known, the pair's own among them
+    inside : links that do not come later
+    """
+    found = cut.couple(links, about, letter, replace(force.symbol, kind="M"), acting)
+    group.couples.append(found)
+    _shift_line(cut, group, force, found.value)
+    cut.set_slide(slide, force, found.value, inside)
+    return found
+
+
+def _shift_line(cut: CutFree, group: ForceGroup, force: ForceVector, couple: float) -> None:
+    """Where a couple (N m) puts the line of action of its force."""
+    if force.force:
+        along, shift = unit(force.force), couple / abs(force.force)
+        group.lines[force.symbol] = force.at - 1j * along * (shift * cut.images.mm), shift
 
 
 # -- a dyad ------------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class OuterParts:
-    """An outer force of a dyad before its polygon closes.
-
-    known : its parts of known size, each with its mark, and its direction as it is written
-    along : the direction of the part that closes the polygon; 0: any; None: there is no such part
-    mark, written : of that part
-    """
-
-    known: tuple[tuple[Acting, Part, Direction], ...]
-    along: complex | None
-    mark: Part = ""
-    written: Direction | None = None
-
-    def terms(self, symbol: Symbol) -> list[Term]:
-        """The part that closes the polygon, then those of known size."""
-        known = [Term(symbol, True, True, None, written, mark) for _, mark, written in self.known]
-        if self.along is None:
-            return known
-        return [Term(symbol, False, self.written is not None, None, self.written, self.mark), *known]
 
 
 def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> ForceGroup:
@@ -172,224 +275,171 @@ def of_dyad(cut: CutFree, dyad: Dyad, balances: Mapping[str, BalanceForm]) -> Fo
     ------
     Unsolvable : "dead point": the lines that close the polygon are parallel
     """
-    inside = dyad.members
-    cut.load_pins(inside)
-    one, two = CutBody(cut, dyad.first, dyad.outer_first), CutBody(cut, dyad.second, dyad.outer_second)
-    figure = GroupFigure()
-    first, second = _outer_parts(cut, dyad, one, two, figure)
-    figure.terms += first.terms(one.symbol)
-    figure.knowns(cut, (*one.links, *two.links))
-    figure.terms += second.terms(two.symbol)[::-1]
-
-    def lay(parts: OuterParts) -> complex:
-        return added_up((cut.lay(chain, force, mark, False) for force, mark, _ in parts.known), 0j)
-
-    chain = figure.chain
-    laid = lay(first)
-    cut.lay_known(chain, one.links)
+    cut.load_pins(dyad.members)
+    group, pairs = ForceGroup(dyad.links, dyad.kind), (dyad.outer_first, dyad.outer_second)
+    one, two = (cut.at_pair(pair, body.links) for pair, body in zip(pairs, dyad.bodies, strict=True))
+    (first, head), (second, tail) = _outer_parts(cut, dyad, one, two, group)
+    chain = group.polygon
+    laid = cut.lay(chain, *first)
+    cut.lay_known(chain, dyad.first.links)
     own = list(chain)  # the polygon of the first body, but for the force inside
-    cut.lay_known(chain, two.links)
-    before = end_of(chain)
-    lay(second)
-    end, start = end_of(chain), 0j
-    if first.along is not None:
-        assert second.along is not None
-        start = cut.closing(dyad.links, end, second.along, 0j, first.along)
-        head = cut.drawn(one.symbol, one.name, one.at, start, 0j, first.mark)
-        chain.insert(0, head)
-        own.insert(0, head)
-    chain.append(cut.drawn(two.symbol, two.name, two.at, end, start, second.mark))
-    outer = one.force(laid - start * cut.per_mm), two.force((start - before) * cut.per_mm)
-    for side, force in zip((one, two), outer, strict=True):
-        if side.outer.turns:
-            cut.set_pin(side.outer.point, side.outer.a, force.force)
-    inner = _inner_forces(cut, dyad, figure, own, start, one, outer[0])
-    for side, force, opposed in zip((one, two), outer, inner, strict=True):
-        if side.outer.turns:
+    cut.lay_known(chain, dyad.second.links)
+    before = _end_of(chain)
+    cut.lay(chain, *second)
+    corner = cut.closed(dyad.links, chain, tail, head)
+    if head is not None:
+        own.insert(0, chain[0])
+    outer = replace(one, force=laid - corner * cut.per_mm), replace(two, force=(corner - before) * cut.per_mm)
+    for pair, force in zip(pairs, outer, strict=True):
+        if pair.turns:
+            cut.pins[pair.point, pair.a] += force.force
+    inner = _inner_forces(cut, dyad, group, own, corner, outer[0])
+    for pair, body, force, opposed in zip(pairs, dyad.bodies, outer, inner, strict=True):
+        if pair.turns:
             continue
+        at, letter, acting = force.at, _foot_name(pair), [force, opposed]
         if dyad.inner.turns:
-            at = cut.images.point(*_at_inner_pin(cut, dyad)[0])
-            _slide_found(cut, side, force, at, dyad.inner.point, figure, inside)
+            at, letter, acting = opposed.at, dyad.inner.point, [force]
         else:
-            known = figure.couples[-1]
-            back = KnownMoment(opposite(known.symbol), opposed.link, -known.value)
-            letter = _foot_name(side.outer)
-            _slide_found(cut, side, force, side.at, letter, figure, inside, (opposed,), (back,))
-    slides = [pair for pair in dyad.pairs if not pair.turns]
-    for side, force, opposed in zip((one, two), outer, inner, strict=True):
-        if side.body.joints:
-            _between_driven(cut, side, (opposed, force), slides, figure, balances)
-    cut.done |= set(inside)
-    return figure.group(dyad.links, dyad.kind)
+            known = group.couples[-1]
+            acting.append(ForceVector(known.unknown.symbol, inner[0].link, moment=known.value).back(opposed.link))
+        _slide_found(cut, group, body.links, pair, force, at, letter, acting, dyad.members)
+    for body, force, opposed in zip(dyad.bodies, outer, inner, strict=True):
+        acting = [opposed, force]
+        for slide in (pair for pair in dyad.pairs if not pair.turns):
+            couple = ForceVector(cut.names.of_slide(slide, "M"), slide.a, moment=cut.slides[slide.key][1])
+            acting += [one for one in (couple, couple.back(slide.b)) if one.link in body.links]
+        # links that drivers hold together, from the outermost on
+        for joint in reversed(body.joints):
+            on_leaf = [one for one in acting if one.link == joint.b]
+            acting += _at_driven_joint(cut, group, joint, balances[joint.driver.key], on_leaf, body.links)
+    cut.done |= set(dyad.members)
+    return group
+
+
+OuterParts = tuple[list[ForceVector], ForceVector]
+"""The parts of an outer force that are of known size, and that which closes the polygon, of size 1."""
 
 
 def _outer_parts(
-    cut: CutFree, dyad: Dyad, one: CutBody, two: CutBody, figure: GroupFigure
-) -> tuple[OuterParts, OuterParts]:
-    """What is known of both outer forces before the polygon closes."""
-    slide = dyad.inner
+    cut: CutFree, dyad: Dyad, one: ForceVector, two: ForceVector, group: ForceGroup
+) -> tuple[tuple[list[ForceVector], ForceVector | None], OuterParts]:
+    """What is known of both outer forces before the polygon closes; None where nothing of the first is left open."""
+    slide, outer = dyad.inner, dyad.outer_second
     if slide.turns:
-        hinge = cut.images.point(*_at_inner_pin(cut, dyad)[0])
-        return _by_inner_pin(cut, one, hinge, slide.point, figure), _by_inner_pin(cut, two, hinge, slide.point, figure)
+        return (_by_inner_pin(cut, dyad.first.links, dyad.outer_first, one, slide, group),
+                _by_inner_pin(cut, dyad.second.links, outer, two, slide, group))  # fmt: skip
     # body one slides on body two: what pushes it along the guide only its pin can hold
     along = cut.images.along(slide)
-    held = one.force(along * -cut.projected(cut.forces_on(one.links), along))
-    known: tuple[tuple[Acting, Part, Direction], ...] = ((held, "n", _along_guide(slide)),) if held.force else ()
-    mark: Part = "t" if held.force else ""
-    if not two.outer.turns:
-        closing = OuterParts(known, 1j * along, mark, across(slide))
-        return closing, OuterParts((), two.square(), "", across(two.outer))
+    laid: Chain = []
+    cut.lay_known(laid, dyad.first.links)
+    push = along * -dot(_end_of(laid), along) * cut.per_mm
+    known = [replace(one, force=push, part="n", by="moments", direction=_along(slide))] if push else []
+    mark: Part = "t" if known else ""
+    square = replace(one, force=1j * along, part=mark, direction=_across(slide))
+    if not outer.turns:
+        return (known, square), ([], replace(two, force=1j * cut.images.along(outer), direction=_across(outer)))
     found = cut.by_moments(
-        (*one.links, *two.links), two.at, two.outer.point, one.force(1j * along), "t", (held,)
+        (*dyad.first.links, *dyad.second.links), two.at, outer.point, replace(square, part="t"), known
     )  # fmt: skip
-    figure.moments.append(found)
-    square = one.force(1j * along * found.value)
-    return OuterParts((*known, (square, mark, across(slide))), None), OuterParts((), 0j)
+    group.moments.append(found)
+    return ([*known, replace(square, force=square.force * found.value, by="moments")], None), ([], two)
 
 
-def _by_inner_pin(cut: CutFree, side: CutBody, hinge: complex, letter: str, figure: GroupFigure) -> OuterParts:
-    """An outer force by the moments about the inner pin, which lies at ``hinge`` (mm)."""
-    if not side.outer.turns:
-        return OuterParts((), side.square(), "", across(side.outer))
-    bar, along = (side.outer.point, letter), side.at - hinge
-    square = 1j * unit(along)
-    found = cut.by_moments(side.links, hinge, letter, side.force(square), "t")
-    figure.moments.append(found)
-    written = Direction("along", bar)
+def _by_inner_pin(
+    cut: CutFree, links: Sequence[str], outer: Pair, force: ForceVector, inner: Pair, group: ForceGroup
+) -> OuterParts:
+    """An outer force by the moments about the inner pin."""
+    if not outer.turns:
+        return [], replace(force, force=1j * cut.images.along(outer), direction=_across(outer))
+    hinge = cut.images.point(inner.a, inner.point)
+    bar, along = (outer.point, inner.point), force.at - hinge
+    square = replace(force, force=1j * unit(along), part="t", direction=Direction("square", bar))
+    found = cut.by_moments(links, hinge, inner.point, square)
+    group.moments.append(found)
+    closing = replace(force, force=along, direction=Direction("along", bar))
     if not found.value:  # nothing acts on the bar between its ends
-        return OuterParts((), along, "", written)
-    known = side.force(square * found.value), "t", Direction("square", bar)
-    return OuterParts((known,), along, "n", written)  # type: ignore[arg-type]
-
-
-def _at_inner_pin(cut: CutFree, dyad: Dyad) -> tuple[tuple[str, str], tuple[str, str]]:
-    """The links of both bodies at the inner turning pair, each with its point."""
-    point, links = dyad.inner.point, cut.names.structure.links
-    first, second = (next(n for n in body.links if point in links[n].points) for body in dyad.bodies)
-    return (first, point), (second, point)
+        return [], closing
+    return [replace(square, force=square.force * found.value, by="moments")], replace(closing, part="n")
 
 
 def _inner_forces(
-    cut: CutFree, dyad: Dyad, figure: GroupFigure, own: Chain, start: complex, one: CutBody, outer: Acting
-) -> tuple[Acting, Acting]:
+    cut: CutFree, dyad: Dyad, group: ForceGroup, own: Chain, corner: complex, outer: ForceVector
+) -> tuple[ForceVector, ForceVector]:
     """The force inside closes the polygon of the first body: on it, and on the second; of a sliding pair its couple
     the moments there, too.
 
     Parameters
     ----------
-    own : the polygon of the first body, from ``start`` on (mm)
+    own : the polygon of the first body, from ``corner`` on (mm)
     outer : the outer force on the first body
     """
-    end = own[-1].tip if own else start
-    if dyad.inner.turns:
-        names = cut.names
-        (first, point), (second, _) = _at_inner_pin(cut, dyad)
-        at, force = cut.images.point(first, point), (start - end) * cut.per_mm
-        symbol = names.of_pin(point, second)
+    end, slide, links = own[-1].tip if own else corner, dyad.inner, dyad.first.links
+    force = (corner - end) * cut.per_mm
+    if slide.turns:
+        names, point, known = cut.names, slide.point, cut.names.structure.links
+        first, second = (next(n for n in body.links if point in known[n].points) for body in dyad.bodies)
+        symbol = opposite(names.of_pin(point, second))
         if second == names.holders[point][0] and len(names.structure.hinges[point]) > 2:
             # the first link at a pin bears the sum of several: the force inside is called as the other link's is
-            symbol = opposite(names.of_pin(point, first))
-        cut.set_pin(point, first, force)
-        cut.set_pin(point, second, -force)
-        on_first, on_second = Acting(opposite(symbol), first, force, at), Acting(symbol, second, -force, at)
-        figure.inner[first] = (*own, cut.drawn(on_first.symbol, first, at, end, start))
-        return on_first, on_second
-    slide = dyad.inner
+            symbol = names.of_pin(point, first)
+        cut.pins[point, first] += force
+        cut.pins[point, second] -= force
+        on_first = ForceVector(symbol, first, force, cut.images.point(first, point), by="closing")
+        group.inner[first] = [*own, on_first.between(end, corner)]
+        return on_first, on_first.back(second)
     square = 1j * cut.images.along(slide)
-    force = square * dot(start - end, square) * cut.per_mm
-    at, symbol = cut.images.foot(slide), cut.names.of_slide(slide)
-    mine = slide.a in one.links
-    on_first = Acting(symbol if mine else opposite(symbol), slide.a if mine else slide.b, force, at)
-    on_second = Acting(opposite(on_first.symbol), slide.b if mine else slide.a, -force, at)
-    figure.inner[on_first.link] = (*own, cut.drawn(on_first.symbol, on_first.link, at, end, start))
-    turned = replace(on_first.symbol, kind="M")
-    found = cut.couple(one.links, one.at, one.outer.point, turned, (on_first, outer))
-    figure.couples.append(found)
-    figure.line_of_action(cut, on_first, found.value)
-    sign = 1.0 if mine else -1.0
-    cut.set_slide(slide, sign * force, sign * found.value, dyad.members)
-    return on_first, on_second
+    on_first = cut.at_pair(slide, links)
+    on_first = replace(on_first, force=square * dot(force, square))
+    group.inner[on_first.link] = [*own, on_first.between(end, corner)]
+    _slide_found(
+        cut, group, links, slide, on_first, outer.at, dyad.outer_first.point, (on_first, outer), dyad.members
+    )  # fmt: skip
+    return on_first, on_first.back(slide.b if on_first.link == slide.a else slide.a)
 
 
 # -- where drivers act -------------------------------------------------------------------------------------------------
 
 
-def _between_driven(
-    cut: CutFree, side: CutBody, found: tuple[Acting, ...], slides: Sequence[Pair], figure: GroupFigure,
-    balances: Mapping[str, BalanceForm],
-) -> None:  # fmt: skip
-    """The forces between links of a body that drivers hold together, from the outermost link on, with what balances
-    there.
-
-    Parameters
-    ----------
-    found : the forces of the dyad's pairs on this body
-    slides : the sliding pairs of the dyad, whose couples act on this body too
-    """
-    extra: dict[str, list[Acting]] = {name: [] for name in side.links}
-    turning: dict[str, list[KnownMoment]] = {name: [] for name in side.links}
-    for force in found:
-        extra[force.link].append(force)
-    for slide in slides:
-        symbol, couple = cut.names.of_slide(slide, "M"), cut.slides[slide.key][1]
-        for moment in (KnownMoment(symbol, slide.a, couple), KnownMoment(opposite(symbol), slide.b, -couple)):
-            if couple and moment.link in side.links:
-                turning[moment.link].append(moment)
-    for joint in reversed(side.body.joints):
-        balance = balances[joint.driver.key]
-        forces, moments = _at_driven_joint(cut, joint, balance, extra[joint.b], turning[joint.b], figure, side.links)
-        extra[joint.a] += forces
-        turning[joint.a].append(moments)
-
-
 def _at_driven_joint(
-    cut: CutFree, joint: DrivenJoint, balance: BalanceForm, extra: Sequence[Acting], turning: Sequence[KnownMoment],
-    figure: GroupFigure, inside: tuple[str, ...],
-) -> tuple[list[Acting], KnownMoment]:  # fmt: skip
+    cut: CutFree, group: ForceGroup, joint: DrivenJoint, balance: BalanceForm, extra: Sequence[ForceVector],
+    inside: tuple[str, ...],
+) -> list[ForceVector]:  # fmt: skip
     """The force and the moment of a driven pair on the link that hangs on it; returns what acts on the other link.
 
     Parameters
     ----------
-    extra, turning : forces and moments on the link, besides what is known from outside
+    extra : forces and couples on the link, besides what is known from outside
     """
     leaf, other, pair = joint.b, joint.a, joint.pair
     chain: Chain = []
-    for known in (*cut.forces_on((leaf,)), *extra):
-        cut.lay(chain, known)
-    end = end_of(chain)
-    force = -end * cut.per_mm
+    cut.lay_known(chain, (leaf,))
+    cut.lay(chain, *(replace(one, by="given") for one in extra if one.symbol.is_vector))
+    end = _end_of(chain)
+    force, mine = -end * cut.per_mm, balance.link == leaf
     if pair.turns:
-        at = cut.images.point(leaf, pair.point)
         symbol = cut.names.of_pin(pair.point, leaf)
         if leaf == cut.names.holders.get(pair.point, ("",))[0]:
             symbol = cut.names.between(other, leaf, pair.point)
-        mine = balance.link == leaf
-        equation = cut.couple((leaf,), at, pair.point, balance.symbol, extra, turning)
-        figure.couples.append(equation)
+        on = ForceVector(symbol, leaf, force, cut.images.point(leaf, pair.point), by="closing")
+        equation = cut.couple((leaf,), on.at, pair.point, balance.symbol, extra)
+        group.couples.append(equation)
         cut.balances[balance.symbol] = equation.value if mine else -equation.value
-        cut.set_pin(pair.point, leaf, force)
-        cut.set_pin(pair.point, other, -force)
-        figure.inner[leaf] = (*chain, cut.drawn(symbol, leaf, at, end, 0j))
-        back = KnownMoment(balance.symbol, other, -equation.value, mine)
-        return [Acting(opposite(symbol), other, -force, at)], back
-    at, along = cut.images.foot(pair), cut.images.along(pair)
-    mine = pair.a == leaf
-    symbol = cut.names.of_slide(pair) if mine else opposite(cut.names.of_slide(pair))
-    push, square = along * dot(force, along), 1j * along * dot(force, 1j * along)
-    on, driving = Acting(symbol, leaf, square, at), Acting(balance.symbol, leaf, push, at, not mine)
-    corner = end + push / cut.per_mm
-    figure.inner[leaf] = (
-        *chain, replace(cut.drawn(balance.symbol, leaf, at, end, corner), turned=not mine),
-        cut.drawn(symbol, leaf, at, corner, 0j),
+        cut.pins[pair.point, leaf] += force
+        cut.pins[pair.point, other] -= force
+        group.inner[leaf] = [*chain, on.between(end, 0j)]
+        return [on.back(other), ForceVector(balance.symbol, leaf, moment=equation.value, turned=not mine).back(other)]
+    along, mine = cut.images.along(pair), pair.a == leaf
+    on = cut.at_pair(pair, (leaf,))
+    on = replace(on, force=1j * along * dot(force, 1j * along))
+    push = replace(on, symbol=balance.symbol, force=along * dot(force, along), turned=not mine)
+    corner = end + push.force / cut.per_mm
+    group.inner[leaf] = [*chain, push.between(end, corner), on.between(corner, 0j)]
+    cut.balances[balance.symbol] = push.force if mine else -push.force
+    couple = _slide_found(
+        cut, group, (leaf,), pair, on, on.at, _foot_name(pair), (*extra, on, push), inside
     )  # fmt: skip
-    equation = cut.couple((leaf,), at, _foot_name(pair), replace(symbol, kind="M"), (*extra, on, driving), turning)
-    figure.couples.append(equation)
-    figure.line_of_action(cut, on, equation.value)
-    sign = 1.0 if mine else -1.0
-    cut.balances[balance.symbol] = sign * push
-    cut.set_slide(pair, sign * square, sign * equation.value, inside)
-    forces = [Acting(opposite(symbol), other, -square, at), Acting(balance.symbol, other, -push, at, mine)]
-    return forces, KnownMoment(opposite(equation.symbol), other, -equation.value)
+    return [on.back(other), push.back(other), ForceVector(couple.unknown.symbol, leaf, moment=couple.value).back(other)]
 
 
 def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup:
@@ -401,80 +451,55 @@ def at_driver(cut: CutFree, element: Driven, balance: BalanceForm) -> ForceGroup
     """
     link, pair = element.link, element.pair
     cut.load_pins((link,))
-    figure, side = GroupFigure(), CutBody(cut, Body((link,)), pair)
-    chain = figure.chain
+    group = ForceGroup((link,) if link not in cut.names.blocks else (), "driver", "driver")
+    chain, on, mine = group.polygon, cut.at_pair(pair, (link,)), balance.link == link
+    other = balance.other if mine else balance.link
+    along, at = (0j, 0j) if balance.is_moment else cut.images.of_balance(balance)
+    push = ForceVector(balance.symbol, link, along if mine else -along, at, turned=not mine, by="closing")
     if pair.turns:
-        _at_crank(cut, side, balance, figure)
-    else:
-        balancing, square = _balancing(cut, balance, link), side.square()
-        figure.unknown(balancing.symbol, "", _along_guide(pair), balancing.turned)
-        figure.knowns(cut, (link,))
-        figure.unknown(side.symbol, "", across(pair))
+        if balance.is_moment:
+            equation = cut.couple((link,), on.at, pair.point, balance.symbol)
+            group.couples.append(equation)
+            push = replace(push, moment=equation.value)
+        else:
+            equation = cut.by_moments((link,), on.at, pair.point, push)
+            group.moments.append(equation)
+            push = replace(push, by="moments", force=push.force * equation.value)
+            push = replace(push, force=cut.lay(chain, push))
         cut.lay_known(chain, (link,))
-        end = end_of(chain)
-        start = cut.closing((link,), end, square, 0j, balancing.force)
-        push, on = replace(balancing, force=-start * cut.per_mm), side.force((start - end) * cut.per_mm)
-        cut.balances[balance.symbol] = -push.force if push.turned else push.force
-        _slide_found(cut, side, on, side.at, _foot_name(pair), figure, (link,), (push,))
-        chain.insert(0, replace(cut.drawn(balance.symbol, link, push.at, start, 0j), turned=push.turned))
-        chain.append(cut.drawn(on.symbol, link, on.at, end, start))
-        other = balance.other if balance.link == link else balance.link
-        if other != cut.names.structure.scene.frame.name:  # what drives a link from another one loads that one
-            cut.push(Acting(push.symbol, other, -push.force, push.at, not push.turned))
-    cut.done.add(link)
-    return figure.group((link,) if link not in cut.names.blocks else (), "driver", "driver")
-
-
-def _balancing(cut: CutFree, balance: BalanceForm, link: str) -> Acting:
-    """A balancing force of unit size on a link."""
-    along, at = cut.images.of_balance(balance)
-    mine = balance.link == link
-    return Acting(balance.symbol, link, along if mine else -along, at, not mine)
-
-
-def _at_crank(cut: CutFree, side: CutBody, balance: BalanceForm, figure: GroupFigure) -> None:
-    link, letter, chain = side.links[0], side.outer.point, figure.chain
-    if balance.is_moment:
-        mine = balance.link == link
-        equation = cut.couple((link,), side.at, letter, balance.symbol)
-        figure.couples.append(equation)
-        cut.balances[balance.symbol] = equation.value if mine else -equation.value
-        other = balance.other if mine else balance.link
-        if other != cut.names.structure.scene.frame.name:
-            cut.turn(KnownMoment(balance.symbol, other, -equation.value, mine))
+        cut.pins[pair.point, pair.a] -= _end_of(chain) * cut.per_mm
+        cut.closed((link,), chain, on)
     else:
-        push = _balancing(cut, balance, link)
-        equation = cut.by_moments((link,), side.at, letter, push, "")
-        figure.moments.append(equation)
-        figure.terms.append(Term(balance.symbol, True, True, turned=push.turned))
-        cut.balances[balance.symbol] = cut.lay(chain, replace(push, force=push.force * equation.value), "", False)
-    figure.knowns(cut, (link,))
-    figure.unknown(side.symbol, "", None)
-    cut.lay_known(chain, (link,))
-    end = end_of(chain)
-    cut.set_pin(side.outer.point, side.outer.a, -end * cut.per_mm)
-    chain.append(cut.drawn(side.symbol, link, side.at, end, 0j))
+        on, push = (replace(on, force=1j * cut.images.along(pair), direction=_across(pair)),
+                    replace(push, direction=_along(pair)))  # fmt: skip
+        cut.lay_known(chain, (link,))
+        end = _end_of(chain)
+        corner = cut.closed((link,), chain, on, push)
+        on, push = replace(on, force=(corner - end) * cut.per_mm), replace(push, force=-corner * cut.per_mm)
+        _slide_found(cut, group, (link,), pair, on, on.at, _foot_name(pair), (on, push), (link,))
+    whole = push.moment if balance.is_moment else push.force
+    cut.balances[balance.symbol] = whole if mine else -whole
+    # what drives a link from another one loads that one
+    cut.push(replace(push.back(other), by="given", direction=None))
+    cut.done.add(link)
+    return group
 
 
 # -- a larger group ----------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class UnknownForce:
-    """A force along ``along`` at a place (mm), or a couple (``along`` 0), on link ``on``, its opposite on ``off``."""
+class UnknownForce(NamedTuple):
+    """A force along the direction of ``one``, or a couple where that has none, on its link, its opposite on ``off``."""
 
-    symbol: Symbol
-    on: str
+    one: ForceVector
     off: str
-    at: complex
-    along: complex
     point: str = ""
     slide: Pair | None = None
 
     @property
     def sides(self) -> tuple[tuple[str, float], tuple[str, float]]:
         """Both links, each with the sign with which it acts there."""
-        return (self.on, 1.0), (self.off, -1.0)
+        return (self.one.link, 1.0), (self.off, -1.0)
 
 
 def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[BalanceForm]) -> ForceGroup:
@@ -487,13 +512,14 @@ def of_larger_group(cut: CutFree, group: LargerGroup, balances: Sequence[Balance
     cut.load_pins(group.members)
     unknowns = _unknown_forces(cut, group.members, balances)
     values = _solved(cut, group.members, unknowns)
-    figure = _carried_over(cut, group.members, unknowns, values)
+    made = ForceGroup(group.links, group.kind, "drawn system")
+    _carry_over(cut, made, group.members, unknowns, values)
     cut.done |= set(group.members)
-    return figure.group(group.links, group.kind, "drawn system")
+    return made
 
 
 def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[BalanceForm]) -> list[UnknownForce]:
-    found, inside, structure = [], set(members), cut.names.structure
+    found, inside, structure = list[UnknownForce](), set(members), cut.names.structure
     for point, holders in structure.hinges.items():
         mine = [n for n in holders if n in inside]
         if not mine:
@@ -502,15 +528,15 @@ def _unknown_forces(cut: CutFree, members: Sequence[str], balances: Sequence[Bal
         at = cut.images.point(mine[0], point)
         for link in mine if held else mine[1:]:
             symbol, off = cut.names.of_pin(point, link), "" if held else mine[0]
-            found += [UnknownForce(symbol, link, off, at, way, point) for way in (1 + 0j, 1j)]
+            found += [UnknownForce(ForceVector(symbol, link, along, at), off, point) for along in (1 + 0j, 1j)]
     for slide in structure.slides:
         if slide.key not in cut.slides and {slide.a, slide.b} & inside:
             at, square = cut.images.foot(slide), 1j * cut.images.along(slide)
-            found += [UnknownForce(cut.names.of_slide(slide, kind), slide.a, slide.b, at, along, slide=slide)
-                      for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
+            found += [UnknownForce(ForceVector(cut.names.of_slide(slide, kind), slide.a, along, at), slide.b,
+                                   slide=slide) for kind, along in (("F", square), ("M", 0j))]  # fmt: skip
     for balance in balances:
         along, at = (0j, 0j) if balance.is_moment else cut.images.of_balance(balance)
-        found.append(UnknownForce(balance.symbol, balance.link, balance.other, at, along))
+        found.append(UnknownForce(ForceVector(balance.symbol, balance.link, along, at), balance.other))
     return found
 
 
@@ -519,75 +545,61 @@ def _solved(cut: CutFree, members: Sequence[str], unknowns: Sequence[UnknownForc
     mm, size = cut.images.mm, cut.images.sheet.scene.size
     row = {name: 3 * i for i, name in enumerate(members)}
     about = {name: cut.images.sheet.poses[name].origin for name in members}
+
+    def parts(one: ForceVector, link: str) -> tuple[float, float, float]:
+        """Both projections of a force, and its moment about a link's origin over the mechanism's size."""
+        arm = cross(one.at - about[link], one.force) / mm / size
+        return one.force.real, one.force.imag, arm + one.moment / size
+
     left, right = np.zeros((3 * len(members), len(unknowns))), np.zeros(3 * len(members))
     for k, unknown in enumerate(unknowns):
+        couple = replace(unknown.one, moment=0.0 if unknown.one.force else size)
         for link, sign in unknown.sides:
-            if link not in row:
-                continue
-            i = row[link]
-            if unknown.along == 0:
-                left[i + 2, k] += sign
-                continue
-            arm = cross(unknown.at - about[link], unknown.along) / mm / size
-            left[i : i + 3, k] += [sign * unknown.along.real, sign * unknown.along.imag, sign * arm]
+            if link in row:
+                left[row[link] : row[link] + 3, k] += sign * np.array(parts(couple, link))
     for link, i in row.items():
-        for force in cut.forces_on((link,)):
-            arm = cross(force.at - about[link], force.force) / mm / size
-            right[i : i + 3] -= [force.force.real, force.force.imag, arm]
-        right[i + 2] -= added_up(m.moment for m in cut.moments_on((link,))) / size
+        for one in cut.on((link,)):
+            right[i : i + 3] -= parts(one, link)
     if left.shape[0] != left.shape[1] or not np.isfinite(left).all() or np.linalg.cond(left) > 1.0 / SINGULAR:
-        raise dead_point(members)
+        raise _dead_point(members)
     found = np.linalg.solve(left, right)
     found += np.linalg.solve(left, right - left @ found)  # a second pass takes back the rounding of the first
-    return [float(v * (size if u.along == 0 else 1.0)) for v, u in zip(found, unknowns, strict=True)]
+    return [float(v * (1.0 if u.one.force else size)) for v, u in zip(found, unknowns, strict=True)]
 
 
-def _carried_over(
-    cut: CutFree, members: Sequence[str], unknowns: Sequence[UnknownForce], values: Sequence[float]
-) -> GroupFigure:
+def _carry_over(
+    cut: CutFree, group: ForceGroup, members: Sequence[str], unknowns: Sequence[UnknownForce], values: Sequence[float]
+) -> None:
     """Put what was found (N, N m) to the pairs, and draw the polygon of each link."""
-    forces: dict[tuple[Symbol, str, str], complex] = {}
-    places: dict[tuple[Symbol, str, str], UnknownForce] = {}
+    forces: dict[tuple[Symbol, str, str], UnknownForce] = {}
     couples: dict[str, float] = {}
-    within = (*members, cut.names.structure.scene.frame.name)
     for unknown, value in zip(unknowns, values, strict=True):
-        if unknown.along != 0:
-            key = unknown.symbol, unknown.on, unknown.off
-            forces[key] = forces.get(key, 0j) + value * unknown.along
-            places[key] = unknown
+        one = unknown.one
+        if one.force:
+            key = one.symbol, one.link, unknown.off
+            so_far = forces[key].one.force if key in forces else 0j
+            forces[key] = unknown._replace(one=replace(one, force=so_far + value * one.force))
         elif unknown.slide is not None:
             couples[unknown.slide.key] = value
         else:
-            cut.balances[unknown.symbol] = value
-            for link, sign in unknown.sides:
-                if link not in within:  # what drives a link of the group from one still to come loads that
-                    cut.turn(KnownMoment(unknown.symbol, link, sign * value, sign < 0))
+            cut.balances[one.symbol] = value
+            couple = replace(one, moment=value)  # what drives a link of the group from one still to come loads that
+            cut.push(*(c for c in (couple, couple.back(unknown.off)) if c.link not in members))
     polygons: dict[str, Chain] = {name: [] for name in members}
-    figure = GroupFigure()
     for name in members:
         cut.lay_known(polygons[name], (name,))
-        figure.knowns(cut, (name,))
-    for key, force in forces.items():
-        unknown = places[key]
-        symbol, slide = unknown.symbol, unknown.slide
-        if unknown.point:
-            cut.set_pin(unknown.point, unknown.on, force)
-            if unknown.off:
-                cut.set_pin(unknown.point, unknown.off, -force)
+    for one, off, point, slide in forces.values():
+        if point:
+            cut.pins[point, one.link] += one.force
+            if off:
+                cut.pins[point, off] -= one.force
         elif slide is not None:
-            cut.set_slide(slide, force, couples[slide.key], members)
-            figure.line_of_action(cut, Acting(symbol, unknown.on, force, unknown.at), couples[slide.key])
+            cut.set_slide(slide, one, couples[slide.key], members)
+            _shift_line(cut, group, one, couples[slide.key])
         else:
-            cut.balances[symbol] = force
-            for link, sign in unknown.sides:
-                if link not in within:
-                    cut.push(Acting(symbol, link, sign * force, unknown.at, sign < 0))
-        if unknown.off not in members:  # a force from outside the group, whose sum closes
-            figure.unknown(symbol, "", None if slide is None else across(slide))
-        for link, sign in unknown.sides:
-            if link in polygons:
-                named = opposite(symbol) if sign < 0 and symbol.other else symbol
-                acting = Acting(named, link, sign * force, unknown.at, sign < 0 and not symbol.other)
-                cut.lay(polygons[link], acting, "", False)
-    figure.inner |= {name: tuple(chain) for name, chain in polygons.items() if name not in cut.names.blocks}
-    return figure
+            cut.balances[one.symbol] = one.force
+            cut.push(*(f for f in (one, one.back(off)) if f.link not in members))
+        for force in (one, one.back(off)):
+            if force.link in polygons:
+                cut.lay(polygons[force.link], replace(force, by="closing"))
+    group.inner |= {name: chain for name, chain in polygons.items() if name not in cut.names.blocks}

@@ -20,12 +20,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Element, LargerGroup, Pair, Structure, analyse
 from graphkin.words import Phrase
 
-__all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "force_groups", "opposite"]
-
-
-def opposite(symbol: Symbol) -> Symbol:
-    """The force or couple of the second link on the first."""
-    return Symbol(symbol.kind, symbol.of, link=symbol.other, other=symbol.link)
+__all__ = ["BalanceForm", "Images", "JointNames", "balance_of", "force_groups"]
 
 
 @dataclass(frozen=True)

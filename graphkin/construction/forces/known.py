@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from graphkin.construction.forces.force_sheet import Acting, Inertia, KnownMoment
+from graphkin.construction.forces.force_sheet import ForceVector, Inertia
 from graphkin.construction.forces.joints import Images
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import travel
@@ -126,8 +126,8 @@ def _inertia(sheet: Sheet, images: Images, mass: LinkMass, hand: Instrument) -> 
 def from_outside(
     sheet: Sheet, growing: Sheet, found: Mapping[str, Inertia], acts: Mapping[str, bool | None], with_edges: bool,
     hand: Instrument,
-) -> tuple[tuple[Acting, ...], tuple[KnownMoment, ...]]:  # fmt: skip
-    """All known forces and moments, those of no size among them.
+) -> tuple[ForceVector, ...]:  # fmt: skip
+    """All known forces, then couples, those of no size among them.
 
     Parameters
     ----------
@@ -135,28 +135,27 @@ def from_outside(
     with_edges : whether loads act that begin or end exactly here
     """
     images, loading = Images(sheet), sheet.scene.loading
-    forces: list[Acting] = []
-    moments: list[KnownMoment] = []
+    made: list[ForceVector] = []
     for mass in loading.masses:
         one = found[mass.link]
-        forces.append(Acting(Symbol("Fi", link=mass.link), mass.link, one.force, one.centre))
+        made.append(ForceVector(Symbol("Fi", link=mass.link), mass.link, one.force, one.centre))
         if loading.gravity:
-            forces.append(Acting(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, one.centre))
-        moments.append(KnownMoment(Symbol("Mi", link=mass.link), mass.link, one.moment))
+            made.append(ForceVector(Symbol("G", link=mass.link), mass.link, mass.mass * loading.gravity, one.centre))
+        made.append(ForceVector(Symbol("Mi", link=mass.link), mass.link, moment=one.moment))
     for load in loading.loads:
         on = with_edges if acts[load.name] is None else acts[load.name]
         symbol = Symbol("P", name=load.name, turning=not load.is_force)
         if load.is_force:
             force = _force(sheet, growing, load) if on else 0j
-            forces.append(Acting(symbol, load.link, force, images.place(load.link, load.at)))
+            made.append(ForceVector(symbol, load.link, force, images.place(load.link, load.at)))
         else:
-            moments.append(KnownMoment(symbol, load.link, load.size if on else 0.0))
+            made.append(ForceVector(symbol, load.link, moment=load.size if on else 0.0))
     for spring in loading.springs:
-        forces += _spring(images, spring, hand)
-    return tuple(forces), tuple(moments)
+        made += _spring(images, spring, hand)
+    return tuple(sorted(made, key=lambda one: not one.symbol.is_vector))
 
 
-def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Acting]:
+def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[ForceVector]:
     """Both forces of a spring, from its length and line as they are measured on the drawn mechanism."""
     drawn = (images.sheet.points.get(PointRef(point)) for point in spring.points)
     one, two = (
@@ -171,8 +170,8 @@ def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Acti
     length = hand.read(size) / images.mm
     force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
     symbol = Symbol("P", name=spring.name)
-    yield Acting(symbol, spring.links[0], force, one)
-    yield Acting(symbol, spring.links[1], -force, two, turned=True)
+    yield ForceVector(symbol, spring.links[0], force, one)
+    yield ForceVector(symbol, spring.links[1], -force, two, turned=True)
 
 
 def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:

@@ -185,7 +185,7 @@ def _below(page: FigurePage, forces: ForceSheet, stage: ForceStage, group: Force
     said = [line for told in moment_sentences(sheet, group, letters) for line in told.lines]
     if group.way == "drawn system":
         said.append(Phrase("force reason system", (listed(group.links),)))
-    elif len(group.equation) > 1 and group.way == "polygon":
+    elif len(group.polygon) > 1 and group.way == "polygon":
         said.append(Phrase(about("force reason polygon", group.links), (listed(group.links),)))
     equation = group_equation(sheet, group, letters, page.language, page.width)
     rows_of = equation and (Piece({"labels": (Group(equation.children, id=""),)}), equation.height)
@@ -199,9 +199,9 @@ def _below(page: FigurePage, forces: ForceSheet, stage: ForceStage, group: Force
 
 def group_equation(sheet: Sheet, group: ForceGroup, letters: Letters, language: str, width: float) -> Drawing | None:
     """The equation of a group over its rows of sizes and directions; None where it is drawn by one system."""
-    if group.way == "drawn system" or len(group.equation) < 2:
+    if group.way == "drawn system" or len(group.polygon) < 2:
         return None
-    written = write_sum(sheet, group.equation, letters, language, width)
+    written = write_sum(sheet, tuple(vector.term for vector in group.polygon), letters, language, width)
     title = term("forces", language)
     return Drawing(written.width, written.height, written.children, title, "", languages(language)[0])
 
@@ -330,7 +330,7 @@ def _arrows(
     labels: list[Label] = []
     taken: list[tuple[complex, complex]] = []
     near = _extent(sheet, group).grown(ARROW / times)
-    lines = {line.symbol: line.at for line in group.lines if near.holds(Box.around([on_page(line.at)]))}
+    lines = {symbol: at for symbol, (at, _) in group.lines.items() if near.holds(Box.around([on_page(at)]))}
     outside = set(links_cut_free(group))
     for n, vector in enumerate(_forces(group)):
         if not group.polygon and _within(vector, outside):
@@ -346,11 +346,11 @@ def _arrows(
         drawn.append(Group(arrow(tail, tip, kind, colour), id=group_id, classes=("acting",), step=step))
         markup = letters_of_force(letters, vector)
         labels.append(Label.of(symbol(markup, 3.0), (tail, tip), f"label-{group_id}", colour=colour, step=step))
-    turning = [(t.symbol, t.link, t.moment) for t in stage.state.turning]
+    turning = [(t.symbol, t.link, t.moment) for t in stage.state.known if t.moment]
     for one in group.couples:
-        on = one.symbol.other or one.symbol.link
-        if (on in outside and one.symbol.link not in outside) or not one.symbol.other:
-            turning.append((one.symbol, on if one.symbol.other else one.links[0], one.value))
+        sought = one.unknown.symbol
+        if (sought.other in outside and sought.link not in outside) or not sought.other:
+            turning.append((sought, sought.other or one.links[0], one.value))
     places: list[complex] = []
     for named, link, moment in turning:
         if link not in outside or not moment:
@@ -412,13 +412,14 @@ def _middle(sheet: Sheet, link: str) -> complex:
 def _arms(stage: ForceStage, group: ForceGroup, times: float) -> list[Primitive]:
     """Arms of the moments by which parts were found, from the point to the line of each force."""
     arms: list[Primitive] = []
-    for equation in (*group.moments, *(c for c in group.couples if c.symbol.kind == "M" and not c.symbol.other)):
-        step = stage.moments.get((equation.symbol, equation.part), stage.couples.get(equation.symbol))
+    for equation in (*group.moments, *(c for c in group.couples if not c.unknown.symbol.other)):
+        sought = equation.unknown
+        step = stage.moments.get((sought.symbol, sought.part), stage.couples.get(sought.symbol))
         found: list[Primitive] = []
         for one in equation.terms:
-            if one.arm is None or abs(one.arm.mm) * times < 1.0:
+            if one.arm is None or abs(one.arm) * times < 1.0:
                 continue
-            a, b = on_page(one.arm.about * times), on_page(one.arm.foot * times)
+            a, b = on_page(one.about * times), on_page(one.foot * times)
             found.append(Line(a, b, strokes.DIRECTION))
         arms += [Group(tuple(found), classes=("arms",), step=step)] if found else []
     return arms
@@ -427,10 +428,11 @@ def _arms(stage: ForceStage, group: ForceGroup, times: float) -> list[Primitive]
 SHORT = 0.02  # mm: a shorter force is a dot
 
 
-def polygons_of(group: ForceGroup) -> list[tuple[str, tuple[ForceVector, ...], tuple[ForceVector, ...]]]:
+def polygons_of(group: ForceGroup) -> list[tuple[str, Sequence[ForceVector], Sequence[ForceVector]]]:
     """The polygons of a group that are drawn apart: the link it is of ("" for the whole group), its vectors, and forces
     inside that close part of it."""
-    closing, own = [], []
+    closing: list[ForceVector] = []
+    own: list[tuple[str, Sequence[ForceVector], Sequence[ForceVector]]] = []
     drawn = {frozenset((v.symbol.link, v.symbol.other)): {v.tail, v.tip} for v in group.polygon if v.symbol.other}
     for link, vectors in group.inner.items():
         body = vectors[:-1]
@@ -440,8 +442,8 @@ def polygons_of(group: ForceGroup) -> list[tuple[str, tuple[ForceVector, ...], t
             closing += [] if there == {last.tail, last.tip} else [last]
         else:
             own.append((link, vectors, ()))
-    whole = [("", group.polygon, tuple(v for v in closing if abs(v.span) > SHORT))] if group.polygon else []
-    return [*whole, *(one for one in own if any(abs(v.span) > SHORT for v in one[1]))]
+    own = [one for one in own if any(abs(v.span) > SHORT for v in one[1])]
+    return [("", group.polygon, [v for v in closing if abs(v.span) > SHORT]), *own] if group.polygon else own
 
 
 def extent_of(vectors: Sequence[ForceVector]) -> Box:
@@ -528,7 +530,7 @@ def _wholes(vectors: Sequence[ForceVector]) -> Iterator[tuple[ForceVector, compl
     """Forces of which both parts stand in a polygon, whole."""
     for one, two in zip(vectors, (*vectors[1:], *vectors[:1]), strict=True):
         if one.symbol == two.symbol and {one.part, two.part} == {"t", "n"} and abs(one.tip - two.tail) < SHORT:
-            whole = ForceVector(one.symbol, "", one.link, one.at, one.tail, two.tip, False, one.turned)
+            whole = replace(one, part="", by="closing", tip=two.tip)
             if abs(whole.span) > SHORT and abs(one.span) > SHORT and abs(two.span) > SHORT:
                 yield whole, one.tail, two.tip
 

@@ -10,7 +10,7 @@ from graphkin.account.forces import lever_sum
 from graphkin.account.headings import written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report
-from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, LeverRow
+from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, Lever, MomentTerm
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, table
@@ -49,7 +49,7 @@ def lever_figure(
     language : "en", "zh" or "both"; the scene's own if None
     convention : "chinese", "us", "british" or "russian"; the scene's own if None
     """
-    shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in forces.levers[k]]
+    shown = [(k, state, lever) for k, state in enumerate(forces.states) for lever in state.levers]
     if not shown:
         return None
     sheet = sheet if report is None else replace(sheet, scales=report.scales)
@@ -120,7 +120,7 @@ def _drawn(sheet: Sheet, lever: Lever, letters: Letters, panel: Box, origin: com
             named = as_vector(letters.convention, markup) if row.pair is None else f"{markup}/l"
             named = f"−{named}" if row.turned else named
             labels.append(Label.of(symbol(named, 3.0), (on_page(at), on_page(tip)), f"label-{name}", colour=colour))
-        if row.pair is None and abs(row.arm) > SHORT and ends_of:
+        if row.pair is None and row.arm and abs(row.arm) > SHORT and ends_of:
             along = ends_of[0][1]
             foot = -1j * along * row.arm
             lines = [Line(0j, on_page(foot), strokes.DIMENSION)]
@@ -142,7 +142,7 @@ def _end(letters: Letters, name: str) -> str:
     return letters.end("velocity", PointRef(point, link)) or letters.point(point)
 
 
-def _forces_at(row: LeverRow) -> list[tuple[complex, complex]]:
+def _forces_at(row: MomentTerm) -> list[tuple[complex, complex]]:
     """Where a row's force or pair of forces stands, and its direction."""
     if not row.force:
         return []
@@ -152,9 +152,9 @@ def _forces_at(row: LeverRow) -> list[tuple[complex, complex]]:
     return [(tip, unit(row.force)), (tail, -unit(row.force))]
 
 
-def _row(row: LeverRow, newtons: float, letters: Letters) -> tuple[str, str, str, str]:
+def _row(row: MomentTerm, newtons: float, letters: Letters) -> tuple[str, str, str, str]:
     """A force with its arm and moment."""
-    size, arm = amount(abs(row.force) / newtons, DIGITS), on_paper(abs(row.arm))
+    size, arm = amount(abs(row.force) / newtons, DIGITS), on_paper(abs(row.arm or 0.0))
     moment = f"{'−' * (row.moment < 0)}{written(product(size, arm, carried=DIGITS))}" if row.arm else "0"
     name = f"{'−' * row.turned}${force_letters(letters.convention, row.symbol)}$" + " / $l$" * (row.pair is not None)
     return name, written(size), written(arm), moment
