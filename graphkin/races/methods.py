@@ -21,8 +21,7 @@ from graphkin.races.work import Entry, Work, best_time
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import PreparedMechanism
 from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.code import Code
-from graphkin.solver.expressions import Name
+from graphkin.solver.expressions import Code, Name
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import formulas
 from graphkin.solver.program import program_of

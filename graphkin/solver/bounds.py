@@ -18,7 +18,7 @@ import numpy as np
 from graphkin.scene.cams import LawCam
 from graphkin.solver.cams import follower_inputs, greatest_jerk
 from graphkin.solver.constraints import Constraints, Layout, Parts, led_relation, product, solve_all
-from graphkin.solver.decimals import conversion_error, meant, meant_angle
+from graphkin.solver.drivers import conversion_error, meant, meant_angle
 from graphkin.solver.pose import GIVEN, UNIT, Array, Drive, ErrorBound, Pose
 from graphkin.structure import Structure
 

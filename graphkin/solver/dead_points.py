@@ -13,7 +13,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.search import last_true, least_value
 from graphkin.solver.bounds import most_of
-from graphkin.solver.decimals import meant_value, working
+from graphkin.solver.drivers import meant_value, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton, positions, touch
 from graphkin.solver.larger_groups import GroupSolved

@@ -15,11 +15,11 @@ import numpy as np
 from graphkin.errors import SceneError, Unsolvable
 from graphkin.scene.model import Dimension, with_dimensions
 from graphkin.solver.assemblies import choose_forms
-from graphkin.solver.code import Code, Kernel
 from graphkin.solver.driver_range import range_from
 from graphkin.solver.drivers import GivenValues, UniformGrid, own_values
 from graphkin.solver.engine import SINGULAR
-from graphkin.solver.expressions import Name
+from graphkin.solver.expressions import Code, Name
+from graphkin.solver.kernel import Kernel
 from graphkin.solver.pose import Array, turned
 from graphkin.solver.prepared import CLEAR, PreparedMechanism, formulas, prepare
 from graphkin.solver.program import program_of

@@ -32,7 +32,7 @@ from graphkin.solver.drivers import UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import FIELDS, Array, Drive, Pose, rest
-from graphkin.solver.redundant import all_slides, redundant_poses
+from graphkin.solver.redundant import redundant_poses
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure
 from graphkin.structure.assembly import MOST_TURNS, ChangePoint, ways
@@ -317,10 +317,9 @@ class DriverRange:
         """Where two assemblies of a group meet in the range, and the motion goes smoothly on."""
         return self.ahead.change_points + (() if self.full else self.behind.change_points)
 
-    @cached_property
-    def assembly(self) -> tuple[Phrase, ...]:
-        """For each group which assembly was taken."""
-        return assembly_words(self.structure, self._own_forms)
+    @property
+    def _assembled(self) -> Callable[[], tuple[Phrase, ...]]:
+        return partial(assembly_words, self.structure, self._own_forms)
 
     # the motion
 
@@ -384,7 +383,7 @@ class DriverRange:
 
     def _motion(self, part: Array, values: Array, drive: Drive, good: Array, fine: bool = True) -> Motion:
         why = "" if good.all() or not fine else self.limit_why
-        found = motion_of(self.structure, drive, self.forms(part), self.assembly, good, why, fine)
+        found = motion_of(self.structure, drive, self.forms(part), self._assembled, good, why, fine)
         return replace(found, values=values, turned=self.turned(part))
 
     def angle(self, motion: Motion, link: str) -> Array:
@@ -429,7 +428,7 @@ def motion_of(
     structure: Structure,
     drive: Drive,
     forms: Mapping[int, Array],
-    assembly: tuple[Phrase, ...],
+    assembled: Callable[[], tuple[Phrase, ...]],
     good: Array,
     why: Wording = "",
     fine: bool = True,
@@ -439,7 +438,7 @@ def motion_of(
     Parameters
     ----------
     forms : the form of each group at each position, as for ``positions``
-    assembly : in words
+    assembled : tells the assembly in words
     good, why : which positions the motion reaches, shape (n,), and why it does not reach the others
     fine : False leaves 16 digits where they are rough, and the reasons away
     """
@@ -447,7 +446,7 @@ def motion_of(
     if n > BLOCK:
         blocks = (slice(first, min(first + BLOCK, n)) for first in range(0, n, BLOCK))
         own = (({i: f[rows] if np.ndim(f) and len(f) == n else f for i, f in forms.items()}, rows) for rows in blocks)
-        return joined((motion_of(structure, drive[r], f, assembly, good[r], why, fine) for f, r in own), n)
+        return joined((motion_of(structure, drive[r], f, assembled, good[r], why, fine) for f, r in own), n)
     state = positions(structure, drive, forms, fine=fine)
     status = np.where(good, "ok", "not assembled").astype("<U13")
     reasons: list[Wording] = ["" if g else why for g in good]
@@ -462,8 +461,7 @@ def motion_of(
     accuracy = Accuracy(structure, poses, state.drive, state.slack, state.refined, state.clear, ok)
     if any(link.redundant for link in structure.scene.links):
         poses = {**poses, **redundant_poses(structure, poses, ok, accuracy.of(()))}
-    slides = all_slides(structure)
-    return Motion(structure, drive.value, status, tuple(reasons), poses, slides, assembly, accuracy,
+    return Motion(structure, drive.value, status, tuple(reasons), poses, assembled, accuracy,
                   partial(range_of, structure))  # fmt: skip
 
 

@@ -18,10 +18,9 @@ from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.solver.bounds import LOOKED_UP, error_bounds, most_of, roughness
 from graphkin.solver.cams import follower_inputs
-from graphkin.solver.code import Code
-from graphkin.solver.decimals import cos_sin, meant, meant_angle, meant_value, working
+from graphkin.solver.drivers import cos_sin, meant, meant_angle, meant_value, working
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.expressions import DECIMALS, Name, Real, Vec
+from graphkin.solver.expressions import DECIMALS, Code, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
 from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of

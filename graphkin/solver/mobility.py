@@ -21,8 +21,7 @@ from graphkin.scene.symbol import PointRef
 from graphkin.solver.assemblies import choose_forms, new_places
 from graphkin.solver.cams import meeting_followers
 from graphkin.solver.dead_points import MOST_GROUPS, SAME, DeadPoint, dead_points, not_searched, singular
-from graphkin.solver.decimals import meant_value, working
-from graphkin.solver.drivers import own_values
+from graphkin.solver.drivers import meant_value, own_values, working
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
 from graphkin.solver.pose import Array, Drive
@@ -50,7 +49,8 @@ def structure_of(scene: Mechanism | Structure) -> Structure:
     if isinstance(scene, Structure):
         return scene
     try:
-        structure = meeting_followers(analyse(scene))
+        structure = analyse(scene)
+        structure = meeting_followers(structure) if scene.cams else structure
     except Unsolvable as stop:
         found = _diagnosis(scene) if stop.status == "mobility" else None
         if found is None:

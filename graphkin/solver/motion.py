@@ -22,7 +22,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.scene.tables import Measure
 from graphkin.solver.bounds import BLOCK, FEW, Accuracy
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose
-from graphkin.solver.quantities import Posed, pole, value_of_symbol
+from graphkin.solver.quantities import Posed, all_slides, pole, value_of_symbol
 from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
@@ -70,8 +70,7 @@ class Motion:
     status : str, shape (n,): "ok", "dead point" or "not assembled"
     reasons : for each position why it is not "ok", empty where it is; `why` is the same in English
     poses : each moving link, the frame, and the blocks of pins, by name; NaN where the status is not ok
-    slides : the sliding pairs and pins in slots, those of redundant links included
-    assembly : for each group, in the order of ``structure.groups``, which assembly was taken
+    assembled : tells which assembly was taken, for each group
     accuracy : from what the bounds of its errors are made
     reach : finds the range of the first driver; raises Unsolvable where there is none
     passed : the change points on the way here from the scene's own position
@@ -84,8 +83,7 @@ class Motion:
     status: Array
     reasons: tuple[Wording, ...]
     poses: Mapping[str, Pose]
-    slides: tuple[Pair, ...]
-    assembly: tuple[Phrase, ...]
+    assembled: Callable[[], tuple[Phrase, ...]]
     accuracy: Accuracy
     reach: Callable[[], Reach]
     turned: Mapping[str, Array] = field(default_factory=dict)
@@ -100,6 +98,16 @@ class Motion:
     @property
     def scene(self) -> Mechanism:
         return self.structure.scene
+
+    @cached_property
+    def slides(self) -> tuple[Pair, ...]:
+        """The sliding pairs and pins in slots, those of redundant links included."""
+        return all_slides(self.structure)
+
+    @cached_property
+    def assembly(self) -> tuple[Phrase, ...]:
+        """For each group, in the order of ``structure.groups``, which assembly was taken."""
+        return self.assembled()
 
     @property
     def growing(self) -> Motion:

@@ -14,14 +14,14 @@ from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Dimension, Mechanism, dimensions
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver.bounds import error_bounds
-from graphkin.solver.code import LONG, Code, Kernel
 from graphkin.solver.dead_points import singular
 from graphkin.solver.driver_range import DriverRange, range_of
 from graphkin.solver.drivers import GivenValues, UniformGrid, quarter
 from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.engine import SINGULAR, State, positions
-from graphkin.solver.expressions import Name, Real, Vec
+from graphkin.solver.expressions import Code, Name, Real, Vec
 from graphkin.solver.forces import forces_of
+from graphkin.solver.kernel import LONG, Kernel
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of

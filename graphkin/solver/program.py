@@ -12,10 +12,9 @@ from decimal import Decimal
 
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver
-from graphkin.solver.code import Code
-from graphkin.solver.decimals import meant, meant_direction
+from graphkin.solver.drivers import meant, meant_direction
 from graphkin.solver.dyads import DyadSolution, Joints, PoseFormula, solve_dyad
-from graphkin.solver.expressions import ExpressionGraph, Name, Real, Vec, components
+from graphkin.solver.expressions import Code, ExpressionGraph, Name, Real, Vec, components
 from graphkin.solver.pose import GIVEN, Pose
 from graphkin.structure import Body, Driven, Dyad, LargerGroup, Pair, Rolled, Structure
 from graphkin.structure.model import Coordinate

@@ -15,7 +15,8 @@ import numpy as np
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import dot
-from graphkin.scene.model import PlacedLink
+from graphkin.scene.bodies import SlidingPair
+from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
 from graphkin.solver.cams import cam_at
 from graphkin.solver.pose import UNIT, Array, ErrorBound, Pose, R, V
@@ -29,7 +30,10 @@ from graphkin.structure.transmission import (
 )
 from graphkin.words import Phrase
 
-__all__ = ["ORDERS", "VALUES", "Crossing", "Posed", "bound_of_symbol", "pole", "transmission", "value_of_symbol"]
+__all__ = [
+    "ORDERS", "VALUES", "Crossing", "Posed", "all_slides", "bound_of_symbol", "pole", "slide_pair", "transmission",
+    "value_of_symbol",
+]  # fmt: skip
 
 
 def _angle(direction: Array) -> Array:
@@ -109,6 +113,18 @@ class Posed(Generic[V, R]):
         """Of a sliding pair, along the guide's sense (m)."""
         guide = self.guide(slide)
         return ((self.poses[slide.a].z - guide.z) * guide.u.conjugate()).real  # type: ignore[no-any-return]
+
+
+def all_slides(structure: Structure) -> tuple[Pair, ...]:
+    """The sliding pairs, those of redundant links after the others."""
+    have = {s.key for s in structure.slides}
+    scene = structure.scene
+    return structure.slides + tuple(slide_pair(scene, s) for s in scene.slidings if s.key not in have)
+
+
+def slide_pair(scene: Mechanism, s: SlidingPair) -> Pair:
+    """A sliding pair of the file, that of a redundant link too."""
+    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
 
 
 def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:

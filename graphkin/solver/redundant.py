@@ -13,10 +13,11 @@ from graphkin.plane import cross, dot
 from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedLink
 from graphkin.solver.pose import Array, ErrorBound, Pose, rest
-from graphkin.structure import Pair, Structure
+from graphkin.solver.quantities import slide_pair
+from graphkin.structure import Structure
 from graphkin.words import Phrase
 
-__all__ = ["Fit", "all_slides", "fit", "redundant_poses"]
+__all__ = ["Fit", "fit", "redundant_poses"]
 
 FITS = 1e-9
 MOVED = 4.0
@@ -90,17 +91,6 @@ def redundant_poses(
     return placed
 
 
-def all_slides(structure: Structure) -> tuple[Pair, ...]:
-    """The sliding pairs, those of redundant links after the others."""
-    have = {s.key for s in structure.slides}
-    scene = structure.scene
-    return structure.slides + tuple(_slide(scene, s) for s in scene.slidings if s.key not in have)
-
-
-def _slide(scene: Mechanism, s: SlidingPair) -> Pair:
-    return Pair(s.key, s.link, s.on, scene.by_name[s.on].guides[s.guide], s.turn, s.pin)
-
-
 def fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit | None:
     """Place a link from what it is joined to; None if the links it is joined to do not place it."""
     with np.errstate(all="ignore"):
@@ -122,7 +112,7 @@ def _fit(scene: Mechanism, link: PlacedLink, poses: Mapping[str, Pose]) -> Fit |
     push = _most([np.abs(p.a) + (np.abs(p.alpha) + p.omega**2) * size for p in everything])
     missed = [[np.abs(a.z - b.z) / size, np.abs(a.v - b.v), np.abs(a.a - b.a)] for a, b in gaps]
     for s in slides:
-        pair = _slide(scene, s)
+        pair = slide_pair(scene, s)
         seen = poses[s.on].fixed(pair.guide.through, pair.guide.direction).inverse().of(pose)
         turn = seen.u * np.conj(s.turn)
         missed.append([np.abs(seen.z.imag) / size, np.abs(seen.v.imag), np.abs(seen.a.imag)])
@@ -153,7 +143,7 @@ def _on_guide(
 ) -> Pose | None:
     if not slides:
         return None
-    pair = _slide(scene, slides[0])
+    pair = slide_pair(scene, slides[0])
     guide = poses[pair.b].fixed(pair.guide.through, pair.guide.direction)
     u = guide.u * pair.turn
     for point, holder in shared.items():

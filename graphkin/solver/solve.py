@@ -28,7 +28,6 @@ from graphkin.solver.drivers import goal_values, own_values
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion
 from graphkin.solver.pose import Array, Drive, Pose, rest
-from graphkin.solver.redundant import all_slides
 from graphkin.solver.sentences import assembly_words
 from graphkin.structure import Structure, part_of
 from graphkin.structure.assembly import ChangePoint
@@ -81,7 +80,9 @@ def solve(
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)
     drive, here = Drive.at(structure, goal[None]), {i: f[None] for i, f in forms.items()}
-    found = motion_of(structure, drive, here, assembly_words(structure, forms), np.ones(1, dtype=bool), fine=fine)
+    found = motion_of(
+        structure, drive, here, partial(assembly_words, structure, forms), np.ones(1, dtype=bool), fine=fine
+    )
     return replace(found, passed=passed)
 
 
@@ -132,10 +133,9 @@ def _nowhere(structure: Structure, goal: Array, sweep: int | None, status: str, 
     poses = dict.fromkeys(names, gone)
     poses[structure.scene.frame.name] = none
     unknown = tuple(Phrase("assembled nowhere") for _ in structure.groups)
-    slides, said = all_slides(structure), (why,) * n
     nothing = np.zeros(n, dtype=bool)
     accuracy = Accuracy(structure, poses, Drive.at(structure, values), np.zeros((n, 0)), nothing, nothing, nothing)
-    return Motion(structure, values, np.full(n, status), said, poses, slides, unknown, accuracy,
+    return Motion(structure, values, np.full(n, status), (why,) * n, poses, lambda: unknown, accuracy,
                   partial(range_of, structure))  # fmt: skip
 
 
@@ -171,7 +171,7 @@ def as_drawn(motion: Motion, structure: Structure) -> Motion:
         omega = (np.conj(1j * way) * (end.v - start.v)).real / slot.radius
         alpha = (np.conj(1j * way) * (end.a - start.a)).real / slot.radius
         poses[slot.bar] = Pose(start.z, way, start.v, omega, start.a, alpha)
-    return replace(motion, structure=structure, poses=poses, slides=all_slides(structure))
+    return replace(motion, structure=structure, poses=poses)
 
 
 # -- the motion at moments in time, where drivers move by laws: their rates change from one moment to the --------------
@@ -220,7 +220,7 @@ def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     from graphkin.solver.continuity import follow_path
 
     forms = choose_forms(structure)
-    assembly = assembly_words(structure, forms)
+    assembly = partial(assembly_words, structure, forms)
     here, found = own_values(structure.scene), []
     sums: list[dict[str, float]] = []
     good, why = np.ones(len(value), dtype=bool), list[Wording]([""] * len(value))

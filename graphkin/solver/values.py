@@ -32,7 +32,6 @@ from graphkin.solver.forces import Action, Forces, balances, forces_of, without_
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
 from graphkin.solver.pose import Array, Pose
-from graphkin.solver.redundant import all_slides
 from graphkin.structure import Dyad, LargerGroup
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
@@ -177,7 +176,7 @@ def _of_cams(motion: Motion) -> Motion:
     if whole is None:
         return motion
     structure = structure_of(whole)
-    return replace(motion, structure=structure, slides=all_slides(structure))
+    return replace(motion, structure=structure)
 
 
 def _number(value: np.ndarray) -> Value:

@@ -17,7 +17,7 @@ from graphkin.scene.tables import Measure, Unit
 from graphkin.solver import DriverRange, Motion, forces_of, listed_points, own_slides, senses_along, value_of
 from graphkin.solver.pose import Array
 from graphkin.solver.prepared import PreparedMechanism
-from graphkin.solver.redundant import all_slides
+from graphkin.solver.quantities import all_slides
 from graphkin.structure import Structure, links_for
 from graphkin.table import Column, Table
 from graphkin.words import Wording

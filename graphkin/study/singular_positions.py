@@ -37,7 +37,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.dead_points import dead_points
-from graphkin.solver.decimals import working
+from graphkin.solver.drivers import working
 from graphkin.solver.engine import positions
 from graphkin.solver.pose import Array, Drive
 from graphkin.structure import Structure

@@ -12,7 +12,7 @@ import graphkin
 from graphkin.api.prepared import Prepared
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.symbol import Symbol
-from graphkin.solver import code
+from graphkin.solver import kernel
 from tests import scenes
 from tests.mechanisms import KINDS, random_scene
 
@@ -25,7 +25,7 @@ def shaper(**wishes: bool) -> Prepared:
 
 @pytest.fixture
 def without_numba(monkeypatch):
-    caches = code._library, code._compiled
+    caches = kernel._library, kernel._compiled
     for cache in caches:
         cache.cache_clear()
     monkeypatch.setitem(sys.modules, "numba", None)

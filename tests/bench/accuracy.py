@@ -24,8 +24,7 @@ from graphkin.solver import engine
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import follow_path
-from graphkin.solver.decimals import PI, meant, working
-from graphkin.solver.drivers import own_values
+from graphkin.solver.drivers import PI, meant, own_values, working
 from graphkin.solver.pose import FIELDS, Drive
 from graphkin.structure import Structure, analyse
 

@@ -21,8 +21,7 @@ from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import most_of
 from graphkin.solver.continuity import Path, follow_path
 from graphkin.solver.dead_points import singular
-from graphkin.solver.decimals import meant, meant_direction
-from graphkin.solver.drivers import own_values
+from graphkin.solver.drivers import meant, meant_direction, own_values
 from graphkin.solver.engine import State, positions
 from graphkin.solver.pose import Drive
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse

@@ -10,7 +10,7 @@ import pytest
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of, mechanism_of_text
 from graphkin.solver import PreparedMechanism, prepare, solve
-from graphkin.solver.code import kernel_text
+from graphkin.solver.kernel import kernel_text
 from tests import scenes
 
 ASKED = ("C", "v_C", "a_C", "omega_3", "alpha_3")

@@ -6,7 +6,7 @@ from decimal import Decimal, localcontext
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.decimals import cos_sin, meant
+from graphkin.solver.drivers import cos_sin, meant
 from graphkin.solver.engine import Discriminant
 from tests.scenes import four_bar
 
