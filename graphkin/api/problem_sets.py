@@ -37,12 +37,10 @@ from graphkin.papers.pdf import can_join, one_after_another
 from graphkin.papers.variants import (
     Answer,
     Job,
-    MadeSet,
     Render,
     Variant,
     accepted,
     asked_of,
-    jobs_of_rows,
     jobs_of_seed,
     make,
 )
@@ -53,7 +51,7 @@ from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import KeyPath, value_at
 from graphkin.study.designs import applied
 from graphkin.table import Table
-from graphkin.words import Phrase, Wording, languages
+from graphkin.words import Phrase, languages
 
 __all__ = ["ProblemSet", "drawn_schemes", "problem_set", "schemes_of"]
 
@@ -66,47 +64,56 @@ class ProblemSet(OfScene, Result):
     """A set of problems: what became of each variant, the table of all answers, and the files written."""
 
     mechanism: Mechanism
-    made: MadeSet
+    variants: tuple[Variant, ...]
     unused: tuple[str, ...] = ()
     folder: Path | None = None
 
     @property
+    def answers(self) -> dict[str, tuple[Answer, ...]]:
+        """The answers of the variants made, by their names, in order."""
+        return {variant.name: variant.answers for variant in self.variants if not variant.why}
+
+    @property
+    def failures(self) -> tuple[Variant, ...]:
+        """The variants that could not be made, each with its reason."""
+        return tuple(variant for variant in self.variants if variant.why)
+
+    @property
     def ok(self) -> bool:
         """Whether every variant was made."""
-        return self.made.ok
+        return not self.failures
 
     @property
     def data(self) -> dict[str, Json]:
         """All answers, remarks and failures, for programs."""
         variants: list[dict[str, Json]] = [
             {
-                "name": name,
-                "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in answers],
-                **({"remarks": list(self.made.remarks[name])} if name in self.made.remarks else {}),
+                "name": one.name,
+                "answers": [{"symbol": a.symbol, "value": a.value, "tolerance": a.tolerance} for a in one.answers],
+                **({"remarks": list(one.remarks)} if one.remarks else {}),
             }
-            for name, answers in self.made.answers.items()
-        ]
-        failures = [{"name": f.name, "why": f.why} for f in self.made.failures]
+            for one in self.variants if not one.why
+        ]  # fmt: skip
+        failures = [{"name": f.name, "why": f.why} for f in self.failures]
         return {"ok": self.ok, "variants": variants, "failures": failures, "unused": list(self.unused)}
 
     @cached_property
     def table(self) -> Table:
         """One row for each variant: its name, and each answer with its tolerance; failures at the end."""
-        answered = dict.fromkeys(a.symbol for answers in self.made.answers.values() for a in answers)
-        symbols = list(answered) or [str(s) for s in asked_of(self.mechanism)]
+        units = {a.symbol: a.unit for answers in self.answers.values() for a in answers}
+        symbols = list(units) or [str(s) for s in asked_of(self.mechanism)]
+        rows: list[tuple[object, ...]] = []
+        for one in sorted(self.variants, key=lambda one: bool(one.why)):
+            known = {a.symbol: (a.value, a.tolerance) for a in one.answers if not one.why}
+            said = f"failed: {one.why}" if one.why else "; ".join(one.remarks)
+            rows.append((one.name, *(x for s in symbols for x in known.get(s, (None, None))), said))
         heads = ("name", *(c for s in symbols for c in (s, f"{s} +-")), "remarks")
-        rows: list[tuple[object, ...]] = [
-            (name, *_cells(symbols, answers), "; ".join(self.made.remarks.get(name, ())))
-            for name, answers in self.made.answers.items()
-        ]
-        rows += [(f.name, *[None] * (2 * len(symbols)), f"failed: {f.why}") for f in self.made.failures]
-        known = {a.symbol: a.unit for answers in self.made.answers.values() for a in answers}
-        units = ("", *(known.get(s, "") for s in symbols for _ in range(2)), "")
-        return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), units)
+        beside = ("", *(units.get(s, "") for s in symbols for _ in range(2)), "")
+        return Table.of(heads, rows, ("", *[".6g"] * (2 * len(symbols)), ""), beside)
 
     def __getitem__(self, name: str) -> tuple[Answer, ...]:
         """The answers of a variant by its name.  Raises CallError for one that was not made."""
-        return tuple(named(self.made.answers, name, Phrase("no variant of this name")))
+        return tuple(named(self.answers, name, Phrase("no variant of this name")))
 
     @property
     def files(self) -> Mapping[str, bytes]:
@@ -115,14 +122,6 @@ class ProblemSet(OfScene, Result):
 
     def __repr__(self) -> str:
         return f"<ProblemSet {self.mechanism.name}>"
-
-
-def _cells(symbols: Sequence[str], answers: Sequence[Answer]) -> Iterator[float | None]:
-    """Value and tolerance of each quantity, None where a variant does not ask for it."""
-    known = {a.symbol: a for a in answers}
-    for symbol in symbols:
-        own = known.get(symbol)
-        yield from (None, None) if own is None else (own.value, own.tolerance)
 
 
 def problem_set(
@@ -192,20 +191,21 @@ def problem_set(
         own = {n if "/" in n else f"{stem}-{safe_name(n)}": f for n, f in files.items()}
         return [str(path.relative_to(folder)) for path in write_files(folder, {**scene_file, **own})]
 
-    def finish(made: MadeSet) -> None:
+    def finish(variants: Sequence[Variant]) -> None:
         if folder is not None:
-            ProblemSet(given, made, unused).write(folder)
-            if made.names:
+            made = ProblemSet(given, tuple(variants), unused)
+            made.write(folder)
+            if made.answers:
                 asked = dict.fromkeys(Symbol.parse(a.symbol) for answers in made.answers.values() for a in answers)
                 speaking = languages(language or given.question.sheet.language)[0]
-                blank = answers_template(tuple(asked), given.units, speaking, made.names)
+                blank = answers_template(tuple(asked), given.units, speaking, made.answers)
                 write_files(folder, {"answers_template.csv": blank.csv().encode("utf-8-sig")})
             for paper in ("problem", "key"):
-                own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.names]
+                own = [folder / f"{name}-{variant}-{paper}.pdf" for variant in made.answers]
                 if own and all(path.is_file() for path in own) and can_join():
                     whole = one_after_another([path.read_bytes() for path in own])
                     write_files(folder / f"{paper}s", {f"all-{paper}s.pdf": whole})
-            names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.names]
+            names = [[f"{name}-{variant}-{file}" for file in BANKED] for variant in made.answers]
             here = [{n[-len(f) :]: (folder / n).read_bytes() for n, f in zip(own, BANKED, strict=True)
                      if (folder / n).is_file()} for own in names]  # fmt: skip
             write_files(folder, bank(name, here))
@@ -243,9 +243,9 @@ def _jobs(
         if not varied_keys(source):
             raise CallError.of("variants", Phrase("nothing in the scene can vary"), Phrase("give lengths and a driver"))
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
-        return list(jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread)), ()
+        return jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread), ()
     table, columns = _data_of(source, rows)
-    return list(jobs_of_rows(_rows(source, columns, table.rows))), columns.unused
+    return list(_jobs_of_rows(source, columns, table.rows)), columns.unused
 
 
 def _reach(scene: Mechanism) -> tuple[float, float] | None:
@@ -283,11 +283,11 @@ def schemes_of(
     table, columns = _data_of(source, rows)
     made: dict[str, Mechanism] = {}
     problems: list[Problem] = []
-    for (line, _), (name, own, _, why) in zip(table.rows, _rows(source, columns, table.rows), strict=True):
-        if why:
-            problems.append(Problem(Phrase("line of students and line", students=rows, line=line), why))
+    for (line, _), job in zip(table.rows, _jobs_of_rows(source, columns, table.rows), strict=True):
+        if job.trouble:
+            problems.append(Problem(Phrase("line of students and line", students=rows, line=line), job.trouble))
         else:
-            made[name] = as_scene(own)
+            made[job.name] = as_scene(job.source)
     if problems:
         raise CallError(*problems)
     first = columns.name
@@ -316,11 +316,11 @@ def drawn_schemes(
     lines: list[tuple[str, ...]] = []
     keys = [path for path, _ in varied_keys(source)]
     with Workers(None, 1) as working:
-        for job, attempt in accepted(jobs, {}, working):
-            if attempt.variant is None:
-                raise Unsolvable("not drawn", Problem(Phrase("variant of name", name=job.name), attempt.why))
-            made[job.name] = attempt.variant.scene
-            lines.append((job.name, *(f"{float(value_at(attempt.variant.source, path)):.6g}" for path in keys)))
+        for job, variant in accepted(jobs, {}, working):
+            if variant.why:
+                raise Unsolvable("not drawn", Problem(Phrase("variant of name", name=job.name), variant.why))
+            made[job.name] = variant.scene
+            lines.append((job.name, *(f"{float(value_at(variant.source, path)):.6g}" for path in keys)))
     return made, (("", *(_head_of(source, path) for path in keys)), *lines)
 
 
@@ -336,26 +336,22 @@ def _head_of(source: Tables, path: KeyPath) -> str:
     return str(path[-1])
 
 
-def _rows(
-    source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]
-) -> Iterator[tuple[str, OwnTables, OwnTables | None, Wording]]:
+def _jobs_of_rows(source: Tables, columns: Columns, lines: Sequence[tuple[int, tuple[str, ...]]]) -> Iterator[Job]:
+    """One job for each row of data: its scene file, that with the driver where it was, what is wrong with it."""
     used: set[str] = set()
-    for line, cells in lines:
+    for number, (line, cells) in enumerate(lines, 1):
         known = columns.name is not None and columns.name < len(cells)
         name = safe_name(cells[columns.name or 0]) if known else f"line-{line}"
         while name in used:
             name = f"{name}-{line}"
         used.add(name)
         try:
-            settings = replaced(source, columns, cells)
-            made = _with(source, settings)
-            before = [s for s in settings if not s[0].startswith("driver") or not s[0].endswith((".angle", ".travel"))]
-            yield name, made, _with(source, before) if before != settings else None, ""
+            settings = dict(replaced(source, columns, cells))
+            moving = {k for k in settings if k.startswith("driver") and k.endswith((".angle", ".travel"))}
+            before = {k: value for k, value in settings.items() if k not in moving}
+            made, base = (applied(source, list(some), list(some.values())) for some in (settings, before))
+            yield Job(name, number, made, base=base if moving else None)
         except GraphkinError as error:
-            yield name, {}, None, error.problems[0].sentence
+            yield Job(name, number, {}, trouble=error.problems[0].sentence)
         except ValueError as error:
-            yield name, {}, None, error.args[0]
-
-
-def _with(source: Tables, settings: Sequence[tuple[str, float]]) -> OwnTables:
-    return applied(source, [k for k, _ in settings], [v for _, v in settings])
+            yield Job(name, number, {}, trouble=error.args[0])

@@ -105,11 +105,11 @@ def _problem_set(given: Given) -> None:
     if given.json:
         print_json(made.data)
     elif not given.quiet:
-        gaps = {"count": len(made.made.names), "folder": target, "answers": target / "answers.csv"}
+        gaps = {"count": len(made.answers), "folder": target, "answers": target / "answers.csv"}
         spoken = languages(given.lang or mechanism_of(given.scene).question.sheet.language)[0]
         tell(say(Phrase("problems in a folder with all answers", **gaps), spoken))
     tell_unused(made.unused)
-    for failure in made.made.failures:
+    for failure in made.failures:
         complain(Phrase("where and what", where=failure.name, found=failure.why))
     if not made.ok:
-        raise typer.Exit(min(failure.exit_code for failure in made.made.failures))
+        raise typer.Exit(min(failure.exit_code for failure in made.failures))

@@ -8,13 +8,12 @@ made again.
 from __future__ import annotations
 
 import copy
-import json
 import math
 import re
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, is_dataclass
+from dataclasses import asdict, dataclass, field, is_dataclass, replace
 from itertools import islice, pairwise
 from pathlib import Path
 
@@ -31,14 +30,15 @@ from graphkin.plane import cross
 from graphkin.scene import mechanism_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "Answer", "Failure", "Job", "MadeSet", "Render", "Unfit", "Variant", "accepted", "asked_of", "distinct", "examined",
-    "jobs_of_rows", "jobs_of_seed", "make",
+    "Answer", "Job", "Render", "Unfit", "Variant", "accepted", "asked_of", "distinct", "examined", "jobs_of_seed",
+    "make",
 ]  # fmt: skip
 
 LEAST_READING = 10.0  # mm on paper
@@ -66,17 +66,25 @@ class Answer:
 
 @dataclass(frozen=True)
 class Variant:
-    """One variant: its name, the mapping of its scene file, its answers, and what should be known of it."""
+    """One variant: its name, the mapping of its scene file, its answers, what should be known of it, and the attempt
+    that gave it; or ``why`` it could not be made, with the exit code of that."""
 
     name: str
-    source: Tables
-    answers: tuple[Answer, ...]
+    source: Tables = field(default_factory=dict)
+    answers: tuple[Answer, ...] = ()
     remarks: tuple[str, ...] = ()
+    attempt: int = 0
+    why: str = ""
+    exit_code: int = Unsolvable.exit_code
 
     @property
     def scene(self) -> Mechanism:
         """The variant as a scene."""
         return mechanism_of(self.source)
+
+    def failed(self, error: Exception) -> Variant:
+        """The variant as one whose papers could not be made."""
+        return replace(self, why=_reason(error), exit_code=getattr(error, "exit_code", Unsolvable.exit_code))
 
 
 class Unfit(Exception):
@@ -355,57 +363,13 @@ class Job:
     trouble: Wording = ""
 
 
-@dataclass(frozen=True)
-class Attempt:
-    """What became of a job: a variant with the attempt that gave it, or why there is none."""
-
-    variant: Variant | None
-    attempt: int = 0
-    why: str = ""
-
-
-@dataclass(frozen=True)
-class Failure:
-    """A variant that could not be made."""
-
-    name: str
-    why: str
-    exit_code: int = Unsolvable.exit_code
-
-
-@dataclass
-class MadeSet:
-    """What a set came to: the answers of the variants made, remarks, and failures; the scenes are in the folder."""
-
-    answers: dict[str, tuple[Answer, ...]] = field(default_factory=dict)
-    remarks: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    failures: list[Failure] = field(default_factory=list)
-
-    @property
-    def names(self) -> list[str]:
-        """The variants made, in order."""
-        return list(self.answers)
-
-    @property
-    def ok(self) -> bool:
-        """Whether every variant was made."""
-        return not self.failures
-
-
-def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> Iterator[Job]:
+def jobs_of_seed(source: Tables, count: int, seed: int, spread: Spread) -> list[Job]:
     """One job for each of so many variants of a scene file."""
     digits = max(2, len(str(count)))
-    for number in range(1, count + 1):
-        yield Job(f"{number:0{digits}d}", number, source, spread, seed)
+    return [Job(f"{number:0{digits}d}", number, source, spread, seed) for number in range(1, count + 1)]
 
 
-def jobs_of_rows(rows: Iterable[tuple[str, Tables, Tables | None, Wording]]) -> Iterator[Job]:
-    """One job for each row of data: name, scene file, the file with the driver where it was, what is wrong with it."""
-    for number, (name, source, base, trouble) in enumerate(rows, 1):
-        yield Job(name, number, source, base=base, trouble=trouble)
-
-
-def work(job: Job, attempt: int) -> Attempt:
+def work(job: Job, attempt: int) -> Variant:
     """The first good variant of a job from an attempt on; depends on nothing else, so it runs anywhere.
 
     Only how soon it is given up depends on the machine.
@@ -415,7 +379,7 @@ def work(job: Job, attempt: int) -> Attempt:
     why: Counter[str] = Counter()
     begun = time.process_time()
     large = bool(analyse(mechanism_of(job.source)).larger_groups)
-    lone: Attempt | None = None  # of which a pencil finds one quantity
+    lone: Variant | None = None  # of which a pencil finds one quantity
     for k in range(attempt, ATTEMPTS):
         if time.process_time() - begun > (LONGER if large else PATIENCE) or (lone is not None and k - attempt >= AMONG):
             break
@@ -426,12 +390,10 @@ def work(job: Job, attempt: int) -> Attempt:
             source = _named(candidate(job.source, spread, job.seed, job.number, k), job.name)
             was = _where_it_was(source, job.source)
             bounds = level_of(job.source)
-            made = Attempt(found := examined(source, was, job.name, bounds=bounds, fewest=fewest), k)
-            if not large or len(found.answers) > 1 or source.get("find"):
+            made = replace(examined(source, was, job.name, bounds=bounds, fewest=fewest), attempt=k)
+            if not large or len(made.answers) > 1 or source.get("find"):
                 return made
             lone = lone or made
-        except Unfit as unfit:
-            why[str(unfit)] += 1
         except Exception as error:  # whatever goes wrong with one must not take the others along
             why[_reason(error)] += 1
     if lone is not None:
@@ -440,22 +402,20 @@ def work(job: Job, attempt: int) -> Attempt:
     if why:
         reason = "for example: {} ({} times)".format(*why.most_common(1)[0])
     easier = 'ask for less in "find", narrow [vary] ranges, or allow more by [vary] tolerance = 0.1 or level = "hard"'
-    return Attempt(None, ATTEMPTS, f"none of {why.total()} attempts is a good problem, {reason}; {easier}")
+    return Variant(job.name, why=f"none of {why.total()} attempts is a good problem, {reason}; {easier}")
 
 
-def _row(job: Job) -> Attempt:
+def _row(job: Job) -> Variant:
     """A row of data as it stands; what makes it hard to draw is a remark."""
     why = (str(job.trouble).splitlines() or [""])[0]
     for base in (job.base, None) if job.base is not None else (None,):
         if job.trouble:
             break
         try:
-            return Attempt(examined(_named(job.source, job.name), base, job.name, strict=False))
-        except Unfit as unfit:
-            why = str(unfit)
+            return examined(_named(job.source, job.name), base, job.name, strict=False)
         except Exception as error:
             why = _reason(error)
-    return Attempt(None, 0, why)
+    return Variant(job.name, why=why)
 
 
 def _named(source: Tables, name: str) -> OwnTables:
@@ -473,17 +433,14 @@ def _named(source: Tables, name: str) -> OwnTables:
 
 def _where_it_was(source: Tables, original: Tables) -> OwnTables:
     """The file with the drivers' values of the original, where its sketch holds."""
-    made = json.loads(json.dumps(source))
+    made = copy.deepcopy(dict(source))
     for path, kind in varied_keys(original):
         if kind in ("angle", "travel", "moment") or (path[0] == "driver" and "law" in path):
-            place, old = made, original
-            for part in path[:-1]:
-                place, old = place[part], old[part]  # type: ignore[index]
-            place[path[-1]] = old[path[-1]]  # type: ignore[index]
-    return dict(made)
+            put_at(made, path, value_at(original, path))
+    return made
 
 
-def distinct(one: Sequence[Answer], others: Iterator[Sequence[Answer]]) -> bool:
+def distinct(one: Sequence[Answer], others: Iterable[Sequence[Answer]]) -> bool:
     """Whether some answer differs from that of every other variant by more than both may be drawn wrong."""
     for other in others:
         known = {a.symbol: a for a in other}
@@ -500,8 +457,8 @@ def make(
     keep: Callable[[Variant, Mapping[str, bytes]], Iterable[str]] | None = None,
     render: Render | None = None,
     progress: Progress | None = None,
-    finish: Callable[[MadeSet], None] | None = None,
-) -> MadeSet:
+    finish: Callable[[Sequence[Variant]], None] | None = None,
+) -> tuple[Variant, ...]:
     """Make every variant of a set, in order, each different in its answers from those before.
 
     Parameters
@@ -514,43 +471,33 @@ def make(
 
     A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
-    made = MadeSet()
+    made: list[Variant] = []
     points = Checkpoints.of(folder, "set", _key(jobs, render)) if folder is not None and jobs else None
     done = _finished(points)
     if points is not None:
         points.open(variants=len(jobs))
     again = False
 
-    def settle(job: Job, result: Attempt, papers: Started[Mapping[str, bytes] | Failure] | None) -> None:
+    def settle(job: Job, variant: Variant, papers: Started[tuple[Variant, Mapping[str, bytes]]] | None) -> None:
         nonlocal again
-        variant = result.variant
-        rendered: Mapping[str, bytes] | Failure = papers.result() if papers is not None else {}
-        failure = Failure(job.name, result.why) if variant is None else None
         files: tuple[str, ...] = ()
-        if isinstance(rendered, Failure):
-            failure = failure or rendered
-        elif papers is not None and keep is not None and variant is not None:
+        if papers is not None:
+            variant, rendered = papers.result()
             try:
-                files = tuple(keep(variant, rendered))
+                files = tuple(keep(variant, rendered)) if keep is not None and not variant.why else ()
             except Exception as error:
-                failure = Failure(job.name, _reason(error))
-        if variant is not None and failure is not None:
-            again = True
-        elif points is not None and job.number not in done:
-            points.save(job.number, {**asdict(result), "files": files})
-        if failure is not None or variant is None:
-            made.failures.append(failure or Failure(job.name, result.why))
-        else:
-            made.answers[job.name] = variant.answers
-            if variant.remarks:
-                made.remarks[job.name] = variant.remarks
+                variant = variant.failed(error)
+            again = again or bool(variant.why)
+        if points is not None and job.number not in done and not (papers is not None and variant.why):
+            points.save(job.number, {**asdict(variant), "files": files})
+        made.append(variant)
         if progress is not None:
-            progress(len(made.answers) + len(made.failures), len(jobs))
+            progress(len(made), len(jobs))
 
-    waiting: deque[tuple[Job, Attempt, Started[Mapping[str, bytes] | Failure] | None]] = deque()
-    for job, result in accepted(jobs, done, workers):
-        new = result.variant is not None and job.number not in done
-        waiting.append((job, result, workers.start(_rendered, render, result.variant) if new else None))
+    waiting: deque[tuple[Job, Variant, Started[tuple[Variant, Mapping[str, bytes]]] | None]] = deque()
+    for job, variant in accepted(jobs, done, workers):
+        new = not variant.why and job.number not in done
+        waiting.append((job, variant, workers.start(_rendered, render, variant) if new else None))
         while len(waiting) > (workers.ahead if render is not None else 0):
             settle(*waiting.popleft())
     for one in waiting:
@@ -559,14 +506,14 @@ def make(
         finish(made)
     if points is not None and not again:
         points.close()
-    return made
+    return tuple(made)
 
 
-def accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers) -> Iterator[tuple[Job, Attempt]]:
+def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers) -> Iterator[tuple[Job, Variant]]:
     """What becomes of each job, in order; variants drawn from a seed are distinct from all before them."""
     taken: list[tuple[Answer, ...]] = []
-    refused: Attempt | None = None
-    queue: deque[tuple[Job, Started[Attempt] | None]] = deque()
+    refused: Variant | None = None
+    queue: deque[tuple[Job, Started[Variant] | None]] = deque()
     left = iter(jobs)
     while True:
         # nothing is begun beside the first before it has shown that the scene can vary
@@ -576,21 +523,17 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Attempt], workers: Workers)
             return
         job, started = queue.popleft()
         if refused is not None:
-            yield job, refused
+            yield job, replace(refused, name=job.name)
             continue
-        result = done[job.number] if started is None else started.result()
-        if result.variant is None and job.spread is not None and not taken:
-            refused = result  # what no attempt at the first one makes a good problem, none at the others will
-        while (
-            started is not None
-            and job.spread is not None
-            and result.variant is not None
-            and not distinct(result.variant.answers, iter(taken))
-        ):
-            result = workers.start(work, job, result.attempt + 1).result()
-        if result.variant is not None:
-            taken.append(result.variant.answers)
-        yield job, result
+        variant = done[job.number] if started is None else started.result()
+        if variant.why and job.spread is not None and not taken:
+            refused = variant  # what no attempt at the first one makes a good problem, none at the others will
+        drawn = started is not None and job.spread is not None
+        while drawn and not variant.why and not distinct(variant.answers, taken):
+            variant = workers.start(work, job, variant.attempt + 1).result()
+        if not variant.why:
+            taken.append(variant.answers)
+        yield job, variant
 
 
 def _key(jobs: Sequence[Job], render: Render | None) -> str:
@@ -601,33 +544,26 @@ def _key(jobs: Sequence[Job], render: Render | None) -> str:
     return key_of(ATTEMPTS, papers, *drawn)
 
 
-def _finished(points: Checkpoints | None) -> dict[int, Attempt]:
+def _finished(points: Checkpoints | None) -> dict[int, Variant]:
     """Finished jobs by number, of those whose files are all there."""
-    found: dict[int, Attempt] = {}
-    if points is not None:
-        for number, piece in points.done()[0].items():
-            if all((points.place.parent / name).is_file() for name in piece.facts["files"]):
-                found[number] = _made(piece.facts)
+    found: dict[int, Variant] = {}
+    for number, piece in points.done()[0].items() if points is not None else ():
+        facts = dict(piece.facts)
+        if points is not None and all((points.place.parent / name).is_file() for name in facts.pop("files")):
+            answers, remarks = tuple(Answer(**one) for one in facts["answers"]), tuple(facts["remarks"])
+            found[number] = Variant(**{**facts, "answers": answers, "remarks": remarks})
     return found
 
 
-def _made(facts: Tables) -> Attempt:
-    v = facts["variant"]
-    if v is None:
-        return Attempt(None, facts["attempt"], facts["why"])
-    answers = tuple(Answer(**a) for a in v["answers"])
-    return Attempt(Variant(v["name"], v["source"], answers, tuple(v["remarks"])), facts["attempt"], facts["why"])
-
-
-def _rendered(render: Render | None, variant: Variant) -> Mapping[str, bytes] | Failure:
-    """The papers of a variant by name, or why there are none."""
+def _rendered(render: Render | None, variant: Variant) -> tuple[Variant, Mapping[str, bytes]]:
+    """A variant with its papers by name, or failed, with the reason why there are none."""
     try:
-        return render(variant) if render is not None else {}
+        return variant, render(variant) if render is not None else {}
     except Exception as error:  # whatever goes wrong with one must not take the others along
-        return Failure(variant.name, _reason(error), getattr(error, "exit_code", Unsolvable.exit_code))
+        return variant.failed(error), {}
 
 
 def _reason(error: Exception) -> str:
     """What went wrong in one line; what the program did not foresee with the kind of error."""
     text = (str(error).splitlines() or [""])[0][:300]
-    return text if isinstance(error, GraphkinError) else f"{type(error).__name__}: {text}"
+    return text if isinstance(error, GraphkinError | Unfit) else f"{type(error).__name__}: {text}"
