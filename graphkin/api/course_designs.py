@@ -56,7 +56,7 @@ from graphkin.papers.data_rows import table_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of, paper_plan
 from graphkin.papers.pdf import can_join, can_typeset, one_after_another, papers_as
-from graphkin.papers.pictures import bare_picture, mechanism_picture, parts
+from graphkin.papers.pictures import bare_picture, mechanism_picture
 from graphkin.papers.prepare import FORMATS, compared, lesson_of, positions
 from graphkin.papers.problem import given as given_words
 from graphkin.papers.problem import paper_title, scene_title
@@ -535,8 +535,7 @@ def _cover(lesson: Lesson, student: Student, place: Said) -> Iterable[Block]:
             yield Paragraph(said(key, language, in_markup(text)))
     yield Paragraph(place)
     yield Fields(tuple(said(key, language) for key in (*blanks, "course teacher", "date")))
-    layers = parts(lesson.sheet, "mechanism", lesson.letters, language)
-    yield Picture(mechanism_picture(lesson.sheet, layers, lesson.letters, language))
+    yield Picture(mechanism_picture(lesson))
 
 
 def _letters(head: str) -> str:

@@ -8,7 +8,7 @@ or breaks a line of text.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -18,27 +18,10 @@ from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = [
-    "Beside",
-    "Block",
-    "Document",
-    "Fields",
-    "Heading",
-    "Paragraph",
-    "Picture",
-    "Plate",
-    "Said",
-    "StepItem",
-    "Steps",
-    "TableBlock",
-    "Together",
-    "clean",
-    "finished",
-    "laid_out",
-    "numbered",
-    "said",
-    "sentences",
+    "Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Plate", "Said", "StepItem",
+    "Steps", "TableBlock", "Together", "clean", "finished", "in_each", "laid_out", "numbered", "said", "sentences",
     "spoken",
-]
+]  # fmt: skip
 
 # control characters, halves of surrogates, what no file may hold, and marks that turn the direction of writing
 _UNFIT = re.compile(
@@ -185,7 +168,12 @@ def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | 
 
 def said(key: str, language: str, *args: object) -> Said:
     """Words from the table of terms, in the languages of a sheet ("en", "zh" or "both")."""
-    return tuple((each, say(Phrase(key, args), each)) for each in languages(language))
+    return in_each(language, lambda each: say(Phrase(key, args), each))
+
+
+def in_each(language: str, words: Callable[[str], str]) -> Said:
+    """Words made for each language of a sheet."""
+    return tuple((each, words(each)) for each in languages(language))
 
 
 def spoken(markup: str, language: str) -> Said:

@@ -21,10 +21,10 @@ from graphkin.account.headings import structure_words
 from graphkin.checking.slips import Evidence
 from graphkin.errors import GraphkinError
 from graphkin.papers.answer_key import key_rows
-from graphkin.papers.blocks import clean
+from graphkin.papers.blocks import clean, in_each
 from graphkin.papers.html import rendered, said_html, words_html
 from graphkin.papers.lesson import Lesson, plain_words
-from graphkin.papers.pictures import mechanism_picture, parts
+from graphkin.papers.pictures import mechanism_picture
 from graphkin.papers.problem import given, scene_title
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
@@ -83,14 +83,11 @@ def question_of(lesson: Lesson, evidence: Evidence, name: str) -> Question:
     """The question of a lesson; quantities for which a drawing promises nothing are left out."""
     first = languages(lesson.language)[0]
     scene = lesson.sheet.scene
-    built = tuple(
-        (each, word("between sentences", each).join(structure_words(scene.whole, each)))
-        for each in languages(lesson.language)
+    built = in_each(
+        lesson.language, lambda each: word("between sentences", each).join(structure_words(scene.whole, each))
     )
     paragraphs = [built, *(p.words for p in given(lesson))]
-    drawing = mechanism_picture(
-        lesson.sheet, parts(lesson.sheet, "mechanism", lesson.letters, lesson.language), lesson.letters, lesson.language
-    )
+    drawing = mechanism_picture(lesson)
     asked = []
     for row in key_rows(lesson):
         if not row.asked or not row.tolerance or row.tolerance >= abs(row.exact):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.account.account import Account
@@ -15,7 +15,9 @@ from graphkin.construction.forces import ForceSheet, forces_on
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import DiagramName, Step
 from graphkin.drawing.text import Atom, parsed
+from graphkin.papers.blocks import Said, in_each
 from graphkin.scene.symbol import Symbol
+from graphkin.words import Phrase
 
 __all__ = ["Lesson", "Stage", "plain_words", "stages"]
 
@@ -90,6 +92,22 @@ class Lesson:
     def forces(self) -> ForceSheet | None:
         """The forces as they are drawn; None where there is neither mass nor load, or nothing of them is asked."""
         return forces_on(self.sheet) if self.sheet.has_forces else None
+
+    @cached_property
+    def scaled(self) -> Sheet:
+        """The sheet with the scale of its forces."""
+        sheet = self.sheet
+        return sheet if self.forces is None else replace(sheet, scales=replace(sheet.scales, force=self.forces.per_mm))
+
+    @property
+    def level(self) -> str:
+        """How hard the problem is meant to be, as ``[vary]`` of the scene says: "easy", "usual" or "hard"."""
+        vary = self.sheet.scene.question.vary
+        return vary.level if vary is not None else "usual"
+
+    def sentence(self, phrase: Phrase) -> Said:
+        """A phrase as a sentence in the languages of the handout."""
+        return in_each(self.language, lambda each: self.account.sentence(phrase, each))
 
     @cached_property
     def results(self) -> tuple[Compared, ...]:

@@ -47,6 +47,11 @@ class Paper:
         return Paper(2 * self.width, self.height) if upright else Paper(self.width, 2 * self.height)
 
     @property
+    def folded(self) -> bool:
+        """Whether a page is as two smaller ones beside each other."""
+        return self.width > self.height
+
+    @property
     def narrow(self) -> float:
         """Width of a figure so narrow that words stand beside it."""
         return self.body.width - COLUMN

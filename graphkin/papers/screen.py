@@ -46,7 +46,7 @@ from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
-from graphkin.papers.problem import equation_words, given, scene_title
+from graphkin.papers.problem import given, scene_title
 from graphkin.papers.solution import results_blocks, solution, solution_blocks, stage_title, step_items
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -263,10 +263,7 @@ def _step(item: StepItem | ForceStep, figure: str, stage: int, language: str) ->
 
 
 def _equation(lesson: Lesson, stage: Stage) -> str:
-    if stage.equation is None:
-        return ""
-    words = equation_words(lesson, stage.equation)
-    return svg_element(equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words))
+    return svg_element(equation_picture(lesson, stage.equation)) if stage.equation is not None else ""
 
 
 # -- figures of a position ---------------------------------------------------------------------------------------------
@@ -362,7 +359,7 @@ def _forces(
     forces, language = lesson.forces, lesson.language
     if forces is None:
         return
-    sheet = replace(lesson.sheet, scales=replace(lesson.sheet.scales, force=forces.per_mm))
+    sheet = lesson.scaled
     first = languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
     before = len(stages)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 from graphkin.account.headings import FIGURE_WORDS, drivers, written
 from graphkin.account.notation import scale_statement
 from graphkin.checking.report import exact, measured
-from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures.forces import group_equation, group_picture
 from graphkin.drawing.figures.lever import lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
@@ -27,6 +25,7 @@ from graphkin.papers.blocks import (
     Steps,
     TableBlock,
     Together,
+    in_each,
     numbered,
     said,
     sentences,
@@ -35,7 +34,7 @@ from graphkin.papers.blocks import (
 from graphkin.papers.lesson import Lesson, Stage
 from graphkin.papers.paper import paper_of
 from graphkin.papers.pictures import Layers, bare_picture, equation_picture, parts, stage_picture
-from graphkin.papers.problem import equation_words, given, paper_title, scene_title
+from graphkin.papers.problem import given, paper_title, scene_title
 from graphkin.words import Phrase, about, languages, say, word
 
 __all__ = ["beginning", "results_blocks", "solution", "solution_blocks", "stage_title", "step_items"]
@@ -60,13 +59,16 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     """Stage by stage; ``lead`` stands before the first."""
     layers: dict[str, Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
-    plans = _plans(lesson)
+    figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    orders: list[str] = [plan.order for plan in moving_plans(lesson.sheet)] if figure is not None else []
+    # velocity plans of what rolls, and those of the tangential accelerations, each a figure
+    plans = dict(zip(orders, map(bare_picture, (figure, *figure.further) if figure else ()), strict=True))
     count = 0  # of the figures
     for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
-            layers[stage.diagram] = parts(lesson.sheet, stage.diagram, lesson.letters, lesson.language)
+            layers[stage.diagram] = parts(lesson, stage.diagram)
         opening = lead if stage is lesson.stages[0] else ()
-        if _on_plan(stage):
+        if stage.equation is None and all(step.per_mm for step in stage.steps):  # drawn on the plan of a train alone
             plan = plans.pop(stage.diagram, None)
             count += plan is not None
             yield Together(tuple(_plan_blocks(lesson, stage.diagram, plan, count, stage)))
@@ -87,18 +89,6 @@ def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterato
     yield from _force_blocks(lesson, count)
 
 
-def _on_plan(stage: Stage) -> bool:
-    """Whether nothing of a stage is drawn but on the plan of a train."""
-    return stage.equation is None and all(step.per_mm for step in stage.steps)
-
-
-def _plans(lesson: Lesson) -> dict[str, Drawing]:
-    """The velocity plans of what rolls, and those of the tangential accelerations, each a figure."""
-    figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
-    moving = [plan.order for plan in moving_plans(lesson.sheet)]
-    return {} if figure is None else dict(zip(moving, map(bare_picture, (figure, *figure.further)), strict=True))
-
-
 def _plan_blocks(
     lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
 ) -> Iterator[Heading | Steps | Picture]:
@@ -116,18 +106,17 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
     if forces is None:
         return
-    scaled = replace(sheet, scales=replace(sheet.scales, force=forces.per_mm))
-    statement = Paragraph(spoken(scale_statement(scaled, lesson.letters.convention, "force"), language))
-    lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language), 2), statement)
+    statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
+    lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
-    for turn, stage in enumerate(force_stages(scaled, forces, lesson.letters, language)):
+    for turn, stage in enumerate(force_stages(lesson.scaled, forces, lesson.letters, language)):
         steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
         title = stage.title
         if len(forces.states) > 1 and stage.group is not None:
             load = said("force with load" if stage.again else "force without load", language)
             title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
         count += stage.group is not None
-        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, scaled, stage, f"-{turn}", count), steps))
+        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), steps))
         lead = ()
         if stage.figure == "lever" and lever is not None:
             count += 1
@@ -135,60 +124,60 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
             lever = None
 
 
-def _force_pictures(lesson: Lesson, scaled: Sheet, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
+def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
     """The equation of a group over its rows, and the group cut free beside its polygon."""
     forces, group, language = lesson.forces, stage.group, lesson.language
     if forces is None or group is None:
         return
-    width = paper_of(scaled.scene).body.width
-    equation = group_equation(scaled, group, lesson.letters, language, width)
+    width = paper_of(lesson.sheet.scene).body.width
+    equation = group_equation(lesson.scaled, group, lesson.letters, language, width)
     if equation is not None:
         yield Picture(equation, joined=True)
-    drawn = group_picture(scaled, forces, stage, group, lesson.letters, language, width, tag)
+    drawn = group_picture(lesson.scaled, forces, stage, group, lesson.letters, language, width, tag)
     told = said(about("figure of forces", group.links), language, ", ".join(group.links))
     yield Picture(drawn, numbered(count, told))
 
 
 def results_blocks(lesson: Lesson) -> Iterator[Block]:
-    """Remarks on the construction, results, and their check."""
-    yield from _remarks(lesson)
-    yield Together(
-        (
-            Heading(said("results", lesson.language)),
-            Paragraph(spoken(drivers(lesson.sheet, lesson.letters), lesson.language)),
-            _results(lesson),
-            Paragraph(_verdict(lesson)),
-            Paragraph(sentences(*(said(key, lesson.language) for key in ("check words", "sense words"))), small=True),
-        )
-    )
+    """Remarks on the construction, results, and whether the readings of the table agree."""
+    language = lesson.language
+    if lesson.sheet.notes:
+        yield Heading(said("remarks", language), 3)
+    for note in lesson.sheet.notes:
+        yield Paragraph(lesson.sentence(note))
+    rows = [row for row in lesson.results if row.ok is not None]
+    wrong = [row for row in rows if row.ok is False]
+    agree = Phrase(about("all agree", rows), (len(rows),))
+    verdict = lesson.sentence(Phrase("not all agree", (len(wrong), len(rows))) if wrong else agree)
+    how = sentences(*(said(key, language) for key in ("check words", "sense words")))
+    yield Together((
+        Heading(said("results", language)),
+        Paragraph(spoken(drivers(lesson.sheet, lesson.letters), language)),
+        _results(lesson),
+        Paragraph(verdict),
+        Paragraph(how, small=True),
+    ))  # fmt: skip
 
 
 def stage_title(lesson: Lesson, stage: Stage) -> Said:
     """What a stage is about: the position, an equation and its kind, or the vectors asked for besides."""
+    equation = stage.equation
     if stage.diagram == "mechanism":
         return said("the position", lesson.language)
-    if stage.equation is None:
+    if equation is None:
         return said("further vectors", lesson.language)
-    return tuple(
-        (
-            each,
-            say(Phrase("equation numbered", (stage.equation.number,)), each)
-            + word("colon", each)
-            + word(f"for {stage.diagram}", each),
-        )
-        for each in languages(lesson.language)
+    numbered_one = Phrase("equation numbered", (equation.number,))
+    return in_each(
+        lesson.language,
+        lambda each: say(numbered_one, each) + word("colon", each) + word(f"for {stage.diagram}", each),
     )
 
 
 def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
     """The steps of a stage in words and numbers."""
-    account = lesson.account
+    account, names = lesson.account, languages(lesson.language)
     return tuple(
-        StepItem(
-            step.number,
-            tuple((each, account.step(step, each)) for each in languages(lesson.language)),
-            account.work(step),
-        )
+        StepItem(step.number, tuple((each, account.step(step, each)) for each in names), account.work(step))
         for step in stage.steps
     )
 
@@ -203,13 +192,12 @@ def _leads_on(stage: Stage, after: Stage | None) -> bool:
 def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
     """What stands above the steps of an equation: the equation over its rows, and why it is so; ``count`` is the number
     of the figure that shows them."""
-    assert stage.equation is not None
+    equation = stage.equation
+    assert equation is not None
     where = dict(said("see figure", lesson.language, count))
     yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
-    words = equation_words(lesson, stage.equation)
-    drawn = equation_picture(lesson.sheet, stage.equation, lesson.letters, lesson.language, words)
-    yield Picture(drawn, joined=True)
-    why = tuple((each, lesson.account.why(stage.equation, each)) for each in languages(lesson.language))
+    yield Picture(equation_picture(lesson, equation), joined=True)
+    why = in_each(lesson.language, lambda each: lesson.account.why(equation, each))
     if any(text for _, text in why):
         yield Paragraph(why, small=True)
 
@@ -218,16 +206,15 @@ def _stage(
     lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int, count: int
 ) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
     """A stage with its figure, on which what is new since step ``begun`` stands out."""
-    sheet, letters, language = lesson.sheet, lesson.letters, lesson.language
-    drawn = stage_picture(sheet, layers, stage.diagram, letters, language, begun, stage.last)
+    sheet = lesson.sheet
+    drawn = stage_picture(lesson, layers, stage.diagram, begun, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
     args: tuple[int, ...] = (stage.last,)
     key = "figure whole" if begun == start else "figure with step"
     if start != begun != stage.last:
         key, args = "figure so far", (stage.last, begun)
-    caption = tuple(
-        (each, say(Phrase(key, (word(FIGURE_WORDS[stage.diagram], each), *args)), each)) for each in languages(language)
-    )
+    named = FIGURE_WORDS[stage.diagram]
+    caption = in_each(lesson.language, lambda each: say(Phrase(key, (word(named, each), *args)), each))
     figure = Picture(drawn, numbered(count, caption), floats=True)
     narrow = drawn.width <= paper_of(sheet.scene).narrow
     steps = Steps(step_items(lesson, stage), parted=not narrow and len(stage.steps) >= MANY)
@@ -243,38 +230,19 @@ def _stage(
         yield figure
 
 
-def _remarks(lesson: Lesson) -> Iterator[Block]:
-    sheet = lesson.sheet
-    notes = [*sheet.notes]
-    if notes:
-        yield Heading(said("remarks", lesson.language), 3)
-    for note in notes:
-        yield Paragraph(tuple((each, lesson.account.sentence(note, each)) for each in languages(lesson.language)))
-
-
 def _results(lesson: Lesson) -> TableBlock:
     heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
-    rows, bold = [], set()
     units = lesson.sheet.scene.units
-    for i, row in enumerate(lesson.results):
-        symbol = row.symbol
-        if symbol in lesson.questions:
-            bold.add(i)
-        rows.append((
-            f"${lesson.letters.vector(symbol)}$",
+    rows = tuple(
+        (
+            f"${lesson.letters.vector(row.symbol)}$",
             length_on_paper(row),
             unsigned(row, written(measured(row.reading, lesson.report.scales, units, row))),
             unsigned(row, written(exact(row, units))),
-            lesson.unit(symbol),
+            lesson.unit(row.symbol),
             way(row, lesson.language),
-        ))  # fmt: skip
-    return TableBlock(heads, tuple(rows), "lrrrll", frozenset(bold))
-
-
-def _verdict(lesson: Lesson) -> Said:
-    """Whether the readings of the table agree."""
-    rows = [row for row in lesson.results if row.ok is not None]
-    wrong = [row for row in rows if row.ok is False]
-    agree = Phrase(about("all agree", rows), (len(rows),))
-    phrase = Phrase("not all agree", (len(wrong), len(rows))) if wrong else agree
-    return tuple((each, lesson.account.sentence(phrase, each)) for each in languages(lesson.language))
+        )
+        for row in lesson.results
+    )
+    bold = frozenset(i for i, row in enumerate(lesson.results) if row.symbol in lesson.questions)
+    return TableBlock(heads, rows, "lrrrll", bold)

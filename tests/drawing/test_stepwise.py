@@ -2,10 +2,10 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.account.notation import letters_of
 from graphkin.api.drawn import draw
 from graphkin.drawing.ink.primitives import Group, Text, walk
 from graphkin.drawing.stepwise import so_far, step_of, stepped
+from graphkin.papers.lesson import Lesson
 from graphkin.papers.pictures import parts
 from graphkin.scene import library
 from tests.drawn import drafted
@@ -13,7 +13,7 @@ from tests.drawn import drafted
 
 def _layers(name, diagram):
     sheet, _ = drafted(name)
-    return sheet, parts(sheet, diagram, letters_of(sheet, "chinese"), "en")
+    return sheet, parts(Lesson(sheet, None, {}, "en", "chinese"), diagram)
 
 
 @pytest.mark.parametrize("name", library())
