@@ -18,7 +18,7 @@ from graphkin.papers.paper import A4, Paper
 from graphkin.words import Phrase, languages, say, word
 
 __all__ = [
-    "Beside", "Block", "Document", "Fields", "Heading", "Paragraph", "Picture", "Plate", "Said", "StepItem",
+    "Beside", "Block", "Document", "Fields", "Heading", "Leaf", "Paragraph", "Picture", "Plate", "Said", "StepItem",
     "Steps", "TableBlock", "Together", "clean", "finished", "in_each", "laid_out", "numbered", "said", "sentences",
     "spoken",
 ]  # fmt: skip
@@ -94,12 +94,12 @@ class Picture:
 @dataclass(frozen=True)
 class Plate:
     """A finished page of a figure as an SVG with its letters as paths (mm), shown as wide as the paper allows at most;
-    ``words`` say what it shows."""
+    ``seen`` says what it shows."""
 
     svg: str
     width: float
     height: float
-    words: str
+    seen: str
     caption: Said = ()
 
 
@@ -107,7 +107,7 @@ class Plate:
 class TableBlock:
     """Rows under heads; ``align`` is one of l, r, c for each column; ``bold`` are the rows that stand out.
 
-    ``roomy`` makes cells to write in by hand.
+    ``roomy`` makes cells to write in by hand, ``halved`` sets them in two halves side by side.
     """
 
     heads: tuple[Said, ...]
@@ -115,6 +115,7 @@ class TableBlock:
     align: str
     bold: frozenset[int] = frozenset()
     roomy: bool = False
+    halved: bool = False
 
 
 @dataclass(frozen=True)
@@ -136,10 +137,12 @@ class Beside:
 class Together:
     """Blocks that stand on one page if they fit on one."""
 
-    blocks: tuple[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside, ...]
+    blocks: tuple[Leaf | Steps, ...]
 
 
-Block: TypeAlias = Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields | Beside | Together
+Leaf: TypeAlias = Heading | Paragraph | Fields | StepItem | Picture | Plate | TableBlock | Beside
+"""What is never parted, but for long tables."""
+Block: TypeAlias = Leaf | Steps | Together
 
 
 @dataclass(frozen=True)
@@ -154,7 +157,7 @@ class Document:
     folded: bool = False
 
 
-def laid_out(blocks: Iterable[Block]) -> Iterator[Heading | Paragraph | Steps | Picture | Plate | TableBlock | Fields]:
+def laid_out(blocks: Iterable[Block]) -> Iterator[Leaf | Steps]:
     """Every block by itself, in the order in which they are read."""
     for block in blocks:
         if isinstance(block, Together):

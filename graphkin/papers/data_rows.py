@@ -17,8 +17,10 @@ import math
 import operator
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import permutations, product
 
 from graphkin.errors import CallError, Problem
 from graphkin.files import Tables, opened, path_of
@@ -50,9 +52,8 @@ _PRODUCT = re.compile(r"(?<![A-Za-z0-9_])(\d+(?:\.\d+)?)\s*(?=[A-Za-z(])")
 Setting = tuple[str, float]
 _UNIT = re.compile(r"[（(\[].*?[）)\]]|/\s*(?:mm|m|cm|rpm|r/min|deg|rad/s|°)\s*$")
 _WORDS = re.compile("[\u3000-\u9fff\uff00-\uffef]+")
-_SPEED = re.compile(r"n_?\{?(\w*?)\}?")
-_RATE = re.compile(r"(?:omega|ω|w)_?\{?(\w*?)\}?")
-_ANGLE = re.compile(r"(?:phi|theta|φ|θ|ϕ)_?\{?(\w*?)\}?")
+_LETTERS = {"rpm": "n", "omega": "omega ω w", "angle": "phi theta φ θ ϕ"}
+"""How tables call the speed, the rate and the angle of a driver."""
 
 
 @dataclass(frozen=True)
@@ -189,14 +190,10 @@ class Columns:
 
 def columns_of(source: Tables, heads: Sequence[str]) -> Columns:
     """Tell the columns of a table apart."""
-    data: dict[int, str] = {}
-    others: list[int] = []
-    for i, head in enumerate(heads):
-        short = _short(head)
-        if "." in short or _meaning(source, short):
-            data[i] = short
-        else:
-            others.append(i)
+    known = _known_names(source)
+    shorts = {i: _short(head) for i, head in enumerate(heads)}
+    data = {i: short for i, short in shorts.items() if "." in short or _bare(short) in known}
+    others = [i for i in shorts if i not in data]
     return Columns(others[0] if others else None, data, tuple(heads[i] for i in others[1:]))
 
 
@@ -208,14 +205,9 @@ def replaced(source: Tables, columns: Columns, cells: Sequence[str]) -> list[Set
     ValueError : a cell that is no number, with the name of its column
     """
     texts = {short: cells[i] for i, short in columns.data.items() if i < len(cells) and cells[i].strip()}
-    values = _values(texts)
-    settings: list[Setting] = []
-    for short, value in values.items():
-        if "." in short:
-            settings.append((short, value))
-        else:
-            settings += _settings(source, short, value)
-    return settings
+    known = _known_names(source)
+    values = _values(texts).items()
+    return [s for short, v in values for s in ([(short, v)] if "." in short else known[_bare(short)](v))]
 
 
 def _short(head: str) -> str:
@@ -252,78 +244,71 @@ def _bare(name: str) -> str:
     return re.sub(r"^[lL]_?(?=[A-Z])", "", name)
 
 
-def _meaning(source: Tables, short: str) -> str:
-    """What a short name stands for: "speed", "rate", "angle", "length" or ""."""
-    links = [str(d.get("link", "")) for _, d in drivers_of(source)]
-    for kind, pattern in (("speed", _SPEED), ("rate", _RATE), ("angle", _ANGLE)):
-        match = pattern.fullmatch(short)
-        if match and links and match[1] in ("", *links):
-            return kind
-    return "length" if _two_points(source, short) else ""
+# -- what a file calls by short names ----------------------------------------------------------------------------------
+
+Setter = Callable[[float], list[Setting]]
+"""From the value of a short name to the keys of the scene file with their values."""
 
 
-def _settings(source: Tables, short: str, value: float) -> Iterable[Setting]:
-    kind = _meaning(source, short)
-    if kind == "length":
-        return _length(source, short, value)
-    drivers = [driver for _, driver in drivers_of(source)]
-    name = next(p.fullmatch(short) for p in (_SPEED, _RATE, _ANGLE) if p.fullmatch(short))
-    index = next((i for i, d in enumerate(drivers) if name and name[1] in ("", str(d.get("link", "")))), 0)
-    where = f"driver.{index + 1}" if isinstance(source.get("driver"), list) else "driver"
-    if kind == "angle":
+def _known_names(source: Tables) -> dict[str, Setter]:
+    """Every short name that stands for a datum of the file: speeds and angles of drivers, distances of points."""
+    known: dict[str, Setter] = {}
+    for i, (path, driver) in enumerate(drivers_of(source)):
+        where = ".".join(str(part + 1) if isinstance(part, int) else part for part in path)
+        link = str(driver.get("link", ""))
+        for key, letters in _LETTERS.items():
+            for letter, index in product(letters.split(), (link, f"_{link}", *(("", "_") if i == 0 else ()))):
+                known.setdefault(letter + index, partial(_driven, where, driver, key))
+    for one, other, entries in _distances(source):
+        known.setdefault(one + other, partial(_placed, entries))
+    return known
+
+
+def _driven(where: str, driver: Tables, key: str, value: float) -> list[Setting]:
+    """A driver's angle, or its speed (r/min or rad/s), which tables give without its sense."""
+    if key == "angle":
         return [(f"{where}.angle", value)]
-    driver = drivers[index]
     was = driver.get("rpm", driver.get("omega", 0.0))
-    signed = math.copysign(value, was) if value > 0 and was else value  # tables give speeds without their sense
+    signed = math.copysign(value, was) if value > 0 and was else value
     if "rpm" in driver:
-        return [(f"{where}.rpm", signed if kind == "speed" else signed * 30 / math.pi)]
-    return [(f"{where}.omega", signed * math.pi / 30 if kind == "speed" else signed)]
+        return [(f"{where}.rpm", signed if key == "rpm" else signed * 30 / math.pi)]
+    return [(f"{where}.omega", signed * math.pi / 30 if key == "rpm" else signed)]
 
 
-def _points(source: Tables) -> set[str]:
-    found = set(source.get("frame", {}).get("points", {}))
-    for link in source.get("links", {}).values():
-        found |= {*link.get("points", []), *link.get("at", {})}
-    return found
+Entries = Sequence[tuple[str, float, float]]
+"""Keys of the file whose values follow from a distance: each with the value at nought, and what it gains for one."""
 
 
-def _two_points(source: Tables, short: str) -> tuple[str, str] | None:
-    """The two points whose names make up a name, if something in the file gives their distance."""
-    text = _bare(short)
-    points = _points(source)
-    for i in range(1, len(text)):
-        if text[:i] in points and text[i:] in points and list(_length(source, (text[:i], text[i:]), 1.0)):
-            return text[:i], text[i:]
-    return None
+def _placed(entries: Entries, value: float) -> list[Setting]:
+    return [(key, base + share * value) for key, base, share in entries]
 
 
-def _length(source: Tables, what: str | tuple[str, str], value: float) -> Iterable[Setting]:
-    """The entries of the file that give the distance of two points."""
-    pair = _two_points(source, what) if isinstance(what, str) else what
-    if pair is None:
-        return []
-    p, q = pair
+def _distances(source: Tables) -> Iterator[tuple[str, str, Entries]]:
+    """Two points and the entries of the file that give their distance, both ways."""
     for name, link in source.get("links", {}).items():
-        if set(link.get("points", [])) == {p, q}:
-            return [(f"links.{name}.length", value)]
-        for one, other in ((p, q), (q, p)):
-            entry = link.get("at", {}).get(one)
-            if isinstance(entry, Mapping) and entry.get("from") == other:
-                return [(f"links.{name}.at.{one}.r", value)]
-            if isinstance(entry, list) and link.get("points", [""])[0] == other and any(entry):
+        points = link.get("points", [])
+        if len(points) == 2:
+            yield from _both_ways(points[0], points[1], [(f"links.{name}.length", 0.0, 1.0)])
+        for point, entry in link.get("at", {}).items():
+            where = f"links.{name}.at.{point}"
+            if isinstance(entry, Mapping):
+                yield from _both_ways(point, str(entry.get("from")), [(f"{where}.r", 0.0, 1.0)])
+            elif points and any(entry) and all(isinstance(c, int | float) for c in entry):
                 size = math.hypot(*entry)
-                where = f"links.{name}.at.{one}"
-                return [(f"{where}.{axis}", c / size * value) for axis, c in zip("xy", entry, strict=True)]
+                shares = [(f"{where}.{axis}", 0.0, c / size) for axis, c in zip("xy", entry, strict=True)]
+                yield from _both_ways(point, points[0], shares)
     fixed = source.get("frame", {}).get("points", {})
-    for one, other in ((p, q), (q, p)):
-        entry = fixed.get(one)
-        if isinstance(entry, Mapping) and entry.get("from") == other:
-            return [(f"frame.points.{one}.r", value)]
-    if isinstance(fixed.get(p), list) and isinstance(fixed.get(q), list) and fixed[p] != fixed[q]:
-        if not any(fixed[q]):
-            p, q = q, p  # the point at the origin stays there
-        way = [b - a for a, b in zip(fixed[p], fixed[q], strict=True)]
-        size = math.hypot(*way)
-        places = [a + c / size * value for a, c in zip(fixed[p], way, strict=True)]
-        return [(f"frame.points.{q}.{axis}", c) for axis, c in zip("xy", places, strict=True)]
-    return []
+    for point, entry in fixed.items():
+        if isinstance(entry, Mapping):
+            yield from _both_ways(point, str(entry.get("from")), [(f"frame.points.{point}.r", 0.0, 1.0)])
+    for one, other in permutations((p for p, xy in fixed.items() if isinstance(xy, list)), 2):
+        # the point at the origin stays there
+        still, moved = (one, other) if any(fixed[other]) else (other, one)
+        way = [b - a for a, b in zip(fixed[still], fixed[moved], strict=True)]
+        if size := math.hypot(*way):
+            ends = zip("xy", fixed[still], way, strict=True)
+            yield one, other, [(f"frame.points.{moved}.{axis}", a, c / size) for axis, a, c in ends]
+
+
+def _both_ways(one: str, other: str, entries: Entries) -> Iterator[tuple[str, str, Entries]]:
+    yield from ((one, other, entries), (other, one, entries))

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import NamedTuple, TypeAlias
+from itertools import groupby, pairwise
+from typing import TypeAlias
 
 from graphkin.papers.blocks import (
     Beside,
@@ -19,6 +20,7 @@ from graphkin.papers.blocks import (
     Document,
     Fields,
     Heading,
+    Leaf,
     Paragraph,
     Picture,
     Plate,
@@ -26,13 +28,13 @@ from graphkin.papers.blocks import (
     Steps,
     TableBlock,
     Together,
-)  # fmt: skip
+)
 from graphkin.papers.paper import BOTTOM, SIDE, TOP
 from graphkin.plane import added_up
 
 __all__ = [
-    "COLUMN_GAP", "HALVES_GAP", "KEPT", "MANY_ROWS", "Leaf", "Measure", "Pair", "Piece", "Row", "Wrapped", "balanced",
-    "fill_pages", "pages_of",
+    "COLUMN_GAP", "HALVES_GAP", "KEPT", "MANY_ROWS", "Measure", "Page", "Piece", "Row", "balanced", "fill_pages",
+    "lines_of", "pages_of",
 ]  # fmt: skip
 
 COLUMN_GAP = 4.0  # mm between two columns of steps
@@ -56,50 +58,38 @@ BEFORE = 0.04  # of one between steps and their figure
 DEFERRED = 0.15  # of a figure overleaf, some of what follows it before it
 WORTH = 0.5  # that a figure below its words instead of beside them must save
 
-
-@dataclass(frozen=True)
-class Pair:
-    """Two halves of a table side by side."""
-
-    left: TableBlock
-    right: TableBlock
-
-
-@dataclass(frozen=True)
-class Wrapped:
-    """What stands at the left of a figure, each with the gap above it (mm)."""
-
-    blocks: tuple[tuple[float, Heading | Paragraph | StepItem], ...]
-    picture: Picture
-
-
-Leaf: TypeAlias = Heading | Paragraph | Fields | StepItem | Picture | Plate | TableBlock | Pair | Wrapped
-Measure: TypeAlias = Callable[[Sequence[tuple[Leaf, float | None]]], Sequence[tuple[float, float]]]
-"""Widths and heights (mm) of leaves at a width, or as wide as they are by themselves."""
-Sizes: TypeAlias = dict[tuple[Leaf, float | None], tuple[float, float]]
+Question: TypeAlias = tuple[Leaf, float | None]
+"""A leaf, and the width (mm) at which its size is wanted, None where it is as wide as it is by itself."""
+Measure: TypeAlias = Callable[[Sequence[Question]], Sequence[tuple[float, float]]]
+"""Widths and heights (mm) of leaves."""
+Sizes: TypeAlias = dict[Question, tuple[float, float]]
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Something that is not parted: its height and the gap above it (mm), and what a page break before it costs.
+    """Something that is not parted: what it shows, its height and the gap above it (mm), and what a page break before
+    it costs; with ``half`` it stands in one of two columns, with its neighbours that do."""
 
-    floats : a figure that what follows may overtake
-    fresh : begins a page
-    fills : takes what is left of its page
-    half : stands in one of two columns, with its neighbours that do
-    flows : higher than a page, parted wherever one ends
-    block : what it shows
-    """
-
+    block: Leaf
     height: float = 0.0
     gap: float = 0.0
     tie: float = 0.0
-    floats: bool = False
-    fresh: bool = False
-    fills: bool = False
     half: bool = False
-    flows: bool = False
-    block: Leaf | Beside | None = None
+
+    @property
+    def floats(self) -> bool:
+        """Whether it is a figure that what follows may overtake."""
+        return isinstance(self.block, Picture) and self.block.floats
+
+    @property
+    def fills(self) -> bool:
+        """Whether it takes what is left of its page."""
+        return isinstance(self.block, Paragraph) and self.block.fills
+
+    @property
+    def fresh(self) -> bool:
+        """Whether it begins a page."""
+        return isinstance(self.block, Heading) and self.block.fresh
 
 
 @dataclass(frozen=True)
@@ -111,13 +101,6 @@ class Row:
     right: tuple[Piece, ...] = ()
     gap: float = 0.0
     height: float = 0.0
-
-    @property
-    def taken(self) -> float:
-        """What it takes of the height of its page (mm), but for what takes the rest."""
-        head = self.left[0]
-        both = (*self.left, *self.right)
-        return self.gap + (balanced([piece.height for piece in both])[1] if head.half else head.height)
 
 
 Page: TypeAlias = tuple[Row, ...]
@@ -146,38 +129,32 @@ def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
 
 def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
     """Leaf by leaf, and what it costs to part it from the one before."""
-    before: Piece | None = None
+    leads = False  # whether words or an equation lead to what follows them
     for block in blocks:
-        for i, piece in enumerate(_parts(block)):
-            kept = i > 0 and isinstance(block, Together) and piece.tie == 0.0
-            before = replace(piece, tie=KEPT) if kept or (before is not None and _leads(before.block)) else piece
-            yield before
+        for i, piece in enumerate(_leaves(block)):
+            tie = piece.tie
+            if leads:
+                tie = KEPT
+            elif i and not tie and isinstance(block, Together):
+                tie = BEFORE if piece.floats else KEPT
+            leads = isinstance(piece.block, Heading) or (isinstance(piece.block, Picture) and piece.block.joined)
+            yield replace(piece, tie=tie)
 
 
-def _parts(block: Block) -> Iterator[Piece]:
-    if isinstance(block, Together):
-        for i, one in enumerate(block.blocks):
-            for k, piece in enumerate(_parts(one)):
-                keeps = (i or k) and piece.tie == 0.0
-                yield replace(piece, tie=BEFORE if piece.block == one and _floats(one) else KEPT) if keeps else piece
-    elif isinstance(block, Steps):
-        for i, step in enumerate(block.items):
-            yield Piece(tie=INSIDE if i else 0.0, half=block.parted, block=step)
-    else:
-        yield Piece(fresh=isinstance(block, Heading) and block.fresh, block=block)
+def _leaves(block: Block) -> Iterator[Piece]:
+    for one in block.blocks if isinstance(block, Together) else (block,):
+        if isinstance(one, Steps):
+            yield from (Piece(step, tie=INSIDE if k else 0.0, half=one.parted) for k, step in enumerate(one.items))
+        else:
+            assert not isinstance(one, Together)
+            yield Piece(one)
 
 
-def _floats(block: object) -> bool:
-    return isinstance(block, Picture) and block.floats
-
-
-def _leads(block: Leaf | Beside | None) -> bool:
-    """Whether words or an equation lead to what follows them."""
-    return isinstance(block, Heading) or (isinstance(block, Picture) and block.joined)
-
-
-def _width(piece: Piece, wide: float) -> float:
-    return (wide - COLUMN_GAP) / 2 if piece.half else wide
+def lines_of(beside: Beside) -> list[tuple[float, Heading | Paragraph | StepItem]]:
+    """The words beside a figure, step by step, each with the gap above it (mm)."""
+    lines = [line for one in beside.blocks for line in (one.items if isinstance(one, Steps) else (one,))]
+    gaps = [0.0, *(_gap(one, other) for one, other in pairwise(lines))]
+    return list(zip(gaps, lines, strict=True))
 
 
 def _narrow(picture: Picture, wide: float) -> float:
@@ -185,128 +162,96 @@ def _narrow(picture: Picture, wide: float) -> float:
     return wide - picture.drawing.width - FIGURE_GAP
 
 
-def _questions(piece: Piece, wide: float) -> Iterator[tuple[Leaf, float | None]]:
+def _questions(piece: Piece, wide: float) -> Iterator[Question]:
     """Every leaf and width of which the size may be wanted."""
-    block = piece.block
-    assert block is not None
+    block, half = piece.block, (wide - COLUMN_GAP) / 2
     if isinstance(block, Beside):
         yield block.picture, block.picture.drawing.width
         yield replace(block.picture, floats=True), wide
-        for one in _lines(block):
-            yield one, _narrow(block.picture, wide)
-            yield one, (wide - COLUMN_GAP) / 2 if isinstance(one, StepItem) else wide
+        for _, line in lines_of(block):
+            yield line, _narrow(block.picture, wide)
+            yield line, half if isinstance(line, StepItem) else wide
         return
-    yield block, _width(piece, wide)
-    if isinstance(block, TableBlock) and _may_halve(block):
-        yield _halves(block), wide if block.roomy else None
+    yield block, half if piece.half else wide
+    if isinstance(block, TableBlock) and (halved := _in_halves(block, wide)):
+        yield halved
 
 
-def _may_halve(table: TableBlock) -> bool:
-    return len(table.rows) >= (2 * HALVED if table.roomy else HALVED)
-
-
-def _halves(table: TableBlock) -> Pair:
-    k = (len(table.rows) + 1) // 2
-    left, right = (frozenset(i for i in table.bold if i < k), frozenset(i - k for i in table.bold if i >= k))
-    return Pair(replace(table, rows=table.rows[:k], bold=left), replace(table, rows=table.rows[k:], bold=right))
-
-
-def _lines(beside: Beside) -> Iterator[Heading | Paragraph | StepItem]:
-    for one in beside.blocks:
-        if isinstance(one, Steps):
-            yield from one.items
-        else:
-            yield one
+def _in_halves(table: TableBlock, wide: float) -> Question | None:
+    """A table in two halves side by side, and how wide it is; None where it has few rows."""
+    few = len(table.rows) < HALVED * (1 + table.roomy)
+    return None if few else (replace(table, halved=True), wide if table.roomy else None)
 
 
 def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> list[Page]:
     """Pages of some pieces.  A figure beside its words keeps much together: where pages gape, some go below them."""
 
-    def filled(below: frozenset[int]) -> Filled:
+    def filled(below: frozenset[int]) -> tuple[list[Page], float, bool]:
         ready = [one for i, piece in enumerate(pieces) for one in _fitted(piece, wide, sizes, i in below)]
-        pairs = zip((None, *ready), ready, strict=False)
-        return fill_pages([_sized(before, one, wide, sizes) for before, one in pairs], high)
+        gaps = [0.0, *(_gap(one.block, other.block) for one, other in pairwise(ready))]
+        placed = zip(ready, gaps, strict=True)
+        return fill_pages([replace(p, gap=gap, height=_height(p, wide, sizes)) for p, gap in placed], high)
 
     if not pieces:
         return []
     below: frozenset[int] = frozenset()
-    best = filled(below)
+    best, cost, gaping = filled(below)
     for i, piece in enumerate(pieces):
-        if best.gaping and isinstance(piece.block, Beside):
+        if gaping and isinstance(piece.block, Beside):
             other = filled(below | {i})
-            if other.cost < best.cost - WORTH:
-                best, below = other, below | {i}
-    return best.pages
+            if other[1] < cost - WORTH:
+                (best, cost, gaping), below = other, below | {i}
+    return best
 
 
 def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Piece]:
     """A table in two halves where they have room; words beside a figure as far as it reaches and the rest below, or
     with ``below`` the figure below them all."""
     block = piece.block
-    if isinstance(block, TableBlock) and _may_halve(block):
-        pair = _halves(block)
-        fits = block.roomy or sizes[pair, None][0] <= wide
-        yield replace(piece, block=pair) if fits else piece
+    if isinstance(block, TableBlock):
+        halved = _in_halves(block, wide)
+        yield replace(piece, block=halved[0]) if halved and (block.roomy or sizes[halved][0] <= wide) else piece
     elif not isinstance(block, Beside):
         yield piece
     elif below:
-        for i, one in enumerate(_lines(block)):
-            half = isinstance(one, StepItem)
-            yield Piece(tie=INSIDE if i and half else piece.tie if not i else 0.0, half=half, block=one)
-        yield Piece(tie=BEFORE, block=replace(block.picture, floats=True))
+        for i, (_, line) in enumerate(lines_of(block)):
+            half = isinstance(line, StepItem)
+            yield Piece(line, tie=piece.tie if not i else INSIDE if half else 0.0, half=half)
+        yield Piece(replace(block.picture, floats=True), tie=BEFORE)
     else:
-        beside = _beside(block, wide, sizes)
-        yield replace(piece, block=Wrapped(beside, block.picture))
-        for one in list(_lines(block))[len(beside) :]:
-            yield Piece(tie=INSIDE, half=True, block=one)
+        lines, picture = lines_of(block), block.picture
+        taken, count = 0.0, 0
+        for i, (gap, line) in enumerate(lines):
+            taken += gap + sizes[line, _narrow(picture, wide)][1]
+            steps = all(isinstance(each, StepItem) for _, each in lines[max(i - 1, 0) :])
+            # nothing but steps goes below the figure
+            if taken > sizes[picture, picture.drawing.width][1] and len(lines) - i >= MANY_STEPS and steps:
+                break
+            count = i + 1
+        near = tuple(Steps((line,)) if isinstance(line, StepItem) else line for _, line in lines[:count])
+        yield replace(piece, block=replace(block, blocks=near))
+        yield from (Piece(line, tie=INSIDE, half=True) for _, line in lines[count:])
 
 
-def _beside(block: Beside, wide: float, sizes: Sizes) -> tuple[tuple[float, Heading | Paragraph | StepItem], ...]:
-    """The lines that stand beside a figure, each with the gap above it: all, unless nothing but steps goes below it."""
-    lines, narrow = list(_lines(block)), _narrow(block.picture, wide)
-    taken = 0.0
-    beside: list[tuple[float, Heading | Paragraph | StepItem]] = []
-    for i, one in enumerate(lines):
-        gap = _gap(lines[i - 1], one) if i else 0.0
-        taken += gap + sizes[one, narrow][1]
-        steps = all(isinstance(each, StepItem) for each in lines[max(i - 1, 0) :])
-        if taken > _high(block.picture, sizes) and len(lines) - i >= MANY_STEPS and steps:
-            break
-        beside.append((gap, one))
-    return tuple(beside)
-
-
-def _high(picture: Picture, sizes: Sizes) -> float:
-    """The height of a figure with words at its left, its caption as wide as itself."""
-    return sizes[picture, picture.drawing.width][1]
-
-
-def _sized(before: Piece | None, piece: Piece, wide: float, sizes: Sizes) -> Piece:
-    """A piece with its height and the gap above it."""
+def _height(piece: Piece, wide: float, sizes: Sizes) -> float:
+    """The height of a piece (mm)."""
     block = piece.block
-    assert block is not None
-    gap = _gap(before.block, block) if before is not None and before.block is not None else 0.0
-    if isinstance(block, Wrapped):
-        narrow = _narrow(block.picture, wide)
-        words = added_up(gap + sizes[one, narrow][1] for gap, one in block.blocks)
-        height = max(words, _high(block.picture, sizes))
-    elif isinstance(block, Pair):
-        height = sizes[block, wide if block.left.roomy else None][1]
-    elif isinstance(block, Paragraph) and block.fills:
-        return Piece(0.0, gap, piece.tie, fills=True, block=block)
-    else:
-        assert not isinstance(block, Beside)  # wrapped
-        height = sizes[block, _width(piece, wide)][1]
-    flows = isinstance(block, TableBlock) and len(block.rows) > MANY_ROWS
-    return replace(piece, height=height, gap=gap, floats=_floats(block), flows=flows)
+    if isinstance(block, Beside):
+        picture = block.picture
+        words = added_up(gap + sizes[line, _narrow(picture, wide)][1] for gap, line in lines_of(block))
+        return max(words, sizes[picture, picture.drawing.width][1])
+    if piece.fills:
+        return 0.0
+    own = isinstance(block, TableBlock) and block.halved and not block.roomy
+    return sizes[block, None if own else (wide - COLUMN_GAP) / 2 if piece.half else wide][1]
 
 
-def _gap(above: Leaf | Beside, below: Leaf | Beside) -> float:
-    """The gap between two leaves: what the one asks for below it, or the other above."""
+def _gap(above: Leaf, below: Leaf) -> float:
+    """The gap between two leaves (mm): what the one asks for below it, or the other above."""
     return max(_around(above)[1], _around(below)[0])
 
 
-def _around(block: Leaf | Beside) -> tuple[float, float]:
+def _around(block: Leaf) -> tuple[float, float]:
     """What a leaf asks for above and below it (mm)."""
     if isinstance(block, Heading):
         return {1: (5.8, 3.2), 2: (5.2, 2.5)}.get(block.level, (4.1, 2.2))
@@ -314,29 +259,22 @@ def _around(block: Leaf | Beside) -> tuple[float, float]:
         return 2.0, 2.0
     if isinstance(block, Fields):
         return 3.7, 4.4
-    roomy = isinstance(block, Picture | Plate | Wrapped | Beside) or (isinstance(block, Paragraph) and block.fills)
+    roomy = isinstance(block, Picture | Plate | Beside) or (isinstance(block, Paragraph) and block.fills)
     return (3.3, 3.3) if roomy else (2.6, 2.6)
 
 
 # -- pages with the least white ----------------------------------------------------------------------------------------
 
 
-class Filled(NamedTuple):
-    """Pages, each with what stands on it from its head on; what their white costs, and whether some of it is seen."""
-
-    pages: list[Page]
-    cost: float
-    gaping: bool
-
-
-class _Begun(NamedTuple):
-    """A page as far as it is filled: the numbers of its pieces, the height up to the steps in two columns that end it
-    (mm), and these."""
+@dataclass(frozen=True)
+class _Begun:
+    """A page as far as it is filled: the numbers of its pieces, the height (mm) up to the steps in two columns that end
+    it, these, and what a piece takes that fills the page (mm)."""
 
     numbers: tuple[int, ...]
     base: float
     columns: tuple[int, ...] = ()
-    full: bool = False
+    room: float = 0.0
 
 
 def balanced(heights: Sequence[float]) -> tuple[int, float]:
@@ -355,17 +293,22 @@ def balanced(heights: Sequence[float]) -> tuple[int, float]:
     return best
 
 
-def fill_pages(pieces: Sequence[Piece], height: float) -> Filled:
-    """Pages of a height (mm)."""
+def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], float, bool]:
+    """Pages of a height (mm), each with what stands on it from its head on; what their white costs, and whether some of
+    it is seen."""
 
     @cache
     def onwards(at: int, waiting: int | None) -> tuple[float, tuple[_Begun, ...]]:
+        """The cheapest pages from a piece on, behind a figure that waits."""
         if at == len(pieces) and waiting is None:
             return 0.0, ()
         best: tuple[float, tuple[_Begun, ...]] | None = None
         for page, end, left in _begun(pieces, height, at, waiting):
-            last = end == len(pieces) and left is None
-            cost = _white(_used(page, pieces) / height, last, not page.numbers[1:])
+            filled = _used(page, pieces) / height
+            white = max(0.0, 1.0 - filled)
+            cost = 0.5 + 4.0 * white**2 + 12.0 * max(0.0, white - WHITE)  # every page costs something
+            if end == len(pieces) and left is None:
+                cost = 0.5 + 4.0 * max(0.0, SHORT - filled) + (0.0 if page.numbers[1:] else 0.3)
             cost += pieces[end].tie if end < len(pieces) else 0.0
             cost += DEFERRED if left is not None else 0.0
             if best is not None and cost >= best[0]:
@@ -378,15 +321,7 @@ def fill_pages(pieces: Sequence[Piece], height: float) -> Filled:
 
     cost, pages = onwards(0, None)
     rows = [tuple(_rows(page, pieces, height, page is pages[-1])) for page in pages]
-    return Filled(rows, cost, any(_used(page, pieces) < (1.0 - WHITE) * height for page in pages[:-1]))
-
-
-def _white(filled: float, last: bool, alone: bool) -> float:
-    """What the white of a page costs; every page costs something."""
-    if last:
-        return 0.5 + 4.0 * max(0.0, SHORT - filled) + (0.3 if alone else 0.0)
-    white = max(0.0, 1.0 - filled)
-    return 0.5 + 4.0 * white**2 + 12.0 * max(0.0, white - WHITE)
+    return rows, cost, any(_used(page, pieces) < (1.0 - WHITE) * height for page in pages[:-1])
 
 
 def _begun(
@@ -404,7 +339,7 @@ def _begun(
             if i == len(pieces):
                 break
             piece = pieces[i]
-            if page.numbers and (piece.fresh or page.full or (left is not None and piece.floats)):
+            if page.numbers and (piece.fresh or page.room or (left is not None and piece.floats)):
                 break
             if piece.floats and piece.tie < KEPT and left is None and page.numbers:
                 stack.append((page, i + 1, i))
@@ -432,9 +367,10 @@ def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begu
     gap = piece.gap if page.numbers else 0.0
     left = height - used - gap
     if piece.fills:
-        return _Begun(numbers, used) if left < LEAST_ROOM else _Begun(numbers, height, full=True)
+        return _Begun(numbers, used) if left < LEAST_ROOM else _Begun(numbers, height, room=left)
     end = used + gap + piece.height
-    if end > height and piece.flows and left > LEAST_FLOW:
+    flows = isinstance(piece.block, TableBlock) and len(piece.block.rows) > MANY_ROWS and not piece.block.halved
+    if end > height and flows and left > LEAST_FLOW:
         end = end % height + 10.0  # its heads stand on every page
     elif end > height and page.numbers:
         return None
@@ -444,27 +380,19 @@ def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begu
 def _rows(page: _Begun, pieces: Sequence[Piece], height: float, last: bool) -> list[Row]:
     """The pieces of a page with their gaps, a little wider where that fills it."""
     rows: list[Row] = []
-    columns: list[Piece] = []
-    for piece in (*(pieces[n] for n in page.numbers), None):
-        if piece is not None and piece.half:
-            columns.append(piece)
-            continue
-        if columns:
-            k, _ = balanced([one.height for one in columns])
-            rows.append(Row(tuple(columns[:k]), tuple(columns[k:]), columns[0].gap if rows else 0.0))
-            columns = []
-        if piece is not None:
-            rows.append(Row((piece,), (), piece.gap if rows else 0.0))
-    room = next((i for i, row in enumerate(rows) if row.left[0].fills), None)
-    if room is not None:
-        rest = height - added_up(row.taken for row in rows)
-        if rest < LEAST_ROOM:
-            return [row for row in rows if not row.left[0].fills]
-        rows[room] = replace(rows[room], height=rest)
-        return rows
+    for half, some in groupby((pieces[n] for n in page.numbers), key=lambda piece: piece.half):
+        columns = tuple(some)
+        if half:
+            k, _ = balanced([piece.height for piece in columns])
+            rows.append(Row(columns[:k], columns[k:], columns[0].gap))
+        else:
+            shown = (one for one in columns if page.room or not one.fills)
+            rows += [Row((one,), (), one.gap, page.room if one.fills else 0.0) for one in shown]
+    if rows:
+        rows[0] = replace(rows[0], gap=0.0)
     heads = [row.left[0] for row in rows]
     wider = [i > 0 and head.tie < KEPT and head.gap > ITEMS + 1.0 for i, head in enumerate(heads)]
-    if not last and any(wider):
+    if not last and any(wider) and not any(pieces[n].fills for n in page.numbers):
         more = max(0.0, min(MOST_MORE, (height - _used(page, pieces)) / sum(wider)))
         rows = [replace(row, gap=row.gap + more * grows) for row, grows in zip(rows, wider, strict=True)]
     return rows

@@ -12,19 +12,20 @@ import json
 import math
 import re
 import warnings
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from graphkin.drawing.font import FAMILY, FOLDER
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Stroke, Text, walk
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.blocks import Beside, Document, Fields, Heading, Paragraph, Picture, Plate, Said, StepItem, clean
+from graphkin.papers.blocks import Beside, Document, Leaf, Picture, Plate, Said, clean
 from graphkin.papers.html import document_page
-from graphkin.papers.layout import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Leaf, Pair, Piece, Row, Wrapped, pages_of
+from graphkin.papers.layout import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Row, lines_of, pages_of
 from graphkin.words import word
 
 if TYPE_CHECKING:
@@ -73,6 +74,7 @@ def pdf(document: Document) -> bytes:
         "paper": [document.paper.width, document.paper.height],
         "columns": COLUMN_GAP,
         "halves": HALVES_GAP,
+        "many": MANY_ROWS,
     }
 
     def measured(leaves: Sequence[tuple[Leaf, float | None]]) -> list[tuple[float, float]]:
@@ -135,47 +137,22 @@ def _fonts() -> tuple[list[str], typst.Fonts]:
 
 
 def _block(block: Leaf, bare: bool = False) -> Data:
-    """A leaf as the template reads it; ``bare`` without the ink of figures, where only the size counts."""
-    if isinstance(block, Heading):
-        return {"kind": "heading", "words": _said(block.words), "level": block.level}
-    if isinstance(block, Paragraph) and block.fills:
-        return {"kind": "room", "words": _said(block.words)}
-    if isinstance(block, Paragraph):
-        return {"kind": "paragraph", "words": _said(block.words), "small": block.small}
-    if isinstance(block, Fields):
-        return {"kind": "fields", "names": [_said(name) for name in block.names]}
-    if isinstance(block, StepItem):
-        work = [_words(line) for line in block.work]
-        return {"kind": "item", "number": block.number, "words": _said(block.words), "work": work}
-    if isinstance(block, Picture):
-        drawing = _drawing(block.drawing, bare)
-        return {"kind": "picture", "drawing": drawing, "caption": _said(block.caption), "joined": block.joined}
-    if isinstance(block, Plate):
-        size = {"width": _mm(block.width), "height": _mm(block.height)}
-        svg = "" if bare else block.svg
-        return {"kind": "plate", "svg": svg, **size, "alt": clean(block.words), "caption": _said(block.caption)}
-    if isinstance(block, Wrapped):
-        lines = [{"gap": gap, "block": _block(one)} for gap, one in block.blocks]
-        return {"kind": "beside", "lines": lines, "picture": _block(block.picture)}
-    if isinstance(block, Pair):
-        return {"kind": "pair", "blocks": [_block(block.left), _block(block.right)]}
-    return {
-        "kind": "table",
-        "heads": [_said(head) for head in block.heads],
-        "rows": [[_words(cell) for cell in row] for row in block.rows],
-        "align": block.align,
-        "bold": sorted(block.bold),
-        "roomy": block.roomy,
-        "flows": len(block.rows) > MANY_ROWS,
-    }
+    """A leaf as the template reads it, its fields by name; ``bare`` without the ink of figures, where only the size
+    counts."""
+    if isinstance(block, Beside):
+        lines = [{"gap": gap, "block": _block(line)} for gap, line in lines_of(block)]
+        return {"kind": "Beside", "lines": lines, "picture": _block(block.picture)}
+    if bare and isinstance(block, Picture):
+        block = replace(block, drawing=replace(block.drawing, children=()))
+    elif bare and isinstance(block, Plate):
+        block = replace(block, svg="")
+    told = {name: FORMS[name](value) if name in FORMS else value for name, value in vars(block).items()}
+    return {"kind": type(block).__name__, **told}
 
 
 def _row(row: Row) -> Data:
-    def blocks(side: Sequence[Piece]) -> list[Data]:
-        leaves = (piece.block for piece in side)
-        return [_block(leaf) for leaf in leaves if leaf is not None and not isinstance(leaf, Beside)]
-
-    return {"gap": row.gap, "left": blocks(row.left), "right": blocks(row.right), "height": row.height}
+    left, right = ([_block(piece.block) for piece in side] for side in (row.left, row.right))
+    return {"gap": row.gap, "left": left, "right": right, "height": row.height}
 
 
 def _said(said: Said) -> list[tuple[str, list[str | list[Data]]]]:
@@ -194,8 +171,8 @@ def _atoms(atoms: tuple[Atom, ...]) -> list[Data]:
     ]
 
 
-def _drawing(drawing: Drawing, bare: bool) -> Data:
-    things = [] if bare else [inked for thing in walk(drawing.children) for inked in _ink(thing)]
+def _drawing(drawing: Drawing) -> Data:
+    things = [inked for thing in walk(drawing.children) for inked in _ink(thing)]
     alt = clean(re.sub(r"\s+", " ", f"{drawing.title}. {drawing.desc}").strip())
     return {"width": _mm(drawing.width), "height": _mm(drawing.height), "alt": alt, "things": things}
 
@@ -211,7 +188,8 @@ def _ink(thing: Primitive) -> list[Data]:
             }
             for run in start_runs(thing)
         ]  # fmt: skip
-    stroke = _pen(thing.stroke)
+    pen = thing.stroke
+    stroke = pen and {"width": pen.width, "dash": pen.dash, "colour": pen.colour}
     if isinstance(thing, Line):
         return [{"kind": "line", "points": _pairs((thing.start, thing.inked_end)), "stroke": stroke}]
     if isinstance(thing, Circle):
@@ -230,13 +208,17 @@ def _chords(arc: Arc) -> tuple[complex, ...]:
     return tuple(arc.at(arc.start + (arc.end - arc.start) * i / count) for i in range(count + 1))
 
 
-def _pen(stroke: Stroke | None) -> Data | None:
-    return None if stroke is None else {"width": stroke.width, "dash": stroke.dash, "colour": stroke.colour}
-
-
 def _pairs(points: tuple[complex, ...]) -> list[tuple[float, float]]:
     return [(_mm(z.real), _mm(z.imag)) for z in points]
 
 
 def _mm(value: float) -> float:
     return round(value, 4)
+
+
+FORMS: Mapping[str, Callable[[Any], object]] = {
+    "words": _said, "caption": _said, "heads": lambda heads: [*map(_said, heads)], "width": _mm, "height": _mm,
+    "names": lambda names: [*map(_said, names)], "work": lambda lines: [*map(_words, lines)], "drawing": _drawing,
+    "rows": lambda rows: [[*map(_words, row)] for row in rows], "bold": sorted, "seen": clean,
+}  # fmt: skip
+"""The fields of blocks that are not handed to the template as they are, and what it reads instead."""

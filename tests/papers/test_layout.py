@@ -4,9 +4,16 @@ import random
 
 import pytest
 
+from graphkin.papers.blocks import Heading, Paragraph, Picture
 from graphkin.papers.layout import KEPT, Page, Piece, balanced, fill_pages
 
 HEIGHT = 260.0
+WORDS, ROOM, FRESH = Paragraph(()), Paragraph((), fills=True), Heading((), fresh=True)
+FIGURE = Picture(None, floats=True)
+
+
+def pages(pieces: list[Piece]) -> list[Page]:
+    return fill_pages(pieces, HEIGHT)[0]
 
 
 def numbers(pieces: list[Piece], page: Page) -> list[int]:
@@ -20,17 +27,17 @@ def drawn_lots(seed: int) -> list[Piece]:
     chance = random.Random(seed)
     pieces = []
     for _ in range(chance.randint(2, 9)):
-        pieces.append(Piece(chance.uniform(15, 40), 5.2))
+        pieces.append(Piece(WORDS, chance.uniform(15, 40), 5.2))
         steps = chance.randint(1, 12)
-        pieces += [Piece(chance.uniform(5, 18), 2.0, KEPT if not i else 0.08, half=True) for i in range(steps)]
-        pieces.append(Piece(chance.uniform(40, 190), 3.3, 0.04, floats=True))
+        pieces += [Piece(WORDS, chance.uniform(5, 18), 2.0, KEPT if not i else 0.08, half=True) for i in range(steps)]
+        pieces.append(Piece(FIGURE, chance.uniform(40, 190), 3.3, 0.04))
     return pieces
 
 
 @pytest.mark.parametrize("seed", range(10))
 def test_every_piece_stands_on_one_page_and_only_figures_are_overtaken(seed):
     pieces = drawn_lots(seed)
-    order = [n for page in fill_pages(pieces, HEIGHT).pages for n in numbers(pieces, page)]
+    order = [n for page in pages(pieces) for n in numbers(pieces, page)]
     words = [n for n in order if not pieces[n].floats]
     figures = [n for n in order if pieces[n].floats]
     assert list(range(len(pieces))) == sorted(order)
@@ -40,7 +47,7 @@ def test_every_piece_stands_on_one_page_and_only_figures_are_overtaken(seed):
 @pytest.mark.parametrize("seed", range(10))
 def test_no_page_is_higher_than_the_paper(seed):
     pieces = drawn_lots(seed)
-    for page in fill_pages(pieces, HEIGHT).pages:
+    for page in pages(pieces):
         heights = [
             balanced([piece.height for piece in (*row.left, *row.right)])[1] if row.left[0].half else row.left[0].height
             for row in page
@@ -51,13 +58,13 @@ def test_no_page_is_higher_than_the_paper(seed):
 @pytest.mark.parametrize("seed", range(10))
 def test_an_equation_is_never_parted_from_its_first_step(seed):
     pieces = drawn_lots(seed)
-    heads = [page[0].left[0] for page in fill_pages(pieces, HEIGHT).pages]
+    heads = [page[0].left[0] for page in pages(pieces)]
     assert not [piece for piece in heads if piece.tie == KEPT]
 
 
 def test_a_figure_without_room_gives_way_to_the_words_behind_it():
-    pieces = [Piece(100.0), Piece(180.0, 3.0, 0.04, floats=True), Piece(100.0, 5.0), Piece(40.0, 5.0)]
-    assert [[0, 2], [1, 3]] == [numbers(pieces, page) for page in fill_pages(pieces, HEIGHT).pages]
+    pieces = [Piece(WORDS, 100.0), Piece(FIGURE, 180.0, 3.0, 0.04), Piece(WORDS, 100.0, 5.0), Piece(WORDS, 40.0, 5.0)]
+    assert [[0, 2], [1, 3]] == [numbers(pieces, page) for page in pages(pieces)]
 
 
 def test_steps_in_two_columns_are_about_as_high_on_both_sides():
@@ -65,10 +72,10 @@ def test_steps_in_two_columns_are_about_as_high_on_both_sides():
 
 
 def test_room_to_write_in_takes_what_the_page_has_left():
-    first, _ = fill_pages([Piece(100.0), Piece(0.0, 3.0, fills=True), Piece(50.0, fresh=True)], HEIGHT).pages
+    first, _ = pages([Piece(WORDS, 100.0), Piece(ROOM, 0.0, 3.0), Piece(FRESH, 50.0)])
     assert pytest.approx(157.0) == first[1].height
 
 
 def test_a_page_is_not_filled_beyond_its_height_by_a_millimetre():
-    pieces = [Piece(150.0), Piece(111.0), Piece(20.0)]
-    assert [[0], [1, 2]] == [numbers(pieces, page) for page in fill_pages(pieces, HEIGHT).pages]
+    pieces = [Piece(WORDS, 150.0), Piece(WORDS, 111.0), Piece(WORDS, 20.0)]
+    assert [[0], [1, 2]] == [numbers(pieces, page) for page in pages(pieces)]
