@@ -6,7 +6,7 @@ What a step tells is a function of its reason, in the tables of `in_mechanism` a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 
 from graphkin.account import in_mechanism, in_polygon
@@ -40,10 +40,10 @@ class Account(Voice):
         """What is computed in a step, as lines of symbols and numbers."""
         return tuple(in_polygon.SUMS.get(step.reason, measured)(self, step))
 
-    def lines(self, step: Step, language: str) -> Iterable[str]:
+    def lines(self, step: Step, language: str) -> Iterator[str]:
         """What is written of a step to repeat it, as lines of words and symbols."""
-        written = LINES.get(step.reason)
-        return written(self, step, language) if written else ()
+        for line in LINES[step.reason](self, step, language) if step.reason in LINES else ():
+            yield self.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
 
     def why(self, equation: Equation, language: str) -> str:
         """Why an equation is as it is written, in sentences; "" where there is nothing to say."""

@@ -50,6 +50,7 @@ from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, t
 __all__ = ["LINES", "SENTENCES", "SUMS", "alike", "measured", "rate_name"]
 
 SEEN = 0.005  # mm on paper: less than that is not taken off
+RATE_UNITS = {"omega": "rad/s", "alpha": "rad/s²"}
 ON_THE_POINT = 1e-9  # of a bar: so near to its end a point divides nothing
 
 
@@ -66,10 +67,10 @@ def _sides(sheet: Sheet, step: Step) -> tuple[tuple[Term, ...], ...]:
     return sheet.equations[step.equation - 1].sides if step.equation is not None else ()
 
 
-def _between(voice: Voice, step: Step, vector: Vector | Aid) -> Markup | None:
+def _between(voice: Voice, step: Step, tail: complex, tip: complex) -> Markup | None:
     """A vector by the letters of its ends: ``pb``; None where the convention has no letters, and where it is so small
     that one letter stands for both."""
-    ends = voice.end_at(step.diagram, vector.tail), voice.end_at(step.diagram, vector.tip)
+    ends = voice.end_at(step.diagram, tail), voice.end_at(step.diagram, tip)
     return None if None in ends or ends[0] == ends[1] else _joined(*ends)
 
 
@@ -106,21 +107,26 @@ def _laid_off(voice: Voice, step: Step) -> Phrase | None:
     vector = _drawn(step)
     if vector is None or step.mm == 0.0:
         return None
-    told, why = _from_letter(voice, step, vector), _carried_over(voice.sheet, step)
+    key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(step.reason, "as vector")
+    rule = Phrase(key, (_rule(step.symbol, step.size),))
+    told = _lay(voice, step, "lay off", rule, step.mm, step.direction, (vector.tail, vector.tip))
+    why = _carried_over(voice.sheet, step)
     return told if why is None else Phrase("in turn", (told or step.phrase, why))
 
 
-def _from_letter(voice: Voice, step: Step, vector: Vector | Aid) -> Phrase | None:
-    start = _start(voice, step, vector.tail)
+def _lay(
+    voice: Voice, step: Step, verb: str, rule: object, mm: float, direction: Direction, ends: tuple[complex, complex]
+) -> Phrase | None:
+    """A vector of so many mm that is laid off or carried from a place to another, by their letters where they have
+    some."""
+    start = _start(voice, step, ends[0])
     if start is None:
         return None
-    key = {"normal": "as normal", "coriolis": "as Coriolis"}.get(step.reason, "as vector")
-    name, end = _between(voice, step, vector), voice.end_at(step.diagram, vector.tip)
-    rule = Phrase(key, (_rule(step.symbol, step.size),))
-    what = rule, on_paper(step.mm), _pointing(step.direction, vector.span)
+    what = rule, on_paper(mm), _pointing(direction, ends[1] - ends[0])
+    name = _between(voice, step, *ends)
     if name is None:
-        return Phrase("lay off from", (start, *what))
-    return Phrase("lay off lettered", (start, name, *what, end))
+        return Phrase(f"{verb} from", (start, *what))
+    return Phrase(f"{verb} lettered", (start, name, *what, voice.end_at(step.diagram, ends[1])))
 
 
 def _carried_over(sheet: Sheet, step: Step) -> Phrase | None:
@@ -151,22 +157,19 @@ def _carried_over(sheet: Sheet, step: Step) -> Phrase | None:
     return Phrase(key, (step.symbol, told, rule, slip))
 
 
-def _carried_over_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
-    told = _carried_over(voice.sheet, step)
-    if told is not None:
-        yield voice.say(told, languages(language)[0])
+def _carried_over_lines(voice: Voice, step: Step, language: str) -> Iterator[Phrase]:
+    if (told := _carried_over(voice.sheet, step)) is not None:
+        yield told
 
 
 def _laid_sums(voice: Voice, step: Step) -> Iterable[str]:
-    if step.mm == 0.0:
-        return measured(voice, step)
-    drawn = next(s for s in step.strokes if isinstance(s, Vector | Aid))
-    return _laid(voice, step, step.size, abs(drawn.span))
+    vector = _drawn(step)
+    return measured(voice, step) if step.mm == 0.0 or vector is None else _laid(voice, step, step.size, vector.span)
 
 
-def _laid(voice: Voice, step: Step, size: Size | None, length: float) -> tuple[str, str]:
+def _laid(voice: Voice, step: Step, size: Size | None, span: complex) -> tuple[str, str]:
     """The rule of a vector in numbers, and its length on paper."""
-    computed, on_scale = laid_sum(voice.sheet, step.diagram, size, length)
+    computed, on_scale = laid_sum(voice.sheet, step.diagram, size, abs(span))
     return f"{voice.symbol(step.symbol)} = {computed}", on_scale
 
 
@@ -180,7 +183,7 @@ def measured(voice: Voice, step: Step) -> Iterator[str]:
 
 def _found(voice: Voice, step: Step) -> Phrase | None:
     vector = _drawn(step)
-    name = _between(voice, step, vector) if vector is not None and step.mm else None
+    name = _between(voice, step, vector.tail, vector.tip) if vector is not None and step.mm else None
     return Phrase("found lettered", (name, step.symbol, on_paper(step.mm))) if name else None
 
 
@@ -188,7 +191,12 @@ def _line(voice: Voice, step: Step) -> Phrase | None:
     ray = next((s for s in step.strokes if isinstance(s, Ray)), None)
     if ray is None:
         return None
-    letter, what = voice.end_at(step.diagram, ray.through), _unknown(voice.sheet, step)
+    letter = voice.end_at(step.diagram, ray.through)
+    # a vector, or the sum of those of its side whose sizes are unknown along it
+    side = next((side for side in _sides(voice.sheet, step) if any(t.symbol == step.symbol for t in side)), ())
+    along = next((t.direction for t in side if t.symbol == step.symbol), None)
+    unknown: list[object] = [t.symbol for t in side if not t.size_known and t.direction == along]
+    what = reduce(lambda one, other: Phrase("sum", (one, other)), unknown or [step.symbol])
     if abs(ray.through) < SAME:
         return Phrase("direction from pole", (what, step.direction, letter))
     before = _before(voice.sheet, step, step.symbol, ray.through)
@@ -199,13 +207,6 @@ def _line(voice: Voice, step: Step) -> Phrase | None:
     return Phrase("direction from lettered end", (what, step.direction, before, letter))
 
 
-def _unknown(sheet: Sheet, step: Step) -> Symbol | Phrase:
-    """What lies on a line: a vector, or the sum of those of its side whose sizes are unknown along it."""
-    side = next((side for side in _sides(sheet, step) if any(term.symbol == step.symbol for term in side)), ())
-    along = next((term.direction for term in side if term.symbol == step.symbol), None)
-    return reduce(_sum, (t.symbol for t in side if not t.size_known and t.direction == along), None) or step.symbol
-
-
 def _end_point(key: str, voice: Voice, step: Step) -> Phrase | None:
     letter = voice.end_of(step.diagram, step.ref)
     return Phrase(key, (letter, step.ref)) if letter else None
@@ -214,7 +215,7 @@ def _end_point(key: str, voice: Voice, step: Step) -> Phrase | None:
 def _join(key: str, voice: Voice, step: Step) -> Phrase | None:
     """A vector drawn from letter to letter."""
     vector = _drawn(step)
-    name = _between(voice, step, vector) if vector is not None else None
+    name = _between(voice, step, vector.tail, vector.tip) if vector is not None else None
     if vector is None or name is None:
         return None
     ends = voice.end_at(step.diagram, vector.tail), voice.end_at(step.diagram, vector.tip)
@@ -224,18 +225,13 @@ def _join(key: str, voice: Voice, step: Step) -> Phrase | None:
 def _carried(voice: Voice, step: Step) -> Phrase | None:
     """A known term behind the unknown one, laid off before it."""
     bar = next((s for s in step.strokes if isinstance(s, Bar)), None)
-    start = _start(voice, step, bar.a) if bar else None
     term = next((term for side in _sides(voice.sheet, step) for term in side if term.symbol == step.symbol), None)
-    if bar is None or start is None or term is None or term.direction is None:
+    if bar is None or term is None or term.direction is None or _start(voice, step, bar.a) is None:
         return None
-    if abs(bar.b - bar.a) < SAME:
+    length = abs(bar.b - bar.a)
+    if length < SAME:
         return Phrase("zero vector", (step.symbol,))
-    rule = _rule(step.symbol, term.size)
-    what = (rule, on_paper(abs(bar.b - bar.a)), _pointing(term.direction, bar.b - bar.a))
-    ends = voice.end_at(step.diagram, bar.a), voice.end_at(step.diagram, bar.b)
-    if None in ends or ends[0] == ends[1]:
-        return Phrase("carry from", (start, *what))
-    return Phrase("carry lettered", (start, _joined(*ends), *what, ends[1]))
+    return _lay(voice, step, "carry", _rule(step.symbol, term.size), length, term.direction, (bar.a, bar.b))
 
 
 def _carried_sums(voice: Voice, step: Step) -> Iterable[str]:
@@ -243,7 +239,7 @@ def _carried_sums(voice: Voice, step: Step) -> Iterable[str]:
         return measured(voice, step)
     size = next((t.size for side in _sides(voice.sheet, step) for t in side if t.symbol == step.symbol), None)
     bar = next((s for s in step.strokes if isinstance(s, Bar) and s.b != s.a), None)
-    return _laid(voice, step, size, abs(bar.b - bar.a)) if bar and size else ()
+    return _laid(voice, step, size, bar.b - bar.a) if bar and size else ()
 
 
 # -- images ------------------------------------------------------------------------------------------------------------
@@ -289,12 +285,12 @@ def _triangle(
     return Phrase("image with sides", (*names, *sides, *ratios))
 
 
-def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str | Phrase]:
     """``△bce ∼ △BCE``, or ``pm : pd = AM : AD`` for a point between others; where a convention has no end points the
     vector with what is similar on the link, nothing for one that is not drawn."""
-    spoken, on_line = languages(language)[0], step.reason == "division"
+    on_line = step.reason == "division"
     if step.held:
-        yield voice.say(Phrase("written image seen", (step.symbol, step.link)), spoken)
+        yield Phrase("written image seen", (step.symbol, step.link))
         return
     refs = (*step.refs, step.ref)
     ends = [voice.end_of(step.diagram, ref) for ref in refs]
@@ -303,7 +299,8 @@ def _image_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
         vector = Symbol("v" if step.diagram == "velocity" else "a", step.ref)
         if voice.letters.convention == "us" and vector in voice.sheet.vectors(step.diagram):
             similar = f"${one}{three}$ : ${one}{two}$" if on_line else f"△${one}{two}{three}$"
-            yield bound(voice.say(Phrase("written image named", (vector, step.link, Neutral(similar))), spoken))
+            named = Phrase("written image named", (vector, step.link, Neutral(similar)))
+            yield bound(voice.say(named, languages(language)[0]))
         return
     a, b, c = (str(end) for end in ends)
     if on_line:
@@ -356,10 +353,6 @@ def _rates(sheet: Sheet, step: Step) -> Mapping[str, Rate]:
     return sheet.omega if step.kind == "omega" else sheet.alpha
 
 
-def _per_second(step: Step) -> str:
-    return "rad/s" if step.kind == "omega" else "rad/s²"
-
-
 def _turning_links(sheet: Sheet, step: Step) -> tuple[str, ...]:
     """The links that turn as a rate says, as indices of it."""
     if step.held:
@@ -369,7 +362,7 @@ def _turning_links(sheet: Sheet, step: Step) -> tuple[str, ...]:
 
 
 def _rate_sums(voice: Voice, step: Step) -> Iterable[str]:
-    value = rate_sum(voice.sheet, step) or f"{number(abs(step.value), MOST)} {_per_second(step)}"
+    value = rate_sum(voice.sheet, step) or f"{number(abs(step.value), MOST)} {RATE_UNITS[step.kind]}"
     return (f"{rate_name(step.kind, _turning_links(voice.sheet, step)[0])} = {value}",)
 
 
@@ -377,26 +370,16 @@ def _rate_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     """``ω_4 = ω_3 = v_A4 / l_AO4 = 0.74 rad/s, clockwise``: the quotient of a vector and a bar."""
     value = step.value if step.held else _rates(voice.sheet, step)[step.link].value
     rule = f"{voice.symbol(step.symbol)} / ${voice.letters.length(step.points)}$"
-    shown = bound(rate_sum(voice.sheet, step, units=False)) or f"{number(abs(value), 5)} {_per_second(step)}"
+    shown = bound(rate_sum(voice.sheet, step, units=False)) or f"{number(abs(value), 5)} {RATE_UNITS[step.kind]}"
     names = (rate_name(step.kind, name) for name in _turning_links(voice.sheet, step))
     yield " =\u00a0".join((*names, rule, shown)) + _turning(value, language)
 
 
-def _added_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
-    """``ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s``: a link whose turning relative to another is known, as
-    soon as that one turns at a known rate."""
-    yield bound(voice.say(step.phrase, languages(language)[0]))
-
-
 def _held_still_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     """``ω_32 = 0.1437 rad/s, clockwise, drawn apart, with one link held still``."""
-    if step.kind in ("omega", "alpha"):
-        value = f"{number(abs(step.value), 5)} {_per_second(step)}{_turning(step.value, language)}"
+    if step.kind in RATE_UNITS:
+        value = f"{number(abs(step.value), 5)} {RATE_UNITS[step.kind]}{_turning(step.value, language)}"
         yield f"{rate_name(step.kind, step.link + step.held)} = {value},  {term('held still', language)}"
-
-
-def _plan_sums(voice: Voice, step: Step) -> Iterable[str]:
-    return (f"{rate_name(step.kind, step.link)} = {plan_sum(step)}",)
 
 
 def _plan_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
@@ -429,7 +412,13 @@ def _trial(voice: Voice, step: Step) -> Phrase | None:
     """A trial polygon: which steps draw it, and in the first one why it is drawn."""
     trial, sheet = step.data, voice.sheet
     assert isinstance(trial, RateTrial)
-    told = Phrase("trial lettered", (numeral(trial.number), _assumed(sheet, trial.assumed), *_drawn_by(sheet, step)))
+    # the steps by which it is drawn like the true polygon
+    aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
+    later = [s for s in sheet.steps[step.number :] if s.diagram == step.diagram]
+    first = next(s.number for s in later if s.reason == "open ends") + 1
+    own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
+    last = max((s.number for s in own), default=first)
+    told = Phrase("trial lettered", (numeral(trial.number), _assumed(sheet, trial.assumed), first, last))
     if trial.number > 1:
         return told
     if trial.far is None:
@@ -437,15 +426,6 @@ def _trial(voice: Voice, step: Step) -> Phrase | None:
     angle = number(math.degrees(trial.far.crossing), 2)
     away = f"{trial.far.away / sheet.scales.length:.0f}"
     return Phrase("superposed since far", (told, *trial.far.links, angle, away))
-
-
-def _drawn_by(sheet: Sheet, step: Step) -> tuple[int, int]:
-    """The first and the last of the steps by which a trial is drawn like the true polygon."""
-    aids = {s.symbol for s in step.strokes if isinstance(s, Aid)}
-    later = [s for s in sheet.steps[step.number :] if s.diagram == step.diagram]
-    first = next(s.number for s in later if s.reason == "open ends") + 1
-    own = (s for s in later if s.number >= first and any(getattr(x, "symbol", None) in aids for x in s.strokes))
-    return first, max((s.number for s in own), default=first)
 
 
 def _superposed(voice: Voice, step: Step) -> Phrase | None:
@@ -462,18 +442,18 @@ def _superposed(voice: Voice, step: Step) -> Phrase | None:
     return Phrase("superposed one", (where, rows, sums[0].terms, found))
 
 
-def _superposed_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+def _superposed_lines(voice: Voice, step: Step, language: str) -> Iterator[Phrase]:
     """What is measured, ``I: ω_3 = 0.2 rad/s; open 3.21 mm``, a line for each trial, and the proportional division."""
-    divided, sheet, spoken = step.data, voice.sheet, languages(language)[0]
+    divided, sheet = step.data, voice.sheet
     assert isinstance(divided, Superposed)
     trials = trials_of(sheet, step, divided)
     numerals = [Markup(numeral(trial.number)) for trial in trials]
     opened = _left_open(voice, step, divided)
-    yield voice.say(Phrase("written trials", (listed(numerals), ", ".join(divided.closing), opened)), spoken)
+    yield Phrase("written trials", (listed(numerals), ", ".join(divided.closing), opened))
     for trial, mark, row in zip(trials, numerals, divided.apart, strict=True):
         rates = ", ".join(f"{voice.symbol(s)} = {number(v, 5)} {_unit(sheet, s)}" for s, v in trial.assumed)
         apart = ", ".join(written(on_paper(mm)) for mm in row)
-        yield voice.say(Phrase("written trial polygon", (mark, Neutral(rates), apart)), spoken)
+        yield Phrase("written trial polygon", (mark, Neutral(rates), apart))
     sums = divisions(sheet, step, divided)
     said = Neutral("; ".join(
         bound(f"{voice.symbol(s)} = {one.terms} = {one.value} {_unit(sheet, s)}")
@@ -483,7 +463,7 @@ def _superposed_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     if len(sums) > 1:
         parts = ", ".join(one.part for one in sums)
         told = Phrase("written superposed several", (parts, Markup(numeral(1)), listed(numerals[1:]), said))
-    yield voice.say(told, spoken)
+    yield told
 
 
 def _left_open(voice: Voice, step: Step, divided: Superposed) -> object:
@@ -524,10 +504,6 @@ def _rule(symbol: Symbol, size: Size | None) -> Symbol | Phrase:
     return symbol if size is None or size == GIVEN else Phrase("rule of size", (symbol, size))
 
 
-def _sum(before: Symbol | Phrase | None, symbol: Symbol) -> Symbol | Phrase:
-    return symbol if before is None else Phrase("sum", (before, symbol))
-
-
 def _pointing(direction: Direction, span: complex) -> Direction | Phrase:
     """A direction with its sense, where that does not lie in its name."""
     if direction.relation == "towards":
@@ -550,12 +526,16 @@ SENTENCES: Mapping[Reason, Callable[[Voice, Step], Phrase | None]] = {
 """The step as it is said with the letters of its points, by its reason; None where it has none."""
 SUMS: Mapping[Reason, Callable[[Voice, Step], Iterable[str]]] = {
     **dict.fromkeys(ROLES, _laid_sums), "before its turn": _carried_sums, "rates": _by_rates_sums,
-    "rate": _rate_sums, "plan": _plan_sums,
+    "rate": _rate_sums,
+    "plan": lambda voice, step: [f"{rate_name(step.kind, step.link)} = {plan_sum(step)}"],
 }  # fmt: skip
 """What is computed in a step, where that is more than its vectors as they are `measured`."""
-LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str]]] = {
+LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str | Phrase]]] = {
     **dict.fromkeys(ROLES, _carried_over_lines), "similar": _image_lines, "division": _image_lines,
-    "rates": _by_rates_lines, "rate": _rate_lines, "sum of rates": _added_lines, "held still": _held_still_lines,
-    "plan": _plan_lines, "open ends": _superposed_lines,
+    "rates": _by_rates_lines, "rate": _rate_lines,
+    # a link whose turning relative to another is known, as soon as that one turns at a known rate:
+    # ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s
+    "sum of rates": lambda voice, step, language: [bound(voice.say(step.phrase, languages(language)[0]))],
+    "held still": _held_still_lines, "plan": _plan_lines, "open ends": _superposed_lines,
 }  # fmt: skip
 """What is written of a step to repeat it, in a language."""
