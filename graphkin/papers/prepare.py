@@ -31,7 +31,7 @@ from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, papers_as
 from graphkin.papers.problem import problem
-from graphkin.papers.screen import POSITIONS, Progress, common_scales, handout_page, motion_data
+from graphkin.papers.screen import POSITIONS, Progress, common_scales, handout_page, motion_data, rows_in_order
 from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
@@ -97,13 +97,7 @@ def positions(
     drivers = motion.scene.drivers
     keys = [d.key for d in drivers]
     own = {d.key: d.values[0] for d in drivers} | dict(values or {})
-    rows = [dict(zip(keys, map(float, row), strict=True)) for row in motion.values]
-    good = [bool(ok) for ok in motion.ok]
-    if not all(good):
-        # begin behind the gap, so that neighbours on the slider are neighbours in the motion
-        cut = next(i for i in range(len(good)) if good[i] and not good[i - 1]) if any(good) else 0
-        order = [*range(cut, len(good)), *range(cut)]
-        rows = [rows[i] for i in order if good[i]]
+    rows = [dict(zip(keys, map(float, motion.values[i]), strict=True)) for i in rows_in_order(motion.ok)]
     first = keys[0]
     at = next((i for i, row in enumerate(rows) if np.isclose(row[first], own[first], rtol=0, atol=1e-9)), None)
     if at is None:
@@ -139,7 +133,7 @@ def views_of(
     given = sum(i < start for i in made)
     plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
-    centres = _centres(structure, sheets, given, progress or _silent)
+    centres = _centres(structure, sheets, given, progress)
     views: list[Lesson] = []
     start = given
     for number, (sheet, here) in enumerate(zip(sheets, centres, strict=True)):
@@ -160,25 +154,21 @@ def _followed(structure: Structure, row: Mapping[str, float], asked: Sequence[Sy
         return plan(structure, row, asked)
 
 
-def _silent(done: int, count: int) -> None:
-    pass
-
-
-def _centres(structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress) -> list[Centres | None]:
+def _centres(
+    structure: Structure, sheets: Sequence[Sheet], given: int, progress: Progress | None
+) -> list[Centres | None]:
     """The centres in each position, from the given one onwards and then backwards: each starts from its neighbour."""
     found: dict[int, Centres | None] = {}
     for i in (*range(given, len(sheets)), *range(given - 1, -1, -1)):
         near = found.get(i - 1) if i > given else found.get(i + 1)
-        found[i] = _centres_of(structure, sheets[i], near)
-        progress(len(found), len(sheets))
+        found[i] = None
+        for start in (near, None) if near is not None else (None,):
+            with suppress(Unsolvable):
+                found[i] = find_centres(structure, sheets[i].drivers, sheet=sheets[i], near=start)
+                break
+        if progress is not None:
+            progress(len(found), len(sheets))
     return [found[i] for i in range(len(sheets))]
-
-
-def _centres_of(structure: Structure, sheet: Sheet, near: Centres | None) -> Centres | None:
-    for start in (near, None) if near is not None else (None,):
-        with suppress(Unsolvable):
-            return find_centres(structure, sheet.drivers, sheet=sheet, near=start)
-    return None
 
 
 FORMATS = ("html", "pdf")

@@ -8,7 +8,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import reduce
 from itertools import combinations, zip_longest
 from typing import Literal, TypeAlias
 
@@ -30,7 +31,7 @@ from graphkin.drawing.figures.forces import group_equation, group_picture
 from graphkin.drawing.figures.lever import lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.force_stages import ForceStage, ForceStep, force_stages
-from graphkin.drawing.ink.primitives import Group
+from graphkin.drawing.ink.primitives import Group, Primitive
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
 from graphkin.drawing.parts.mechanism import mechanism_piece
@@ -44,18 +45,17 @@ from graphkin.files import Json
 from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
 from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
-from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
 from graphkin.papers.problem import given, scene_title
 from graphkin.papers.solution import results_blocks, solution, solution_blocks, stage_title, step_items
-from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.motion import instant_centre
 from graphkin.solver.pose import Array
 from graphkin.words import about, languages, word
 
-__all__ = ["POSITIONS", "Progress", "common_scales", "handout_page", "motion_data", "positions_data"]
+__all__ = ["POSITIONS", "Progress", "common_scales", "handout_page", "motion_data", "positions_data", "rows_in_order"]
 
 Progress = Callable[[int, int], None]  # positions done, and all of them
 POSITIONS = 12
@@ -78,7 +78,7 @@ def common_scales(plans: Sequence[Plan], paper: Scales) -> list[Scales]:
     """
     sheets = [execute(plan) for plan in plans]
     metres = sheets[0].scene.units.rates.metres
-    whole = _joined(Box.around(sheet.points.values()) for sheet in sheets)
+    whole = reduce(Box.joined, (Box.around(sheet.points.values()) for sheet in sheets))
     size = sheets[0].scales.length / paper.length * max(whole.width / MECHANISM[0], whole.height / MECHANISM[1])
     length = _coarser(paper.length * 1e3, size) * 1e-3
 
@@ -95,11 +95,12 @@ def _coarser(scale: float, factor: float) -> float:
     return scale if factor <= 1.0 else next_of_series(scale * factor)
 
 
-def _joined(boxes: Iterable[Box]) -> Box:
-    first, *rest = boxes
-    for box in rest:
-        first = first.joined(box)
-    return first
+def rows_in_order(ok: Array) -> list[int]:
+    """The rows of a motion that stand, beginning behind the gap where there is one, so that neighbours in the list are
+    neighbours in the motion."""
+    good = [bool(one) for one in ok]
+    cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
+    return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]
 
 
 def handout_page(
@@ -181,11 +182,13 @@ def positions_data(views: Sequence[Lesson], progress: Progress | None = None) ->
     progress : called with the number of positions done and the number of all
     """
     pieces = [mechanism_piece(v.sheet, v.letters, (MECHANISM[0] + 20, MECHANISM[1] + 20)) for v in views]
-    frames = _frames(views, pieces)
-    stages: list[dict[str, str]] = []
+    frames, cams = _frames(views, pieces), [*_cams(views[0])]
+    stages: list[dict[str, str]] = []  # most of them are the same in every position
     positions = []
     for done, (view, (piece, _)) in enumerate(zip(views, pieces, strict=True), 1):
-        positions.append(_position(view, piece, frames, stages))
+        position, own = _position(view, piece, frames, cams)
+        stages += [stage for stage in own if stage not in stages]
+        positions.append(position | {"stages": [stages.index(stage) for stage in own]})
         if progress is not None:
             progress(done, len(views))
     columns: dict[str, list[object]] = {key: [one[key] for one in positions] for key in positions[0]}
@@ -194,76 +197,65 @@ def positions_data(views: Sequence[Lesson], progress: Progress | None = None) ->
     return {"positions": columns, "stages": stages}
 
 
-@dataclass(frozen=True)
-class _Frames:
-    """The frames that hold the figures of all positions: equally large, and the fixed pivots always at their places.
-
-    polygons : width and height (mm) in which the polygon of every position has room, and the height of the strip below
-        it; centres : None where no position has any; cams : the figures of the cams, which are the same everywhere
-    """
-
-    mechanism: Box
-    polygons: Mapping[DiagramName, tuple[complex, float]]
-    centres: Box | None
-    cams: tuple[Figure, ...]
+Frames: TypeAlias = Mapping["FigureName", tuple[Box, float]]
+"""The frames (mm) that hold the figures of all positions, equally large, and the height of the strip below them; the
+fixed pivots are always at their places, a polygon has its middle at nought."""
 
 
-def _frames(views: Sequence[Lesson], pieces: Sequence[tuple[Piece, Box]]) -> _Frames:
-    polygons: dict[DiagramName, tuple[complex, float]] = {}
+def _frames(views: Sequence[Lesson], pieces: Sequence[tuple[Piece, Box]]) -> Frames:
+    frames: dict[FigureName, tuple[Box, float]] = {}
+    frames["mechanism"] = reduce(Box.joined, (box for _, box in pieces)).grown(ROOM), 0.0
     for diagram in POLYGONS:
         boxes = [extent(view.sheet, diagram).grown(ROOM) for view in views]
         size = complex(max(max(b.width for b in boxes), 70.0), max(b.height for b in boxes))
-        polygons[diagram] = size, max(strip_height(view.sheet, diagram, size.real) for view in views)
+        low = max(strip_height(view.sheet, diagram, size.real) for view in views)
+        frames[diagram] = Box.around((-size / 2, size / 2)), low
     near = [
         near_box(view.centres, ink_box(background(piece).drawn) or box, MECHANISM)
         for view, (piece, box) in zip(views, pieces, strict=True) if view.centres is not None
     ]  # fmt: skip
-    mechanism = _joined(box for _, box in pieces).grown(ROOM)
-    return _Frames(mechanism, polygons, _joined(near).grown(ROOM) if near else None, tuple(_cams(views[0])))
+    return frames | ({"centres": (reduce(Box.joined, near).grown(ROOM), 0.0)} if near else {})
 
 
-def _position(lesson: Lesson, piece: Piece, frames: _Frames, table: list[dict[str, str]]) -> dict[str, object]:
-    """One position as the page takes it; its stages are put into the table of all."""
+StageTold: TypeAlias = tuple[dict[str, str], str, Sequence[tuple[StepItem | ForceStep, dict[str, Json]]]]
+"""A stage with its title and equation (HTML, SVG), the name of its figure, and its steps with what each finds."""
+
+
+def _position(
+    lesson: Lesson, piece: Piece, frames: Frames, cams: Sequence[Figure]
+) -> tuple[dict[str, object], list[dict[str, str]]]:
+    """One position as the page takes it, and its stages."""
     first = languages(lesson.language)[0]
     name = drivers(lesson.sheet, lesson.letters)
     figures = [*_figures(lesson, piece, frames), *_plans(lesson)]
-    stages, steps = list[int](), list[dict[str, object]]()
-    for count, stage in enumerate(lesson.stages):
-        stages.append(_place(table, said_html(stage_title(lesson, stage)), _equation(lesson, stage)))
-        for step, item in zip(stage.steps, step_items(lesson, stage), strict=True):
-            steps.append(_step(item, stage.diagram, count, first) | _found(lesson, step))
-    _forces(lesson, figures, stages, steps, table)
+    stages, steps = list[dict[str, str]](), list[dict[str, object]]()
+    for count, (stage, figure, items) in enumerate((*_motion(lesson), *_forces(lesson, figures))):
+        stages.append(stage)
+        for item, finds in items:
+            work = "".join(f'<p class="work">{words_html(line, first)}</p>' for line in item.work)
+            aloud = " ".join(spoken_words(markup, each) for each, markup in item.words)
+            told = {"n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
+            steps.append({"d": figure, "e": count, **told, **finds})
     driver = lesson.sheet.scene.drivers[0]
     at = lesson.sheet.scene.unit_of(driver).of(lesson.sheet.drivers[driver.key])
     return {
         "name": plain_words(name),
         "label": words_html(name, first),
         "at": round(float(at), 3),
-        "figures": [*figures, *frames.cams],
-        "stages": stages,
+        "figures": [*figures, *cams],
+        "stages": [],
         "results": blocks_html(results_blocks(lesson), first) if lesson.report.rows else "",
         "given": blocks_html(given(lesson), first),
         "steps": steps,
-    }
+    }, stages
 
 
-def _place(table: list[dict[str, str]], title: str, svg: str) -> int:
-    """Place of a stage in the table of all: most of them are the same in every position."""
-    stage = {"title": title, "svg": svg}
-    if stage not in table:
-        table.append(stage)
-    return table.index(stage)
-
-
-def _step(item: StepItem | ForceStep, figure: str, stage: int, language: str) -> dict[str, object]:
-    """A step: the figure and the stage that it belongs to, its number, its words on the page and aloud."""
-    work = "".join(f'<p class="work">{words_html(line, language)}</p>' for line in item.work)
-    aloud = " ".join(spoken_words(markup, each) for each, markup in item.words)
-    return {"d": figure, "e": stage, "n": item.number, "html": said_html(item.words, "p") + work, "text": aloud}
-
-
-def _equation(lesson: Lesson, stage: Stage) -> str:
-    return svg_element(equation_picture(lesson, stage.equation)) if stage.equation is not None else ""
+def _motion(lesson: Lesson) -> Iterator[StageTold]:
+    """The stages of the position and of the polygons."""
+    for stage in lesson.stages:
+        svg = svg_element(equation_picture(lesson, stage.equation)) if stage.equation is not None else ""
+        items = zip(step_items(lesson, stage), (_found(lesson, step) for step in stage.steps), strict=True)
+        yield {"title": said_html(stage_title(lesson, stage)), "svg": svg}, stage.diagram, [*items]
 
 
 # -- figures of a position ---------------------------------------------------------------------------------------------
@@ -275,55 +267,43 @@ def _figure(name: str, drawing: Drawing, caption: str, scale: str = "", named: b
     return {"name": name, "svg": svg_element(drawing, named=named), "caption": shown}
 
 
-def _figures(lesson: Lesson, piece: Piece, frames: _Frames) -> Iterator[Figure]:
-    """Mechanism, polygons and centres, with what they show in words."""
+def _figures(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[Figure]:
+    """Mechanism, polygons and centres, with what they show in words: each vector with its size and direction."""
     first, letters = languages(lesson.language)[0], lesson.letters
-    for name, drawing in _drawings(lesson, piece, frames):
+    at = drivers(lesson.sheet, letters)
+    for name, drawn, panel in _drawings(lesson, piece, frames):
         is_stepped = name != "centres"
-        children = stepped(drawing.children) if is_stepped else drawing.children
-        desc = f"{spoken_words(drivers(lesson.sheet, letters), first)}. {_described(lesson, name, first)}"
+        children: tuple[Primitive, ...] = layer_groups(moved_piece(drawn, -panel.corners[0]))
+        told = "; ".join(
+            f"{spoken_words(f'${letters.vector(row.symbol)}$', first)} "
+            f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, first)}"
+            for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name
+        )  # fmt: skip
+        title = term(FIGURE_WORDS[name] if name != "centres" else name, lesson.language)
+        drawing = Drawing(panel.width, panel.height, stepped(children) if is_stepped else children, title,
+                          f"{spoken_words(at, first)}. {told}", first)  # fmt: skip
         scale = scale_statement(lesson.sheet, letters.convention, name if name != "centres" else "mechanism")
-        title, shown = words_html(_title(lesson, name), first), replace(drawing, children=children, desc=desc)
-        yield _figure(name, shown, title, words_html(scale, first), named=is_stepped)
+        yield _figure(name, drawing, words_html(title, first), words_html(scale, first), named=is_stepped)
 
 
-def _drawings(lesson: Lesson, piece: Piece, frames: _Frames) -> Iterator[tuple[FigureName, Drawing]]:
+def _drawings(lesson: Lesson, piece: Piece, frames: Frames) -> Iterator[tuple[FigureName, Piece, Box]]:
+    """Each figure by its name, and the panel (mm) that it stands in."""
     sheet, letters = lesson.sheet, lesson.letters
-    yield "mechanism", _page(lesson, "mechanism", with_labels(piece, frames.mechanism), frames.mechanism)
+    frame, _ = frames["mechanism"]
+    yield "mechanism", with_labels(piece, frame), frame
     for diagram in POLYGONS:
         if sheet.vectors(diagram):
-            size, low = frames.polygons[diagram]
-            middle = extent(sheet, diagram).centre
+            frame, low = frames[diagram]
+            middle, size = extent(sheet, diagram).centre, complex(frame.width, frame.height)
             panel = Box.around((middle - size / 2, middle + size / 2))
             strip = Box(panel.left, panel.bottom, panel.right, panel.bottom + low)
             made, _ = polygon_with_insets(sheet, diagram, letters, lesson.language, panel, 0j, strip)
-            yield diagram, _page(lesson, diagram, made, panel.joined(strip))
-    if lesson.centres is not None and frames.centres is not None:
+            yield diagram, made, panel.joined(strip)
+    if lesson.centres is not None and "centres" in frames:
+        frame, _ = frames["centres"]
         back = background(piece)
-        marks = centre_marks(lesson.centres, letters, frames.centres, back.drawn)
-        made = with_labels(joined((back, marks)), frames.centres)
-        yield "centres", _page(lesson, "centres", made, frames.centres)
-
-
-def _page(lesson: Lesson, name: FigureName, piece: Piece, panel: Box) -> Drawing:
-    groups = layer_groups(moved_piece(piece, -panel.corners[0]))
-    desc = plain_words(drivers(lesson.sheet, lesson.letters))
-    first = languages(lesson.language)[0]
-    return Drawing(panel.width, panel.height, groups, _title(lesson, name), desc, first)
-
-
-def _title(lesson: Lesson, figure: FigureName) -> str:
-    return term(figure if figure == "centres" else FIGURE_WORDS[figure], lesson.language)
-
-
-def _described(lesson: Lesson, name: str, language: str) -> str:
-    """What a polygon shows at this position, in words: each vector with its size and direction."""
-    rows = (row for row in lesson.results if row.symbol.is_vector and row.symbol.measure == name)
-    return "; ".join(
-        f"{spoken_words(f'${lesson.letters.vector(row.symbol)}$', language)} "
-        f"{number(lesson.in_unit(row.symbol, abs(row.true)), 4)} {lesson.unit(row.symbol)}, {way(row, language)}"
-        for row in rows
-    )
+        marks = centre_marks(lesson.centres, letters, frame, back.drawn)
+        yield "centres", with_labels(joined((back, marks)), frame), frame
 
 
 def _plans(lesson: Lesson) -> Iterator[Figure]:
@@ -351,18 +331,13 @@ def _caption(told: Said) -> str:
     return said_html(tuple((each, capital(text)) for each, text in told))
 
 
-def _forces(
-    lesson: Lesson, figures: list[Figure], stages: list[int], steps: list[dict[str, object]],
-    table: list[dict[str, str]],
-) -> None:  # fmt: skip
-    """Add figures, stages and steps of the forces, behind those of the motion."""
+def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
+    """The stages of the forces, behind those of the motion; their figures are added to the others."""
     forces, language = lesson.forces, lesson.language
     if forces is None:
         return
-    sheet = lesson.scaled
-    first = languages(language)[0]
+    sheet, first = lesson.scaled, languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
-    before = len(stages)
     for turn, stage in enumerate(force_stages(sheet, forces, lesson.letters, language)):
         name, svg, title, group = str(stage.figure), "", said_html(stage.title), stage.group
         if group is not None:
@@ -375,8 +350,7 @@ def _forces(
         if len(forces.states) > 1 and group is not None:
             load = said("force with load" if stage.again else "force without load", language)
             title += f" <small>{said_html(load)}</small>"
-        stages.append(_place(table, title, svg))
-        steps += [_step(one, name, before + turn, first) | _force_found(lesson, stage, one) for one in stage.steps]
+        yield {"title": title, "svg": svg}, name, [(one, _force_found(lesson, stage, one)) for one in stage.steps]
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))
@@ -462,7 +436,7 @@ def motion_data(
     """
     scene = sheet.scene.whole  # what stands for a cam does so at one position only
     motion = solve(scene, at=values, sweep=count)
-    rows = _in_order(motion)
+    rows = rows_in_order(motion.ok)
     if len(rows) < 2:
         return {}
     tracks: list[Track] = []
@@ -506,15 +480,6 @@ def motion_data(
     }
 
 
-def _in_order(motion: Motion) -> list[int]:
-    """The rows that stand, beginning behind the gap where there is one."""
-    good = [bool(ok) for ok in motion.ok]
-    if all(good):
-        return list(range(len(good)))
-    cut = next((i for i in range(len(good)) if good[i] and not good[i - 1]), 0)
-    return [i for i in (*range(cut, len(good)), *range(cut)) if good[i]]
-
-
 def _track(z: Array, rows: Sequence[int]) -> Track:
     track: Track = []
     for one in np.asarray(z)[rows].tolist():
@@ -553,10 +518,13 @@ def _centres(
 
 def _vectors(motion: Motion, sheet: Sheet, letters: Letters, diagram: DiagramName, place: Place) -> dict[str, Json]:
     """Absolute vectors from the pole, relative ones between their end points."""
-    kind = "v" if diagram == "velocity" else "a"
+    kind, scene = "v" if diagram == "velocity" else "a", motion.scene
     ends = dict[PointRef, int]()
     for ref in sheet.ends[diagram]:
-        if _moves(motion.scene, ref, motion):
+        # not a point of the frame, nor one that is only there to draw
+        fixed = ref.point in scene.frame.points and ref.link in ("", scene.frame.name)
+        known = ref.link in ("", *motion.poses) and any(ref.point in link.points for link in scene.links)
+        if known and not fixed:
             try:
                 ends[ref] = place(motion.value(Symbol(kind, ref)) / sheet.scales.of(diagram))
             except (KeyError, ValueError):
@@ -573,9 +541,3 @@ def _vectors(motion: Motion, sheet: Sheet, letters: Letters, diagram: DiagramNam
         for ref, number in ends.items()
     ]
     return {"vectors": [list(pair) for pair in dict.fromkeys(vectors)], "ends": named}
-
-
-def _moves(scene: Mechanism, ref: PointRef, motion: Motion) -> bool:
-    """Whether a point is one of a moving link, not of the frame, nor one that is only there to draw."""
-    fixed = ref.point in scene.frame.points and ref.link in ("", scene.frame.name)
-    return not fixed and ref.link in ("", *motion.poses) and any(ref.point in link.points for link in scene.links)
