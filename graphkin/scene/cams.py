@@ -223,7 +223,7 @@ def _cam(
     where, before, si = f"cams.{name}", len(reading.problems), in_si(cam, reading.units)
     point = _axis(where, name, reading, places)
     swings = _swings(where, name, cam, reading, lines, places)
-    law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading.problems)
+    law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading)
     roller = si.roller or 0.0
     base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
     if cam.flat and cam.roller is not None:

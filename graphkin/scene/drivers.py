@@ -90,7 +90,7 @@ def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLa
     if driver.time is not None and given is not None:
         reading.say(f"{where}.time", Phrase("stands beside", value=value), Phrase("write one of the two"))
     unit = math.pi / 180 if value == "angle" else reading.metres
-    law = motion_law(f"{where}.law", driver.law, unit, reading.problems)
+    law = motion_law(f"{where}.law", driver.law, unit, reading)
     if law is None or driver.time is None:
         return law
     if not law.pieces[0].start <= driver.time <= law.duration:

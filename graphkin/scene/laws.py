@@ -13,14 +13,14 @@ from itertools import pairwise
 from types import ModuleType
 from typing import NamedTuple
 
-from graphkin.errors import Problem
 from graphkin.plane import Values
+from graphkin.scene.bodies import Reading
 from graphkin.scene.scene_tables import DriverLaw, LawPiece
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase
 
 __all__ = [
-    "LAWS", "SEAM", "TURN", "CubicPart", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "SmoothPart",
-    "follower_law", "form_of", "motion_law",
+    "LAWS", "SEAM", "TURN", "CubicPart", "FollowerLaw", "Lift", "LiftPiece", "MotionLaw", "follower_law", "form_of",
+    "motion_law",
 ]  # fmt: skip
 
 ROUNDING = 1e-12
@@ -108,9 +108,10 @@ def form_of(by: str | None) -> str:
 
 
 @dataclass(frozen=True)
-class SmoothPart:
-    """A part of the law with derivatives of every order: the piece itself, or of a parabolic piece each half; ``by`` is
-    the law ("" of a dwell), ``which`` the part of it."""
+class LiftPiece:
+    """A piece of a law between two angles of the cam (rad) or moments (s), from one value to another (m or rad); ``by``
+    is the law, "" of a dwell.  Its ``parts`` have derivatives of every order: the piece itself, or of a parabolic piece
+    the halves, told by ``which``."""
 
     start: float
     end: float
@@ -119,8 +120,16 @@ class SmoothPart:
     by: str
     which: int = 0
 
+    @property
+    def parts(self) -> tuple[LiftPiece, ...]:
+        shares = [0.0, *(share for share, _ in LAWS[self.by])] if self.by else [0.0, 1.0]
+        angles, lifts = ([a * (1.0 - share) + b * share for share in shares]
+                         for a, b in ((self.start, self.end), (self.low, self.high)))  # fmt: skip
+        ends = zip(pairwise(angles), pairwise(lifts), strict=True)
+        return tuple(LiftPiece(*angle, *lift, self.by, k) for k, (angle, lift) in enumerate(ends))
+
     def at(self, angle: Values, m: ModuleType = math) -> Lift:
-        """The lift at angles inside (rad), plain, or arrays with the functions of NumPy."""
+        """The lift of a part at angles inside (rad), plain, or arrays with the functions of NumPy."""
         wide, h = self.end - self.start, self.high - self.low
         if h == 0.0:
             return Lift(self.low + 0 * angle, 0.0 * angle, 0.0 * angle, 0.0 * angle)
@@ -129,30 +138,11 @@ class SmoothPart:
         return Lift(self.low + h * f, h * f1 / wide, h * f2 / wide**2, h * f3 / wide**3)
 
     def extremes(self, order: int) -> tuple[tuple[float, float], ...]:
-        """The first or second derivative at both ends and at its peaks inside, each with its angle (rad), in order."""
+        """The first or second derivative of a part at both ends and at its peaks inside, each with its angle (rad), in
+        order."""
         peaks = PEAKS[self.by][order - 1] if self.by in PEAKS else ()
         inside = (self.start + x * (self.end - self.start) for x in peaks)
         return tuple((self.at(angle)[order], angle) for angle in (self.start, *inside, self.end))
-
-
-@dataclass(frozen=True)
-class LiftPiece:
-    """A piece of the law between two cam angles (rad), from one lift to another (m or rad); ``by`` is "" of a dwell."""
-
-    start: float
-    end: float
-    low: float
-    high: float
-    by: str
-
-    @property
-    def parts(self) -> tuple[SmoothPart, ...]:
-        shares = [share for share, _ in LAWS[self.by]] if self.by else [1.0]
-        angles = [self.start, *(self.start * (1.0 - share) + self.end * share for share in shares)]
-        lifts = [self.low, *(self.low * (1.0 - share) + self.high * share for share in shares)]
-        return tuple(
-            SmoothPart(angles[k], angles[k + 1], lifts[k], lifts[k + 1], self.by, k) for k in range(len(shares))
-        )
 
 
 @dataclass(frozen=True)
@@ -168,7 +158,7 @@ class FollowerLaw:
     pieces: tuple[LiftPiece, ...]
 
     @cached_property
-    def parts(self) -> tuple[SmoothPart, ...]:
+    def parts(self) -> tuple[LiftPiece, ...]:
         return tuple(part for piece in self.pieces for part in piece.parts)
 
     @cached_property
@@ -191,7 +181,7 @@ class FollowerLaw:
                 return seam if seam < TURN else 0.0
         return 0.0 if within < SEAM else within
 
-    def part(self, angle: float) -> SmoothPart:
+    def part(self, angle: float) -> LiftPiece:
         """The part in which an angle (rad) lies."""
         return self.parts[bisect_right(self.starts, self.reduced(angle)) - 1]
 
@@ -261,7 +251,7 @@ class MotionLaw:
     time: float = 0.0
 
     @cached_property
-    def parts(self) -> tuple[SmoothPart | CubicPart, ...]:
+    def parts(self) -> tuple[LiftPiece | CubicPart, ...]:
         return tuple(part for piece in self.pieces for part in piece.parts)
 
     @property
@@ -279,7 +269,7 @@ class MotionLaw:
         return Lift(part.low if time < part.start else part.high, 0.0, 0.0, 0.0)
 
     @cached_property
-    def _runs(self) -> tuple[tuple[SmoothPart | CubicPart, float, float], ...]:
+    def _runs(self) -> tuple[tuple[LiftPiece | CubicPart, float, float], ...]:
         """Stretches of the time in which the value grows, falls, or stands."""
         found = []
         for part in self.parts:
@@ -303,10 +293,8 @@ class MotionLaw:
             if first * last < 0.0 and abs(last) > near:
                 for _ in range(HALVINGS):
                     middle = (low + high) / 2
-                    if (part.at(middle).lift - value) * first > 0.0:
-                        low = middle
-                    else:
-                        high = middle
+                    before = (part.at(middle).lift - value) * first > 0.0
+                    low, high = (middle, high) if before else (low, middle)
                 return (low + high) / 2
             if abs(last) <= near:
                 return high
@@ -319,12 +307,21 @@ class MotionLaw:
 # -- reading ---------------------------------------------------------------------------------------------------------
 
 
-def _say(problems: list[Problem], where: str, found: Wording, wanted: Wording) -> None:
-    problems.append(Problem(where, found, wanted))
+def _rise(reading: Reading, where: str, piece: LawPiece) -> float:
+    """By how much a piece rises, in the unit of the file; what is wrong with it is noted."""
+    moves = piece.rise is not None or piece.fall is not None
+    if piece.rise is not None and piece.fall is not None:
+        reading.say(where, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
+    elif moves and piece.by is None:
+        *names, last = (f'"{name}"' for name in LAWS)
+        reading.say(where, Phrase("does not say its law"), f"by = {', '.join(names)} or {last}")
+    elif piece.by is not None and not moves:
+        reading.say(where, Phrase("has by without rise or fall", by=piece.by), Phrase("a dwell has no law"))
+    return (piece.rise or 0.0) - (piece.fall or 0.0)
 
 
-def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, problems: list[Problem]) -> FollowerLaw | None:
-    """The law of a cam's follower, over rad, in SI; what is wrong with it is added to ``problems``.
+def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: Reading) -> FollowerLaw | None:
+    """The law of a cam's follower, over rad, in SI; what is wrong with it is noted.
 
     Parameters
     ----------
@@ -333,49 +330,35 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, problems: 
     """
     found: list[LiftPiece] = []
     start = low = most = 0.0
-    before = len(problems)
-
-    def wrong(i: int, said: Wording, wanted: Wording) -> None:
-        problems.append(Problem(f"{where}.{i}", said, wanted))
-
-    names = [f'"{name}"' for name in LAWS]
+    before = len(reading.problems)
     for i, piece in enumerate(pieces, 1):
-        rise = (piece.rise or 0.0) - (piece.fall or 0.0)
-        if piece.rise is not None and piece.fall is not None:
-            wrong(i, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
-        elif piece.rise is not None or piece.fall is not None:
-            sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall or 0.0)
-            if not size > 0.0:
-                wrong(i, f"{sense} = {size:g}", Phrase("it must be positive a dwell has neither"))
-            if piece.by is None:
-                wrong(i, Phrase("does not say its law"), f"by = {', '.join(names[:-1])} or {names[-1]}")
-        elif piece.by is not None:
-            wrong(i, Phrase("has by without rise or fall", by=piece.by), Phrase("a dwell has no law"))
+        here = f"{where}.{i}"
+        high = low + _rise(reading, here, piece)
+        sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall)
+        if size is not None and not size > 0.0:
+            reading.say(here, f"{sense} = {size:g}", Phrase("it must be positive a dwell has neither"))
         if not piece.to > start:
-            wrong(i, Phrase("ends at deg where it begins at", to=f"{piece.to:g}", start=f"{start:g}"),
-                  Phrase("degrees grow from 0 to 360"))
+            reading.say(here, Phrase("ends at deg where it begins at", to=f"{piece.to:g}", start=f"{start:g}"),
+                        Phrase("degrees grow from 0 to 360"))
         elif piece.to > 360.0:
-            wrong(i, Phrase("ends at deg", start=f"{piece.to:g}"), Phrase("the law ends at 360"))
-        high = low + rise
+            reading.say(here, Phrase("ends at deg", start=f"{piece.to:g}"), Phrase("the law ends at 360"))
         most = max(most, abs(high), abs(low))
-        if abs(high) < 1e-9 * most:
-            high = 0.0
+        high = 0.0 if abs(high) < 1e-9 * most else high
         found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
         start, low = piece.to, high
     if not pieces:
-        _say(problems, where, Phrase("is empty"), Phrase("write to 60 rise 28 by harmonic"))
-        return None
-    if len(problems) == before and start != 360.0:
-        wrong(len(pieces), Phrase("ends at deg", start=f"{start:g}"), Phrase("the last piece ends at 360"))
-    if len(problems) == before and low != 0.0:
-        way = "up" if low > 0 else "down"
-        said = Phrase("does not come back a turn leaves the", least=f"{abs(low):.9g}", way=way)
-        _say(problems, where, said, Phrase("all that rises falls again"))
-    return FollowerLaw(tuple(found)) if len(problems) == before else None
+        reading.say(where, Phrase("is empty"), Phrase("write to 60 rise 28 by harmonic"))
+    elif len(reading.problems) == before and start != 360.0:
+        reading.say(f"{where}.{len(pieces)}", Phrase("ends at deg", start=f"{start:g}"),
+                    Phrase("the last piece ends at 360"))
+    if len(reading.problems) == before and low != 0.0:
+        said = Phrase("does not come back a turn leaves the", least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
+        reading.say(where, said, Phrase("all that rises falls again"))
+    return FollowerLaw(tuple(found)) if len(reading.problems) == before else None
 
 
-def motion_law(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
-    """The law that a driver's table says, in rad or m and s; what is wrong with it is added to ``problems``."""
+def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
+    """The law that a driver's table says, in rad or m and s; what is wrong with it is noted."""
     ways = {
         "table": bool(law.table),
         "pieces": bool(law.pieces),
@@ -384,67 +367,60 @@ def motion_law(where: str, law: DriverLaw, unit: float, problems: list[Problem])
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
         found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
-        _say(problems, where, found, Phrase("write from and to or pieces or a table"))
+        reading.say(where, found, Phrase("write from and to or pieces or a table"))
         return None
     if given == ["table"]:
-        return _by_table(where, law, unit, problems)
-    before = len(problems)
-    start = (law.origin or 0.0) * unit
+        return _by_table(where, law, unit, reading)
+    before = len(reading.problems)
     if law.origin is None:
-        _say(problems, f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s"))
-    pieces = _one(where, law, unit, problems) if given == ["by"] else _several(where, law, unit, start, problems)
-    return None if len(problems) > before else MotionLaw(tuple(pieces))
+        reading.say(f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s"))
+    pieces = _one(where, law, unit, reading) if given == ["by"] else _several(where, law, unit, reading)
+    return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
 
 
-def _one(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> list[LiftPiece]:
+def _one(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
     """The piece of a law that goes from one value to another."""
     if (law.to is None) == (law.rise is None):
         both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
-        _say(problems, f"{where}.to", both, Phrase("write to the value at the end or"))
+        reading.say(f"{where}.to", both, Phrase("write to the value at the end or"))
     if law.duration is None:
-        _say(problems, f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes"))
+        reading.say(f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes"))
     if law.by is None:
-        _say(problems, f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
+        reading.say(f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
     start = law.origin or 0.0
     end = law.to if law.to is not None else start + (law.rise or 0.0)
     return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
 
 
-def _several(where: str, law: DriverLaw, unit: float, start: float, problems: list[Problem]) -> list[LiftPiece]:
-    """The pieces of a law, one after the other, from a value on (SI)."""
+def _several(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[LiftPiece]:
+    """The pieces of a law, one after the other."""
     pieces: list[LiftPiece] = []
-    time, low = 0.0, start
+    time, low = 0.0, (law.origin or 0.0) * unit
     for i, piece in enumerate(law.pieces, 1):
         here = f"{where}.pieces.{i}"
-        moves = piece.rise is not None or piece.fall is not None
-        if piece.rise is not None and piece.fall is not None:
-            _say(problems, here, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
-        if moves != (piece.by is not None):
-            said = Phrase("does not say its law") if moves else Phrase("has by without rise or fall", by=piece.by)
-            _say(problems, here, said, Phrase("a rise or fall has by a dwell"))
+        high = low + _rise(reading, here, piece) * unit
         if not piece.to > time:
             found = Phrase("ends at s where it begins at", to=f"{piece.to:g}", time=f"{time:g}")
-            _say(problems, here, found, Phrase("seconds grow"))
-        high = low + ((piece.rise or 0.0) - (piece.fall or 0.0)) * unit
+            reading.say(here, found, Phrase("seconds grow"))
         pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
         time, low = piece.to, high
     return pieces
 
 
-def _by_table(where: str, law: DriverLaw, unit: float, problems: list[Problem]) -> MotionLaw | None:
+def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> MotionLaw | None:
     """A law through the values of a table."""
     here = f"{where}.table"
     if law.origin is not None:
-        _say(problems, f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
+        reading.say(f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
         return None
     times, values = [t for t, _ in law.table], [v * unit for _, v in law.table]
     if len(times) < 2:
-        _say(problems, here, Phrase("has one row"), Phrase("write time value two rows or more"))
+        reading.say(here, Phrase("has one row"), Phrase("write time value two rows or more"))
         return None
     for i, (a, b) in enumerate(pairwise(times), 2):
         if not b > a:
             found = Phrase("is at s after one at s", other=f"{b:g}", name=f"{a:g}")
-            _say(problems, f"{here}.{i}", found, Phrase("seconds grow"))
+            reading.say(f"{here}.{i}", found, Phrase("seconds grow"))
             return None
     rates = _spline(times, values)
     rows = zip(times, times[1:], values, values[1:], rates, rates[1:], strict=False)

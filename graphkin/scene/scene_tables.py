@@ -22,8 +22,8 @@ __all__ = [
     "Compass", "Contact", "Convention", "Disc", "Drawing", "DrivenSlide", "Driver", "DriverLaw", "Drivers",
     "EndName", "Flywheel", "Frame", "FramePlace", "Gear", "Gravity", "Guide", "Keys", "LawName", "LawPiece",
     "Level", "Link", "Load", "LoadPhase", "Mass", "OneDriver", "Pin", "Polar", "Positions", "PrintedTable", "Range",
-    "ReadScan", "SceneTables", "SheetWishes", "Spring", "Start", "StrokeStart", "TimePiece", "Tools", "TwoOutlines",
-    "TwoTeeth", "Vary",
+    "ReadScan", "SceneTables", "SheetWishes", "Spring", "Start", "StrokeStart", "Tools", "TwoOutlines", "TwoTeeth",
+    "Vary",
 ]  # fmt: skip
 
 SMALLEST, LARGEST = 1e-15, 1e15
@@ -266,20 +266,13 @@ LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"
 
 @file_table
 class LawPiece(FileTable):
-    """A piece of the law of a follower, from where the piece before it ends: a rise, a fall, or a dwell."""
+    """A piece of the law of a follower or a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
 
-    to: Number = key("Degrees of the cam at which it ends; the last piece ends at 360.")
-    rise: Number | None = key("By how much the follower rises: length, or degrees of one that swings.", default=None)
-    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
-    by: LawName | None = key("The law of a rise or fall.", default=None)
-
-
-@file_table
-class TimePiece(FileTable):
-    """A piece of the law of a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
-
-    to: Number = key("Seconds at which it ends.")
-    rise: Number | None = key("By how much the driver's value grows: degrees, travel.", default=None)
+    to: Number = key("Where it ends: degrees of the cam, the last piece at 360; seconds of a driver.")
+    rise: Number | None = key(
+        "By how much the follower rises (length, or degrees of one that swings), or the driver's value grows.",
+        default=None,
+    )  # fmt: skip
     fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
     by: LawName | None = key("The law of a rise or fall.", default=None)
 
@@ -295,7 +288,7 @@ class DriverLaw(FileTable):
     )
     duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
     by: LawName | None = key("The law by which it goes from one to the other.", default=None)
-    pieces: Annotated[List[TimePiece], Rule(max_length=1000)] = key(
+    pieces: Annotated[List[LawPiece], Rule(max_length=1000)] = key(
         'Several, with dwells: [{ to = 0.5, rise = 90, by = "cycloidal" }, { to = 0.8 }].', default=()
     )
     table: Annotated[List[Place], Rule(max_length=5000)] = key(

@@ -22,7 +22,7 @@ import numpy as np
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot
 from graphkin.scene.cams import LawCam, SlidingFollower
-from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, SmoothPart
+from graphkin.scene.laws import SEAM, TURN, FollowerLaw, Lift, LiftPiece
 from graphkin.scene.tables import Units
 from graphkin.search import intervals, last_true
 from graphkin.solver.pose import Array, turned
@@ -300,7 +300,7 @@ def study_cam(cam: LawCam) -> CamStudy:
 def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
     """The greatest pressure angles of rise and fall."""
 
-    def most(parts: Sequence[SmoothPart]) -> AtDegree | None:
+    def most(parts: Sequence[LiftPiece]) -> AtDegree | None:
         found = (a for p in parts for a in _extremes(cam, p, lambda at, lift: at.pressure, _leaning_rate))
         return max(found, key=_value, default=None)
 
@@ -370,12 +370,12 @@ def _radius_rate(at: CamAt, lift: Lift) -> Array:
     return np.asarray(at.radius_rate)
 
 
-def _at(cam: LawCam, part: SmoothPart, degree: Array) -> tuple[CamAt, Lift]:
+def _at(cam: LawCam, part: LiftPiece, degree: Array) -> tuple[CamAt, Lift]:
     lift = part.at(degree, np)
     return cam_with(cam, degree, lift), lift
 
 
-def _extremes(cam: LawCam, part: SmoothPart, of: Of, rate: Of) -> Iterator[AtDegree]:
+def _extremes(cam: LawCam, part: LiftPiece, of: Of, rate: Of) -> Iterator[AtDegree]:
     """A quantity at the ends of a part and where its rate goes through zero."""
     def rate_at(degree: Array) -> Array:
         return np.asarray(np.nan_to_num(np.broadcast_to(rate(*_at(cam, part, degree)), degree.shape)))
@@ -407,7 +407,7 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
     yield from ((start, end) for start, end in stretches if end > start)
 
 
-def _too_sharp(cam: LawCam, part: SmoothPart, degree: Array) -> Array:
+def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
     """Where the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
     convex pitch curve is round."""
     at, _ = _at(cam, part, degree)

@@ -88,7 +88,7 @@ def test_no_key_may_be_null() -> None:
     ("SceneTables", ()),
     ("Guide", ("links", "2", "guides", "g")),
     ("DrivenSlide", ("driver", "<list>", 1, "<slide>")),
-    ("TimePiece", ("driver", "<one>", "<angle>", "law", "pieces", 0)),
+    ("LawPiece", ("driver", "<one>", "<angle>", "law", "pieces", 0)),
     ("Compass", ("frame", "points", "D", "<compass>")),
     ("ReadScan", ("scans", "velocity")),
     ("Vary", ("vary",)),

@@ -36,7 +36,7 @@ from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
 from graphkin.errors import CallError, Problem
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.cams import LawCam
-from graphkin.scene.laws import SmoothPart
+from graphkin.scene.laws import LiftPiece
 from graphkin.solver.cams import cam_with
 from graphkin.words import Phrase
 
@@ -231,14 +231,14 @@ def arcs_of_profile(cam: LawCam) -> list[Vertex]:
     return found
 
 
-def _point(cam: LawCam, part: SmoothPart, degree: float) -> tuple[complex, complex]:
+def _point(cam: LawCam, part: LiftPiece, degree: float) -> tuple[complex, complex]:
     """A point of the profile (mm) and the direction in which the degree grows there."""
     at = cam_with(cam, np.array([degree]), part.at(np.array([degree]), np))
     # the normal turned by a quarter, towards growing degrees
     return complex(at.profile[0]) * 1e3, complex((at.normal * np.conj(at.turn))[0]) * -1j * cam.sense
 
 
-def _between(cam: LawCam, part: SmoothPart, start: float, end: float, rounds: int) -> list[Vertex]:
+def _between(cam: LawCam, part: LiftPiece, start: float, end: float, rounds: int) -> list[Vertex]:
     """Arcs from one angle of the law to another."""
     (p, t), (q, u) = _point(cam, part, start), _point(cam, part, end)
     middle = _point(cam, part, (start + end) / 2)[0]
@@ -256,7 +256,7 @@ def _between(cam: LawCam, part: SmoothPart, start: float, end: float, rounds: in
 
 
 def _probes(
-    cam: LawCam, part: SmoothPart, start: float, end: float, joint: complex, middle: complex, p: complex, q: complex
+    cam: LawCam, part: LiftPiece, start: float, end: float, joint: complex, middle: complex, p: complex, q: complex
 ) -> list[tuple[complex, bool]]:
     """Points of the profile in between, and whether they lie on the first arc."""
     found = []
