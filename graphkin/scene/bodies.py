@@ -10,7 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import cached_property
 from typing import TypeVar
@@ -106,7 +106,8 @@ class Reading:
     adds its own; and what was read of it already.
 
     ``frame``, ``links`` and ``pins`` are the tables of the file, with bars in place of circular ``slots``;
-    ``slidings`` and ``running`` are its sliding pairs and pins in slots.
+    ``slidings`` and ``running`` are its sliding pairs and pins in slots; ``places`` the points of each link in its own
+    axes (m), once they are known.
     """
 
     file: SceneTables
@@ -118,6 +119,7 @@ class Reading:
     slots: tuple[CircularSlot, ...] = ()
     slidings: tuple[SlidingPair, ...] = ()
     running: tuple[PinInSlot, ...] = ()
+    places: Mapping[str, Mapping[str, complex]] = field(default_factory=dict)
 
     @cached_property
     def units(self) -> Units:

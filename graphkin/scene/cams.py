@@ -24,9 +24,6 @@ __all__ = ["Course", "LawCam", "SlidingFollower", "SwingingFollower", "cams_of"]
 
 AGREES = 1e-6
 
-# -- tables of the file ------------------------------------------------------------------------------------------------
-
-
 # -- cams as they are --------------------------------------------------------------------------------------------------
 
 
@@ -191,38 +188,33 @@ Line = tuple[str, complex, complex]
 """A guide of the frame on which a link slides: the key of the pair, a point of it (m), its sense."""
 
 
-def cams_of(
-    tables: Mapping[str, Cam], reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
-    drawn: Mapping[str, complex],
-) -> tuple[LawCam, ...]:  # fmt: skip
+def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]) -> tuple[LawCam, ...]:
     """The cams of a file; what is wrong with them is noted.
 
     Parameters
     ----------
     lines : of each link that slides on the frame
-    places : points of the frame (m)
     drawn : roughly where points of moving links lie (m)
     """
     moved: dict[str, str] = {}
     found = []
-    for name, cam in tables.items():
+    for name, cam in reading.file.cams.items():
         other = moved.setdefault(cam.follower, name)
         if other != name:
             said = Phrase("link is moved by cam already", follower=cam.follower, other=other)
             reading.say(f"cams.{name}.follower", said, Phrase("a follower has one cam"))
-        placed = _cam(name, cam, reading, lines, places, drawn)
+        placed = _cam(name, cam, reading, lines, drawn)
         if placed is not None:
             found.append(placed)
     return tuple(found)
 
 
 def _cam(
-    name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex],
-    drawn: Mapping[str, complex],
-) -> LawCam | None:  # fmt: skip
+    name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, complex]
+) -> LawCam | None:
     where, before, si = f"cams.{name}", len(reading.problems), in_si(cam, reading.units)
-    point = _axis(where, name, reading, places)
-    swings = _swings(where, name, cam, reading, lines, places)
+    point = _axis(where, name, reading)
+    swings = _swings(where, name, cam, reading, lines)
     law = follower_law(f"{where}.law", cam.law, math.pi / 180 if swings else reading.metres, reading)
     roller = si.roller or 0.0
     base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
@@ -238,10 +230,10 @@ def _cam(
                         Phrase("a pressure angle lies between 0 and 90"))
     if not point or swings is None or len(reading.problems) > before:
         return None
-    axis = places[point]
+    axis = _fixed(reading)[point]
     motion: SlidingFollower | SwingingFollower | None
     if swings:
-        motion = _swinging(where, cam, reading, axis, places, drawn)
+        motion = _swinging(where, cam, reading, axis, drawn)
     else:
         motion = _sliding(where, si, reading, axis, lines[cam.follower])
     if motion is None or law is None or len(reading.problems) > before:
@@ -250,7 +242,12 @@ def _cam(
     return LawCam(name, cam.follower, point, axis, law, cam.sense, base, roller, cam.flat, motion, allowed)
 
 
-def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]) -> str:
+def _fixed(reading: Reading) -> Mapping[str, complex]:
+    """The points of the frame (m)."""
+    return reading.places[reading.frame.name]
+
+
+def _axis(where: str, name: str, reading: Reading) -> str:
     """The point of the frame about which a cam turns; "" where there is none."""
     if reading.wrong(reading.no_link(where, name, moving=True)):
         return ""
@@ -260,7 +257,7 @@ def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]
     link = reading.links.get(name)
     if link is None or reading.lost_under("links", name):
         return ""
-    if link.points and link.points[0] in places:
+    if link.points and link.points[0] in _fixed(reading):
         return link.points[0]
     if not reading.lost_under("frame"):
         no_point = Phrase("link has no point", name=name)
@@ -269,9 +266,7 @@ def _axis(where: str, name: str, reading: Reading, places: Mapping[str, complex]
     return ""
 
 
-def _swings(
-    here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line], places: Mapping[str, complex]
-) -> bool | None:
+def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str, Line]) -> bool | None:
     """Whether the follower swings; None where it neither swings nor slides on the frame."""
     where, follower, frame = f"{here}.follower", cam.follower, reading.frame.name
     if reading.wrong(reading.no_link(where, follower, moving=True)):
@@ -285,7 +280,7 @@ def _swings(
     link = reading.links.get(follower)
     if link is None or reading.lost_under("links", follower) or reading.lost_under("frame"):
         return None
-    pivots = [p for p in link.points if p in places]
+    pivots = [p for p in link.points if p in _fixed(reading)]
     if len(pivots) != 1 or link.on is not None:
         reading.say(where, Phrase("link neither slides on a guide of the", follower=follower),
                     Phrase("write on guide or points with a pivot", frame=frame))
@@ -315,11 +310,11 @@ def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -
 
 
 def _swinging(
-    where: str, cam: Cam, reading: Reading, axis: complex, places: Mapping[str, complex], drawn: Mapping[str, complex]
+    where: str, cam: Cam, reading: Reading, axis: complex, drawn: Mapping[str, complex]
 ) -> SwingingFollower | None:
     """A follower that swings about a point of the frame."""
     link = reading.links[cam.follower]
-    first, second = link.points
+    (first, second), places = link.points, _fixed(reading)
     pivot, tip = (first, second) if first in places else (second, first)
     centre = places[pivot]
     if centre == axis:
@@ -332,4 +327,3 @@ def _swinging(
         return None
     left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
     return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)
-

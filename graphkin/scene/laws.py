@@ -301,9 +301,6 @@ class MotionLaw:
         return None
 
 
-# -- tables of the file ------------------------------------------------------------------------------------------------
-
-
 # -- reading ---------------------------------------------------------------------------------------------------------
 
 
@@ -442,4 +439,3 @@ def _spline(times: Sequence[float], values: Sequence[float]) -> list[float]:
     for k in range(n - 2, -1, -1):
         rates.insert(0, right[k] - before[k] * rates[0])
     return rates
-

@@ -7,8 +7,7 @@ In a file forces are in its force unit, moments in it times metre, masses in its
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from graphkin.errors import did_you_mean
 from graphkin.plane import direction
@@ -19,30 +18,22 @@ from graphkin.scene.tables import in_si
 from graphkin.words import Phrase
 
 __all__ = ["loading_of"]
+
 TURN = math.tau * (1 + 1e-12)
-
-# -- tables of the file ------------------------------------------------------------------------------------------------
-
-
-# -- what acts ---------------------------------------------------------------------------------------------------------
-
 
 # -- reading -----------------------------------------------------------------------------------------------------------
 
 
-def loading_of(reading: Reading, places: Mapping[str, Mapping[str, complex]]) -> Loading:
-    """What the tables of a file say of forces; what is wrong is noted.
-
-    ``places`` are the points of each link in its own axes (m).
-    """
-    file, acting = reading.file, _Acting(reading, places)
+def loading_of(reading: Reading) -> Loading:
+    """What the tables of a file say of forces; what is wrong is noted."""
+    file = reading.file
     g = file.gravity.g if file.gravity else STANDARD_GRAVITY
     down = g * direction(file.gravity.angle) if file.gravity else 0j
-    weighing = [acting.mass(link, mass, g) for link, mass in file.masses.items()]
-    carried = [acting.load(name, load) for name, load in file.loads.items()]
-    pulling = [acting.spring(name, spring) for name, spring in file.springs.items()]
-    balancing, evening = acting.balance(file.balance), None
-    if file.flywheel is not None and not acting.not_moving("flywheel.on", file.flywheel.on):
+    weighing = [_mass(reading, link, mass, g) for link, mass in file.masses.items()]
+    carried = [_load(reading, name, load) for name, load in file.loads.items()]
+    pulling = [_spring(reading, name, spring) for name, spring in file.springs.items()]
+    balancing, evening = _balance(reading, file.balance), None
+    if file.flywheel is not None and not _not_moving(reading, "flywheel.on", file.flywheel.on):
         evening = file.flywheel
         if evening.delta >= 2.0:
             reading.say("flywheel.delta", Phrase("found value", value=f"{evening.delta:g}"),
@@ -54,178 +45,176 @@ def loading_of(reading: Reading, places: Mapping[str, Mapping[str, complex]]) ->
                    tuple(filter(None, pulling)))  # fmt: skip
 
 
-@dataclass(frozen=True)
-class _Acting:
-    """The reading of what acts on links, with the points of each link (m)."""
+def _not_moving(reading: Reading, where: str, link: str) -> bool:
+    """Whether this is no moving link, which is noted."""
+    if reading.wrong(reading.no_link(where, link)):
+        return True
+    if link == reading.frame.name:
+        reading.say(where, Phrase("link is the frame", name=link),
+                    Phrase("what acts on the fixed link moves nothing"))
+        return True
+    if link in reading.links and reading.links[link].redundant:
+        reading.say(where, Phrase("link is redundant", what=link),
+                    Phrase("its share of the forces is not determined"))
+        return True
+    return False
 
-    reading: Reading
-    places: Mapping[str, Mapping[str, complex]]
 
-    def not_moving(self, where: str, link: str) -> bool:
-        """Whether this is no moving link, which is noted."""
-        reading = self.reading
-        if reading.wrong(reading.no_link(where, link)):
-            return True
-        if link == reading.frame.name:
-            reading.say(where, Phrase("link is the frame", name=link),
-                        Phrase("what acts on the fixed link moves nothing"))
-            return True
-        if link in reading.links and reading.links[link].redundant:
-            reading.say(where, Phrase("link is redundant", what=link),
-                        Phrase("its share of the forces is not determined"))
-            return True
-        return False
+def _place(reading: Reading, where: str, link: str, at: str | Sequence[float]) -> complex:
+    """A point of a link by name, or a place (m), in the link's own axes (m)."""
+    if not isinstance(at, str):
+        return complex(*at)
+    reading.wrong(reading.no_point_of(where, link, at))
+    return reading.places.get(link, {}).get(at, 0j)
 
-    def place(self, where: str, link: str, at: str | Sequence[float]) -> complex:
-        """A point of a link by name, or a place (m), in the link's own axes (m)."""
-        if not isinstance(at, str):
-            return complex(*at)
-        self.reading.wrong(self.reading.no_point_of(where, link, at))
-        return self.places.get(link, {}).get(at, 0j)
 
-    def pair(self, where: str, ref: str) -> str:
-        """The key of a sliding pair, "6" standing for the one pair of link 6."""
-        near = [pair for pair in self.reading.pairs if ref in (pair, pair.split("/")[0])]
-        if len(near) == 1:
-            return near[0]
-        found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
-        self.reading.say(where, found, did_you_mean(ref, self.reading.pairs))
+def _pair(reading: Reading, where: str, ref: str) -> str:
+    """The key of a sliding pair, "6" standing for the one pair of link 6."""
+    near = [pair for pair in reading.pairs if ref in (pair, pair.split("/")[0])]
+    if len(near) == 1:
+        return near[0]
+    found = Phrase("is no sliding pair", ref=ref) if not near else Phrase("may be", ref=ref, name=" or ".join(near))
+    reading.say(where, found, did_you_mean(ref, reading.pairs))
+    return ""
+
+
+def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None:
+    """The mass of a link, where ``g`` (m/s2) makes its weight."""
+    where = f"masses.{link}"
+    if _not_moving(reading, where, link):
+        return None
+    if (table.mass is None) == (table.weight is None):
+        found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
+        reading.say(where, found, Phrase("give one of them"))
+        return None
+    si = in_si(table, reading.units)
+    heavy = si.weight / g if si.weight is not None else si.mass or 0.0
+    return LinkMass(link, _place(reading, f"{where}.at", link, si.at), heavy, si.inertia)
+
+
+def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
+    """A load."""
+    where, say, si = f"loads.{name}", reading.say, in_si(load, reading.units)
+    if _not_moving(reading, f"{where}.on", load.on):
+        return None
+    if (load.force is None) == (load.moment is None):
+        neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
+        say(where, neither if load.force is None else both, Phrase("give one of them"))
+        return None
+    phase = _phase(reading, f"{where}.when", load.when) if load.when is not None else None
+    if si.moment is not None:
+        for beside in ("at", "angle", "follows", "against"):
+            if getattr(load, beside) is not None:
+                say(f"{where}.{beside}", Phrase("stands beside moment"),
+                    Phrase("a moment has neither place nor direction"))
+        return LoadOn(name, load.on, si.moment, False, phase=phase)
+    at = 0j
+    if si.at is None:
+        say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
+    else:
+        at = _place(reading, f"{where}.at", load.on, si.at)
+    turn = direction(load.angle) if load.angle is not None else 1 + 0j
+    follows, against = "", ""
+    if load.against is not None:
+        against = _pair(reading, f"{where}.against", load.against)
+        if load.angle is not None or load.follows is not None:
+            say(f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction"))
+    elif load.follows is not None:
+        reading.wrong(reading.no_link(f"{where}.follows", load.follows))
+        follows = load.follows
+    elif load.angle is None:
+        say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
+    return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
+
+
+def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
+    """A spring, whose name is none of a load."""
+    where, say, known = f"springs.{name}", reading.say, len(reading.problems)
+    if name in reading.file.loads:
+        say(where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name))
+    if len(table.between) != 2 or table.between[0] == table.between[1]:
+        given = ", ".join(table.between) or "nothing"
+        say(f"{where}.between", Phrase("found value", value=given), Phrase("two different points"))
+    elif table.links is not None and len(table.links) != 2:
+        given = ", ".join(table.links) or "nothing"
+        say(f"{where}.links", Phrase("found value", value=given), Phrase("two links one for each point"))
+    if len(reading.problems) > known:
+        return None
+    ends = [_end(reading, where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
+    if len(reading.problems) > known or "" in ends:
+        return None
+    if ends[0] == ends[1]:
+        found = Phrase("both ends are on link", ends=ends[0])
+        say(where, found, Phrase("two links where several have a point write"))
+        return None
+    (a, b), (p, q) = ends, table.between
+    at = reading.places.get(a, {}).get(p, 0j), reading.places.get(b, {}).get(q, 0j)
+    si = in_si(table, reading.units)
+    return SpringOn(name, (p, q), (a, b), at, si.rate, si.free, si.preload)
+
+
+def _end(reading: Reading, where: str, point: str, link: str) -> str:
+    """The link that an end of a spring is on: as it is said, or the first that has the point, the frame if it
+    does."""
+    if not link:
+        missing = reading.wrong(reading.no_point(f"{where}.between", point))
+        order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
+        having = [n for n in order if point in reading.places.get(n, {})]
+        if not having and not missing:
+            reading.say(f"{where}.between", Phrase("is placed on no link", point=point),
+                        Phrase("a point of a link or the frame"))
+        return having[0] if having else ""
+    if link != reading.frame.name and _not_moving(reading, f"{where}.links", link):
         return ""
+    reading.wrong(reading.no_point_of(f"{where}.links", link, point))
+    return link
 
-    def mass(self, link: str, table: Mass, g: float) -> LinkMass | None:
-        """The mass of a link, where ``g`` (m/s2) makes its weight."""
-        where = f"masses.{link}"
-        if self.not_moving(where, link):
-            return None
-        if (table.mass is None) == (table.weight is None):
-            found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
-            self.reading.say(where, found, Phrase("give one of them"))
-            return None
-        si = in_si(table, self.reading.units)
-        heavy = si.weight / g if si.weight is not None else si.mass or 0.0
-        return LinkMass(link, self.place(f"{where}.at", link, si.at), heavy, si.inertia)
 
-    def load(self, name: str, load: Load) -> LoadOn | None:
-        """A load."""
-        where, say, si = f"loads.{name}", self.reading.say, in_si(load, self.reading.units)
-        if self.not_moving(f"{where}.on", load.on):
-            return None
-        if (load.force is None) == (load.moment is None):
-            neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
-            say(where, neither if load.force is None else both, Phrase("give one of them"))
-            return None
-        phase = self.phase(f"{where}.when", load.when) if load.when is not None else None
-        if si.moment is not None:
-            for beside in ("at", "angle", "follows", "against"):
-                if getattr(load, beside) is not None:
-                    say(f"{where}.{beside}", Phrase("stands beside moment"),
-                        Phrase("a moment has neither place nor direction"))
-            return LoadOn(name, load.on, si.moment, False, phase=phase)
-        at = 0j
-        if si.at is None:
-            say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
-        else:
-            at = self.place(f"{where}.at", load.on, si.at)
-        turn = direction(load.angle) if load.angle is not None else 1 + 0j
-        follows, against = "", ""
-        if load.against is not None:
-            against = self.pair(f"{where}.against", load.against)
-            if load.angle is not None or load.follows is not None:
-                say(f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction"))
-        elif load.follows is not None:
-            self.reading.wrong(self.reading.no_link(f"{where}.follows", load.follows))
-            follows = load.follows
-        elif load.angle is None:
-            say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
-        return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
+def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
+    """When a load acts."""
+    say = reading.say
+    if (when.stroke is None) == (when.driver is None):
+        neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
+        say(where, neither if when.stroke is None else both, Phrase("give one of them"))
+        return None
+    if when.stroke is not None:
+        if not when.start < when.end <= 1.0:
+            say(where, Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
+                Phrase("parts of the stroke grow from 0 to"))
+        if when.sense not in (1, -1):
+            say(f"{where}.sense", Phrase("found value", value=f"{when.sense:g}"),
+                Phrase("1 along the guide's sense 1 against it"))
+        return Phase(_pair(reading, f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
+    assert when.driver is not None
+    for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
+        if said:
+            say(f"{where}.{beside}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
+    slides = reading.slides
+    start, end = (value * reading.units.of("length" if slides else "angle").si for value in when.driver)
+    found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
+    if slides and start >= end:
+        say(f"{where}.driver", found, Phrase("the travel grows between them"))
+    elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
+        wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
+        say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
+    return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
 
-    def spring(self, name: str, table: Spring) -> SpringOn | None:
-        """A spring, whose name is none of a load."""
-        where, say, known = f"springs.{name}", self.reading.say, len(self.reading.problems)
-        if name in self.reading.file.loads:
-            say(where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name))
-        if len(table.between) != 2 or table.between[0] == table.between[1]:
-            given = ", ".join(table.between) or "nothing"
-            say(f"{where}.between", Phrase("found value", value=given), Phrase("two different points"))
-        elif table.links is not None and len(table.links) != 2:
-            given = ", ".join(table.links) or "nothing"
-            say(f"{where}.links", Phrase("found value", value=given), Phrase("two links one for each point"))
-        if len(self.reading.problems) > known:
-            return None
-        ends = [self.end(where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
-        if len(self.reading.problems) > known or "" in ends:
-            return None
-        if ends[0] == ends[1]:
-            found = Phrase("both ends are on link", ends=ends[0])
-            say(where, found, Phrase("two links where several have a point write"))
-            return None
-        (a, b), (p, q) = ends, table.between
-        at = self.places.get(a, {}).get(p, 0j), self.places.get(b, {}).get(q, 0j)
-        si = in_si(table, self.reading.units)
-        return SpringOn(name, (p, q), (a, b), at, si.rate, si.free, si.preload)
 
-    def end(self, where: str, point: str, link: str) -> str:
-        """The link that an end of a spring is on: as it is said, or the first that has the point, the frame if it
-        does."""
-        reading = self.reading
-        if not link:
-            missing = reading.wrong(reading.no_point(f"{where}.between", point))
-            order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
-            having = [n for n in order if point in self.places.get(n, {})]
-            if not having and not missing:
-                reading.say(f"{where}.between", Phrase("is placed on no link", point=point),
-                            Phrase("a point of a link or the frame"))
-            return having[0] if having else ""
-        if link != reading.frame.name and self.not_moving(f"{where}.links", link):
-            return ""
-        reading.wrong(reading.no_point_of(f"{where}.links", link, point))
-        return link
-
-    def phase(self, where: str, when: LoadPhase) -> Phase | None:
-        """When a load acts."""
-        say = self.reading.say
-        if (when.stroke is None) == (when.driver is None):
-            neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
-            say(where, neither if when.stroke is None else both, Phrase("give one of them"))
-            return None
-        if when.stroke is not None:
-            if not when.start < when.end <= 1.0:
-                say(where, Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
-                    Phrase("parts of the stroke grow from 0 to"))
-            if when.sense not in (1, -1):
-                say(f"{where}.sense", Phrase("found value", value=f"{when.sense:g}"),
-                    Phrase("1 along the guide's sense 1 against it"))
-            return Phase(self.pair(f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
-        assert when.driver is not None
-        for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
-            if said:
-                say(f"{where}.{beside}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
-        slides = self.reading.slides
-        start, end = (value * self.reading.units.of("length" if slides else "angle").si for value in when.driver)
-        found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
-        if slides and start >= end:
-            say(f"{where}.driver", found, Phrase("the travel grows between them"))
-        elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
-            wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
-            say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
-        return Phase("", 1, start, end if slides or end >= start else end + 2 * math.pi)
-
-    def balance(self, table: Balance | None) -> BalanceAt | None:
-        """What balances."""
-        if table is None or self.not_moving("balance.on", table.on):
-            return None
-        say, si = self.reading.say, in_si(table, self.reading.units)
-        if len(self.reading.drivers) > 1:
-            say("balance", Phrase("one balance cannot stand for several drivers"),
-                Phrase("leave it out each driver has its own"))
-        if si.at is None:
-            if table.angle is not None:
-                say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
-            return BalanceAt(table.on, "moment")
-        at = self.place("balance.at", table.on, si.at)
-        if table.angle is None:
-            say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
-        square = table.angle == "square"
-        turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
-        return BalanceAt(table.on, "force", at, turn, square)
-
+def _balance(reading: Reading, table: Balance | None) -> BalanceAt | None:
+    """What balances."""
+    if table is None or _not_moving(reading, "balance.on", table.on):
+        return None
+    say, si = reading.say, in_si(table, reading.units)
+    if len(reading.drivers) > 1:
+        say("balance", Phrase("one balance cannot stand for several drivers"),
+            Phrase("leave it out each driver has its own"))
+    if si.at is None:
+        if table.angle is not None:
+            say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
+        return BalanceAt(table.on, "moment")
+    at = _place(reading, "balance.at", table.on, si.at)
+    if table.angle is None:
+        say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
+    square = table.angle == "square"
+    turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
+    return BalanceAt(table.on, "force", at, turn, square)

@@ -120,7 +120,6 @@ class Loading:
         return bool(self.masses or self.loads or self.springs)
 
 
-
 @dataclass(frozen=True)
 class PlacedGuide:
     """A straight guide of a link, in that link's own axes.

@@ -468,7 +468,6 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
     return None if local is None or guide is None else dot(guide.direction, local - guide.through)
 
 
-
 # -- where rolling starts ----------------------------------------------------------------------------------------------
 
 

@@ -99,14 +99,14 @@ def mechanism_said(
     if not problems:
         places.check_all_found(position)
         places.check_distances(position)
-    local = {name: body.local for name, body in position.bodies.items()}
-    cams = _cams(position) if file.cams else ()
+    reading = dataclasses.replace(reading, places={name: body.local for name, body in position.bodies.items()})
+    cams = _cams(reading, position) if file.cams else ()
     if (contacts or gears) and not problems:
-        wrong_distances(contacts, gears, local, {n: b.guides for n, b in position.bodies.items()}, reading)
+        wrong_distances(contacts, gears, {n: b.guides for n, b in position.bodies.items()}, reading)
     acting = file.masses or file.loads or file.springs or file.balance or file.flywheel
-    loading = loading_of(reading, local) if acting else Loading()
+    loading = loading_of(reading) if acting else Loading()
     wish = file.sheet.background
-    under = background_of(wish, {**position.drawn, **local[reading.frame.name]}, reading) if wish else None
+    under = background_of(wish, {**position.drawn, **reading.places[reading.frame.name]}, reading) if wish else None
     scans = scans_of(reading) if file.scans else ()
     drivers = [placed_driver(where, driver, position.value_of(driver), reading) for where, driver in driven.items()]
     if positions is not None and drivers and drivers[0].turns and drivers[0].position:
@@ -162,14 +162,13 @@ def _check_forces(made: Mechanism) -> None:
         raise SceneError(*dict.fromkeys(problems))
 
 
-def _cams(position: places.DrawnPosition) -> tuple[LawCam, ...]:
+def _cams(reading: Reading, position: places.DrawnPosition) -> tuple[LawCam, ...]:
     """The cams, with the lines of the frame on which followers slide."""
-    reading = position.reading
     frame, file = position.bodies[reading.frame.name], reading.file
     rails = {s.link: (s.key, frame.guides.get(s.guide)) for s in reading.slidings if s.on == frame.name}
     lines = {name: (pair, rail.through, rail.direction) for name, (pair, rail) in rails.items() if rail is not None}
     seen = {p: complex(*place) * reading.metres for p, place in file.sketch.items()} | dict(position.drawn)
-    return cams_of(file.cams, reading, lines, frame.local, seen)
+    return cams_of(reading, lines, seen)
 
 
 def _placed(

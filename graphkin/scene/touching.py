@@ -4,7 +4,7 @@ radii with their signs, the carriers of wheels found) and stated again."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from graphkin.errors import Problem, did_you_mean
 from graphkin.plane import cross
@@ -42,13 +42,8 @@ def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
     return found
 
 
-@dataclass(frozen=True)
-class _Side:
-    """One side of a contact: its link, and its disc or the name of its guide."""
-
-    link: str
-    disc: PlacedDisc | None
-    guide: str
+Side = tuple[str, PlacedDisc | None, str]
+"""A side of a contact: its link, and its disc or the name of its guide."""
 
 
 def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
@@ -72,7 +67,7 @@ def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
     return tuple(found)
 
 
-def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
+def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
     """A side of a contact by its name; None where there is none, which is noted here or was before."""
     link, _, part = ref.partition(".")
     if reading.wrong(reading.no_link(where, link)):
@@ -84,9 +79,9 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
     lost = reading.lost_names("links", link, "discs") | (reading.lost_names("frame", "discs") if frame else set())
     if part in outlines or part in lost:
         disc = discs.get((link, part))
-        return _Side(link, disc, "") if disc else None  # what is wrong with it is told already
+        return (link, disc, "") if disc else None  # what is wrong with it is told already
     if not part or part in reading.guides.get(link, ()):
-        return _Side(link, None, part)
+        return link, None, part
     known = [*outlines, *reading.guides.get(link, ())]
     unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
     reading.say(where, Phrase("link has no disc and no guide", link=link, part=part),
@@ -94,14 +89,14 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> _Side | None:
     return None
 
 
-def _contact_problems(where: str, contact: Contact, one: _Side, two: _Side) -> Iterator[Problem]:
+def _contact_problems(where: str, contact: Contact, one: Side, two: Side) -> Iterator[Problem]:
     """What is wrong with two sides that there are."""
     refs, between, side = " and ".join(contact.between), f"{where}.between", f"{where}.side"
-    if one.link == two.link:
-        found = Phrase("are outlines of the same link", refs=refs, link=one.link)
+    if one[0] == two[0]:
+        found = Phrase("are outlines of the same link", refs=refs, link=one[0])
         yield Problem(between, found, Phrase("name two links"))
         return
-    discs = [end.disc for end in (one, two) if end.disc is not None]
+    discs = [disc for _, disc, _ in (one, two) if disc is not None]
     if not discs:
         yield Problem(between, Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
         return
@@ -130,9 +125,9 @@ def _contact_problems(where: str, contact: Contact, one: _Side, two: _Side) -> I
         yield Problem(side, Phrase("both radii are equal"), Phrase("inside one must be smaller than the other"))
 
 
-def _contact(name: str, contact: Contact, one: _Side, two: _Side, reading: Reading) -> PlacedContact:
+def _contact(name: str, contact: Contact, one: Side, two: Side, reading: Reading) -> PlacedContact:
     """A contact of two sides, radii with the signs with which they meet."""
-    first, second, guide = one.disc, two.disc, one.guide or two.guide
+    (link, first, guide), (other, second, other_guide) = one, two
     carrier = ""
     if first and second:
         if contact.side == "inside" and first.radius > 0 and second.radius > 0:
@@ -142,11 +137,11 @@ def _contact(name: str, contact: Contact, one: _Side, two: _Side, reading: Readi
                 second = replace(second, radius=-second.radius)
         if contact.rolling:
             both = {first.centre, second.centre}
-            others = [n for n, points in reading.points.items() if n not in (one.link, two.link) and both <= {*points}]
+            others = [n for n, points in reading.points.items() if n not in (link, other) and both <= {*points}]
             others.sort(key=lambda n: n != reading.frame.name)
             carrier = others[0] if others else ""
     left = contact.side != "right"
-    return PlacedContact(name, one.link, two.link, (first, second), guide, left, contact.rolling, carrier)
+    return PlacedContact(name, link, other, (first, second), guide or other_guide, left, contact.rolling, carrier)
 
 
 # -- gears -------------------------------------------------------------------------------------------------------------
@@ -222,16 +217,17 @@ def _axis(reading: Reading, wheel: str, carrier: str) -> str:
 
 
 def wrong_distances(
-    contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], points: Mapping[str, Mapping[str, complex]],
-    guides: Mapping[str, Mapping[str, PlacedGuide]], reading: Reading,
+    contacts: tuple[PlacedContact, ...], gears: tuple[PlacedGear, ...], guides: Mapping[str, Mapping[str, PlacedGuide]],
+    reading: Reading,
 ) -> None:  # fmt: skip
     """Note wheels whose carrier does not hold them as far apart as their radii say, or at no distance; pitch lines that
     are not parallel to their slide; centres on the other body.
 
     Parameters
     ----------
-    points, guides : of each link, in its own axes (m)
+    guides : of each link, in its own axes (m)
     """
+    points = reading.places
     for c in contacts:
         where = f"contacts.{c.name}"
         if not c.flat and c.carrier:
