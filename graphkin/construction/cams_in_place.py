@@ -8,10 +8,9 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from graphkin.construction.assembly import assembly_at, own_position
 from graphkin.construction.follow import Choices
 from graphkin.construction.links_on_paper import PlacedLinks
-from graphkin.construction.position import place
+from graphkin.construction.position import assembly_at, own_position, place
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import dot

@@ -14,12 +14,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from graphkin.construction.assembly import nearest_assembly
 from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
 from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
-from graphkin.construction.position import place
+from graphkin.construction.position import nearest_assembly, place
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable

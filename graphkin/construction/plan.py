@@ -12,19 +12,16 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from graphkin.construction.assembly import Known, assembly_at
 from graphkin.construction.elements import draw_element, drawn_group
 from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
 from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
-from graphkin.construction.position import draw_position, place
+from graphkin.construction.position import Known, assembly_at, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order
 from graphkin.construction.triangles import (
     Inversion,
-    carried_over,
-    drawn_apart,
     inversions_of,
     opened_at_triangles,
     own_assembly,
@@ -61,7 +58,7 @@ class Task:
     """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
-    these, each with its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
+    these, each in its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
     the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
     With ``touching`` sliding contacts are drawn themselves, not what replaces them.
     """
@@ -73,7 +70,7 @@ class Task:
     values: Mapping[str, float]
     branches: Mapping[int, int]
     trials: Mapping[LargerGroup, GroupTrial]
-    triangles: tuple[tuple[Inversion, int], ...]
+    triangles: tuple[Inversion, ...]
     chains: Mapping[Dyad, VectorChain] = field(default_factory=dict)
     plans: Mapping[LargerGroup, GroupPlan] = field(default_factory=dict)
     limits: Mapping[str, Limits] = field(default_factory=dict)
@@ -119,13 +116,12 @@ def positioned(
     """The position on a board, on which no polygon is begun; its steps, of which no reading is taken, only where they
     are wanted."""
     board = Board(instrument)
-    triangles = [(inversion, drawn_apart(board, inversion, scales, task.values, branch))
-                 for inversion, branch in task.triangles]  # fmt: skip
+    triangles = [(inversion, inversion.drawn(board, scales, task.values)) for inversion in task.triangles]
     values = {**task.values, **{v.key: v.near(task.values[v.key], found[0]) for v, found in triangles}}
     before = list(board.causes)
     position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
     if with_steps:
-        draw_position(board, task.opened, task.elements, position, task.branches, task.trials)
+        position.draw(board)
     board.causes[:] = [*before, *position.causes]
     polygons = Polygons(board, task.opened, position.paper, scales, slip)
     polygons.given.update({inversion.key: found[1:] for inversion, found in triangles})
@@ -133,7 +129,7 @@ def positioned(
     polygons.chains.update(task.chains)
     polygons.plans.update(task.plans)
     for inversion, found in triangles:
-        for step in carried_over(inversion.triangle, found):
+        for step in inversion.carried_over(found):
             board.do(step)
     return polygons
 
@@ -365,21 +361,21 @@ def plan(
 
         structure = cams_in_place(structure, {d.key: d.values[0] for d in scene.drivers} | dict(at or {}), bars)
         scene = structure.scene
-    opened = opened_at_triangles(structure)
+    opened = opened_at_triangles(structure) if structure.larger_groups else structure
     if any(isinstance(e, LargerGroup) for e in needed(opened, asked)):
         opened = structure  # groups that remain are found by trial, driven triangles with them
     elements = tuple(needed(opened, asked))
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | {key: value for key, value in (at or {}).items() if key in own}
-    triangles: tuple[tuple[Inversion, int], ...] = ()
+    triangles: tuple[Inversion, ...] = ()
     start: Known | None = None
     if opened is not structure:
         dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
         inversions = inversions_of(structure)
         taken, own, poses = own_assembly(structure, opened, dyads, inversions, own)
         start = {d.key: own[d.key] for d in opened.scene.drivers}, poses
-        triangles = tuple((v, v.branch(own, values, taken[v.key])) for v in inversions if v.key in taken)
-        values |= {v.key: v.near(own[v.key], v.value(values, branch)) for v, branch in triangles}
+        triangles = tuple(v.followed(own, values) for v in taken)
+        values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
     elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys() and not scene.instead_of:
         start = _known(near)
     here = {d.key: values[d.key] for d in opened.scene.drivers}

@@ -1,37 +1,143 @@
-"""The mechanism on paper: every link placed by compass and ruler, in the order of solution, and in which assembly."""
+"""The mechanism on paper: every link placed by compass and ruler, in the order of solution, and in which assembly: the
+scene's own position as it is meant, others followed from it.
+
+Where larger groups lie is found by trial drawings (method of trial positions).  The trial driver of a reduced mechanism
+is moved until what was left out fits; from one position of the real driver to the next the trial starts where the last
+one ended.  At the scene's own position the gaps of trial drawings are closed over the whole range of a trial driver, on
+a grid of several, or near the sketch of the problem: two sketched points of a link tell its direction.  Sliding pairs
+and driven angles tell it of others; where links are joined so but none of them has two such points, a guide and what
+slides on it tell it, once for either sense.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import cmath
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
+from itertools import islice, pairwise, product
 
+import numpy as np
+
+from graphkin.construction.follow import Choices, best_reduced, fitted, moved_to, standing
 from graphkin.construction.group_position import GroupTrial
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import Meeting, PlacedLinks, Poses, assemble, drive, meet, refuse, start_board
-from graphkin.construction.sheet import Board
-from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Step
-from graphkin.scene.symbol import PointRef
-from graphkin.structure import (
-    Driven,
-    Dyad,
-    Element,
-    LargerGroup,
-    Structure,
+from graphkin.construction.links_on_paper import (
+    Meeting,
+    PlacedLinks,
+    Pose,
+    Poses,
+    Story,
+    assemble,
+    assembled,
+    drive,
+    meant,
+    meet,
+    refuse,
+    start_board,
 )
+from graphkin.construction.reduced_mechanism import ReducedMechanism
+from graphkin.construction.sheet import Board
+from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Reason, Step
+from graphkin.construction.touching import coordinate_on_paper
+from graphkin.errors import Problem, Unsolvable
+from graphkin.plane import added_up, cross, dot
+from graphkin.scene.symbol import PointRef
+from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
+from graphkin.structure.model import LargerGroup
 from graphkin.words import Phrase
 
-__all__ = ["Branches", "draw_position", "place"]
+__all__ = [
+    "Branches", "Known", "Position", "as_sketched", "assembly_at", "each_assembly", "fits_between", "nearest_assembly",
+    "own_position", "place",
+]  # fmt: skip
+
+TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
+HALVINGS = 45  # between trial values, up to the last that can be drawn
+TWINS = 1e-6  # of the size: as near as this places are the same
+ROUGHLY = 0.1  # of the size: so far off a sketch may be
+Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
+GRID = 360  # trial values looked at over a turn
+COARSE = 12  # values of each of several trial drivers
+Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
+MOST = 8  # positions that a sketch is taken to mean
+ALIKE = 0.05  # directions nearer to each other, and distances (of the size) that differ less, are the same in a sketch
+ACROSS = 0.1  # sine of the least angle at which two guides tell a place
+Axes = dict[str, complex]
+
 
 Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
 
 
 @dataclass(frozen=True)
 class Position:
-    """The links placed, and how each dyad was found."""
+    """The links of elements placed, in which assembly each dyad and by what trial positions each larger group, how each
+    dyad was found, and the acts of the hand up to which each link reaches."""
 
+    structure: Structure
+    elements: Sequence[Element]
     paper: PlacedLinks
+    branches: Branches
+    trials: Mapping[LargerGroup, GroupTrial]
     meetings: Mapping[int, Meeting]
-    causes: Sequence[tuple[int, Cause]] = ()  # acts of the hand up to which each link reaches
+    causes: Sequence[tuple[int, Cause]]
+
+    def draw(self, board: Board) -> None:
+        """Record how each link was placed, and the words for each assembly, by the group's links."""
+        paper, ground = self.paper, self.structure.scene.frame
+        fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
+        board.do(Step("mark", "frame", strokes=fixed, link=ground.name, points=tuple(ground.points)))
+        named = set(ground.points)
+        so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
+        for i, element in enumerate(self.elements):
+            if isinstance(element, Driven):
+                _, story = drive(so_far, element)
+            elif isinstance(element, LargerGroup):
+                story = self.trials[element].steps(paper, so_far)
+            else:
+                links, meeting = ", ".join(element.links), self.meetings[i]
+                of = element.inner.point if element.inner.turns else Phrase("these links", (links,))
+                board.notice("mechanism", "sharp crossing", of, size=meeting.sharpness)
+                one, two = element.outer_first, element.outer_second
+                if not element.inner.turns and one.turns and two.turns:
+                    apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
+                    board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
+                index = self.branches.get(i, 0) % len(meeting.poses)
+                story = meeting.tell(index)
+                which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
+                board.assembly[links] = Phrase(which, tuple(pair.key for pair in element.pairs))
+            self._told(board, element, story, named)
+            so_far.poses.update({name: paper.poses[name] for name in element.members})
+
+    def _told(self, board: Board, element: Element, story: Story, named: set[str]) -> None:
+        """Record how the links of an element were placed, and their points, those ``named`` left out."""
+        links, ground = self.structure.links, self.structure.scene.frame.name
+        found: set[str] = set()
+        left = list(element.members)
+
+        def known(name: str) -> int:
+            return len(links[name].points.keys() & (named | found))
+
+        def mark(name: str) -> None:
+            left.remove(name)
+            fresh = tuple(p for p in links[name].points if p not in named)
+            named.update(fresh)
+            if fresh:
+                marks = tuple(Mark(PointRef(p), self.paper.point(name, p)) for p in fresh)
+                reason: Reason = "whole link" if len(links[name].points) > 2 else "points"
+                board.do(Step("mark", reason, strokes=marks, link=name, points=fresh))
+
+        for step in story:
+            board.do(replace(step, base="") if step.base == ground else step)
+            if step.reason in FINDS_A_POINT:
+                found.add(step.point)
+            if isinstance(element, LargerGroup):  # what the next lines start from
+                laid = step.link if step.reason == "angle" else ""
+                for name in [n for n in left if n == laid or known(n) > 1]:
+                    mark(name)
+        while left:  # first the links that stand already: two of their points are known
+            mark(max(left, key=known))
 
 
 def place(
@@ -60,7 +166,7 @@ def place(
     """
     paper = start_board(structure, mm, values, instrument)
     meetings: dict[int, Meeting] = {}
-    causes: list[tuple[int, Cause]] = [(instrument.acts, _placing(structure.scene.frame.name))]
+    causes: list[tuple[int, Cause]] = [(instrument.acts, Phrase("placing", (structure.scene.frame.name,)))]
 
     def chosen(i: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, LargerGroup):
@@ -72,87 +178,411 @@ def place(
 
     for element in assemble(paper, elements, chosen):
         links = (element.link,) if isinstance(element, Driven) else element.links
-        causes.append((instrument.acts, _placing(*links)))
-    return Position(paper, meetings, causes)
+        causes.append((instrument.acts, Phrase("placing", (", ".join(links),))))
+    return Position(structure, elements, paper, branches, trials or {}, meetings, causes)
 
 
-def _placing(*links: str) -> Phrase:
-    """The pricking and placing of links, as a cause of what is uncertain."""
-    return Phrase("placing", (", ".join(links),))
+def assembly_at(
+    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
+) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial], dict[str, float]]:
+    """In which assembly the groups of some elements stand at driver values (rad, m).
+
+    Parameters
+    ----------
+    near : a position known already, from which the motion is followed; without one the scene's own is found first
+
+    Returns
+    -------
+    the assembly of each dyad by its place among the elements, by what trial positions each larger group is placed, and
+    how far what rolls has gone (rad, m)
+
+    Raises
+    ------
+    Unsolvable
+        "not drawn": no link of a larger group can be left out so that dyads remain; "not assembled": nothing fits at
+        these values, or the motion does not reach them, and then the message gives the limit; "dead point"
+    SceneError : a group has several assemblies and no sketch says which is meant
+    """
+    scene, choices = structure.scene, Choices(structure, elements)
+    own: Mapping[str, float] = {d.key: d.values[0] for d in scene.drivers}
+    at_start = all(values[key] == value for key, value in own.items())
+    there = choices.at_start if at_start else choices
+    if near is None:
+        start = choices.at_start
+        begin = {d.key: d.values[0] for d in start.structure.scene.drivers}
+        poses: Poses = own_position(start, elements, begin).poses
+    else:
+        own, poses = near
+    if any(values[key] != value for key, value in own.items()):
+        poses = moved_to(choices, elements, own, values, poses)
+    starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
+    paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
+    branches, trials = nearest_assembly(choices, elements, paper, poses, there if at_start else None)
+    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
+    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
+    return branches, trials, starts | rolled
 
 
-def draw_position(
-    board: Board,
-    structure: Structure,
-    elements: Sequence[Element],
-    position: Position,
-    branches: Mapping[int, int],
-    trials: Mapping[LargerGroup, GroupTrial] | None = None,
-) -> None:
-    """Record how each link was placed, and the words for each assembly, by the group's links."""
-    paper = position.paper
-    ground = structure.scene.frame
-    fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
-    board.do(Step("mark", "frame", strokes=fixed, link=ground.name, points=tuple(ground.points)))
-    named = set(ground.points)
-    so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
+def nearest_assembly(
+    choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
+) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial]]:
+    """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
+    placed, so that links lie where they are known to lie (``poses``).
+
+    Parameters
+    ----------
+    starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
+    """
+    branches: dict[int, int] = {}
+    trials: dict[LargerGroup, GroupTrial] = {}
     for i, element in enumerate(elements):
-        if isinstance(element, Driven):
-            _, story = drive(so_far, element)
+        if isinstance(element, Dyad):
+            branches[i] = meet(paper, element).nearest(poses) or 0
         elif isinstance(element, LargerGroup):
-            story = (trials or {})[element].steps(paper, so_far)
-        else:
-            meeting = position.meetings[i]
-            board.notice("mechanism", "sharp crossing", _inner_name(element), size=meeting.sharpness)
-            _remark_arm(board, element, paper)
-            index = branches.get(i, 0) % len(meeting.poses)
-            story = meeting.tell(index)
-            key = ", ".join(element.links)
-            which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
-            board.assembly[key] = Phrase(which, tuple(pair.key for pair in element.pairs))
-        found: set[str] = set()
-        left = list(element.members)
-
-        def known(name: str, found: set[str] = found) -> int:
-            return len(structure.links[name].points.keys() & (named | found))
-
-        for step in story:
-            board.do(replace(step, base="") if step.base == ground.name else step)
-            if step.reason in FINDS_A_POINT:
-                found.add(step.point)
-            if isinstance(element, LargerGroup):  # what the next lines start from
-                laid = step.link if step.reason == "angle" else ""
-                for name in [n for n in left if n == laid or known(n) > 1]:
-                    left.remove(name)
-                    _mark_points(board, structure, paper, name, named)
-        while left:  # first the links that stand already: two of their points are known
-            name = max(left, key=known)
-            left.remove(name)
-            _mark_points(board, structure, paper, name, named)
+            if starting is not None and element.rolling:
+                reduced = standing(starting, element, paper, poses)
+            else:
+                reduced = best_reduced(choices, element, paper, poses)
+            if reduced is None:
+                links = Phrase("links", links=", ".join(element.links))
+                raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
+            given = starting is not None and bool(element.rolling)
+            trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
         for name in element.members:
-            so_far.poses[name] = paper.poses[name]
+            paper.poses[name] = poses[name]
+    return branches, trials
 
 
-def _mark_points(board: Board, structure: Structure, paper: PlacedLinks, name: str, named: set[str]) -> None:
-    """The points of a placed link that do not stand on the paper yet."""
-    points = structure.links[name].points
-    fresh = tuple(p for p in points if p not in named)
-    named.update(fresh)
-    if fresh:
-        marks = tuple(Mark(PointRef(p), paper.point(name, p)) for p in fresh)
-        board.do(Step("mark", "whole link" if len(points) > 2 else "points", strokes=marks, link=name, points=fresh))
+# -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def _remark_arm(board: Board, dyad: Dyad, paper: PlacedLinks) -> None:
-    """How far the two points are apart that direct a guide."""
-    one, two = dyad.outer_first, dyad.outer_second
-    if not dyad.inner.turns and one.turns and two.turns:
-        apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-        board.notice("mechanism", "short arm", ", ".join(dyad.links), one.point, two.point, size=apart)
+def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[str, float]) -> PlacedLinks:
+    """The links of some elements at driver values (rad, m) that are the scene's own, on paper of its size."""
+    structure = choices.structure
+    paper = start_board(structure, 1.0 / structure.scene.size, values)
+    wanted = {n for element in elements for n in element.members}
+
+    def choose(_: int, element: Dyad | LargerGroup) -> Poses:
+        if isinstance(element, Dyad):
+            return meant(structure, paper, element)
+        return _group_by_sketch(choices, paper, element)
+
+    here = [element for element in structure.elements if wanted.intersection(element.members)]
+    assembled(paper, here, choose, lambda driver: driver.start)
+    return paper
 
 
-def _inner_name(dyad: Dyad) -> str | Phrase:
-    """What the loci of a dyad find, for a remark."""
-    if dyad.inner.turns:
-        return dyad.inner.point
-    return Phrase("these links", (", ".join(dyad.links),))
+def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
+    """The assembly of a larger group that is meant: one that is sketched, improved until everything fits; where the
+    sketch does not tell it, of all that fit the one nearest to what is sketched."""
+    structure = choices.structure
+    sketched = [
+        fit for rough in as_sketched(structure, group, paper)
+        if (fit := next(filter(None, (fitted(reduced, paper, rough) for reduced in choices.of[group])), None))
+    ]  # fmt: skip
+    found: list[dict[str, Pose]] = []
+    _add_new(found, (fit for fit in sketched if _is_told(structure, paper, fit)))
+    if not found:
+        # by several trial drivers: what one passes over at its dead point another sees
+        by_driver: dict[tuple[str, ...], ReducedMechanism] = {}
+        for reduced in choices.of[group]:
+            by_driver.setdefault(tuple(d.key for d in reduced.trial), reduced)
+        for reduced in list(by_driver.values())[:TRIALS]:
+            _add_new(found, all_fits(reduced, paper))
+        _add_new(found, sketched)
+    if not found:
+        names = ", ".join(group.links)
+        raise Unsolvable(
+            "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
+        )
+    found = _without_twins(structure, paper, group, found)
+    candidates = [paper.fresh(poses) for poses in found]
+    return found[pick(structure.scene, group.links, candidates, None).index]
+
+
+def _add_new(found: list[dict[str, Pose]], fits: Iterable[dict[str, Pose]]) -> None:
+    """Add the positions that are not among those found yet: a fit at a value of the grid is met from both sides."""
+    for fit in fits:
+        if not any(_near(fit, other) for other in found):
+            found.append(fit)
+
+
+def _is_told(structure: Structure, paper: PlacedLinks, poses: Poses) -> bool:
+    """Whether all points lie about where they are sketched."""
+    told = {**structure.scene.sketch, **structure.scene.drawn}
+    off = (abs(z - told[p]) for p, z in paper.fresh(poses).items() if p in told)
+    return max(off, default=0.0) <= ROUGHLY * structure.scene.size
+
+
+def _without_twins(
+    structure: Structure, paper: PlacedLinks, group: LargerGroup, found: Sequence[dict[str, Pose]]
+) -> list[dict[str, Pose]]:
+    """Of positions whose points all lie in the same places, which differ only in the sense of a bar without length, the
+    one where what slides lies on the positive side."""
+    slides = [p for p in group.pairs if not p.turns and p.a in group.members and p.b in group.members]
+
+    def positive(poses: Poses) -> float:
+        ways = ((poses[s.a].origin - poses[s.b].origin) / poses[s.b].axis - paper.mm * s.guide.through for s in slides)
+        return added_up(dot(s.guide.direction, way) for s, way in zip(slides, ways, strict=True))
+
+    kept: list[tuple[dict[str, Pose], dict[str, complex]]] = []
+    for poses in sorted(found, key=positive, reverse=True):
+        places = paper.fresh(poses)
+        twins = (max((abs(z - other[p]) for p, z in places.items()), default=math.inf) for _, other in kept)
+        if all(apart > TWINS * structure.scene.size for apart in twins):
+            kept.append((poses, places))
+    return [poses for poses in found if any(poses is one for one, _ in kept)]
+
+
+def _near(one: Poses, other: Poses) -> bool:
+    return all(abs(p.origin - other[n].origin) + abs(p.axis - other[n].axis) < 1e-6 for n, p in one.items())
+
+
+# -- where the gaps of trial drawings close ----------------------------------------------------------------------------
+
+
+def all_fits(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Every position of the trial drivers and every assembly of the trial dyads at which what was left out fits."""
+    if len(reduced.trial) == 1:
+        yield from fits_between(reduced, known, *_span(reduced, 0))
+    else:
+        yield from _on_a_grid(reduced, known)
+
+
+def _span(reduced: ReducedMechanism, i: int) -> tuple[float, float]:
+    """Where a trial driver may stand: a turn, or four sizes of the mechanism."""
+    return (-math.pi, math.pi) if reduced.trial[i].turns else (-2.0, 2.0)
+
+
+def _on_a_grid(reduced: ReducedMechanism, known: PlacedLinks) -> Iterator[dict[str, Pose]]:
+    """Several trial drivers: each place of a grid improved."""
+    axes = []
+    for i in range(len(reduced.trial)):
+        start, end = _span(reduced, i)
+        axes.append([start + (end - start) * (n + 0.5) / COARSE for n in range(COARSE)])
+    trials = []
+    for values in product(*axes):
+        for branches, gaps in _gaps(reduced, known, values).items():
+            trials.append((max(abs(g) for g in gaps), values, branches))
+    trials.sort(key=lambda one: one[0])
+    for _, values, branches in trials[:200]:
+        paper = _drawn(reduced, known, values, branches)
+        if paper is None:
+            continue
+        near = fitted(reduced, known, paper.poses, values)
+        if near is not None:
+            yield near
+
+
+def fits_between(
+    reduced: ReducedMechanism, known: PlacedLinks, start: float, end: float
+) -> Iterator[dict[str, Pose]]:
+    """The positions between two values of the one trial driver in which what was left out fits."""
+    low, high = _span(reduced, 0)
+    parts = max(1, round(GRID * (end - start) / (high - low)))
+    grid = [start + (end - start) * i / parts for i in range(parts + 1)]
+    # a value is drawn once for all assemblies: where one cannot be drawn on, others often cannot either
+    drawn_at = cache(lambda value: _gaps(reduced, known, (value,)))
+    for branches in product((0, 1), repeat=sum(isinstance(e, Dyad) for e in reduced.elements)):
+
+        def gap(value: float, branches: Branch = branches) -> float:
+            return drawn_at(value).get(branches, (math.nan,))[0]
+
+        for (a, one), (b, two) in pairwise((value, gap(value)) for value in grid):
+            if math.isnan(one) != math.isnan(two):  # only one can be drawn: up to the last that can
+                good, bad = (a, b) if math.isnan(two) else (b, a)
+                a, b = good, _last_drawn(gap, good, bad)
+                one, two = gap(a), gap(b)
+            # nan compares false; a gap that leaps has passed half a turn, not zero
+            if not one * two <= 0.0 or abs(one - two) > 1.0:
+                continue
+            paper = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
+            if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
+                yield reduced.put_back(paper)
+
+
+def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:
+    """The gaps in every assembly of the trial dyads at some values, those that cannot be drawn left out; a dyad is
+    drawn once for all assemblies of those after it."""
+    papers = each_assembly(reduced.opened(known, values), reduced.elements)
+    return {branches: reduced.gaps(paper) for branches, paper in papers}
+
+
+def each_assembly(
+    paper: PlacedLinks, elements: Sequence[Driven | Dyad], branches: Branch = (), only: Branch | None = None
+) -> Iterator[tuple[Branch, PlacedLinks]]:
+    """Every assembly of some dyads that can be drawn, or one ``only``, with the links as they then lie on the one
+    paper."""
+    if not elements:
+        yield branches, paper
+        return
+    element, *left = elements
+    if isinstance(element, Driven):
+        paper.poses[element.link], _ = drive(paper, element)
+        yield from each_assembly(paper, left, branches, only)
+        return
+    for branch, poses in enumerate(meet(paper, element).poses):
+        if only is None or only[len(branches)] == branch:
+            paper.poses.update(poses)
+            yield from each_assembly(paper, left, (*branches, branch), only)
+
+
+def _drawn(
+    reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float], branches: Branch
+) -> PlacedLinks | None:
+    """A trial drawing of the group; None where two loci do not meet."""
+    papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
+    return next((paper for _, paper in papers), None)
+
+
+def _last_drawn(gap: Callable[[float], float], good: float, bad: float) -> float:
+    """The last trial value that can be drawn between one that can and one that cannot, by halving."""
+    for _ in range(HALVINGS):
+        middle = (good + bad) / 2
+        good, bad = (good, middle) if math.isnan(gap(middle)) else (middle, bad)
+    return good
+
+
+def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: float) -> float:
+    """Where a gap closes between two trial values: proportional division, halving where that is slow (regula falsi,
+    Illinois variant)."""
+    side = 0
+    for _ in range(100):
+        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
+        if not min(a, b) < c < max(a, b):
+            c = (a + b) / 2
+        fc = gap(c)
+        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
+            return c
+        if (fc > 0) == (fb > 0):
+            b, fb = c, fc
+            fa = fa / 2 if side == -1 else fa
+            side = -1
+        else:
+            a, fa = c, fc
+            fb = fb / 2 if side == 1 else fb
+            side = 1
+    return c
+
+
+# -- where links lie roughly, by the sketch ----------------------------------------------------------------------------
+
+
+def as_sketched(structure: Structure, group: LargerGroup, known: PlacedLinks) -> list[dict[str, Pose]]:
+    """All links known and those of a group roughly where they are sketched, in each position that the sketch can mean;
+    none where it does not tell of all of them."""
+    scene = structure.scene
+    places = {p: z * known.mm for p, z in {**scene.sketch, **scene.drawn}.items()}
+    places |= {p: known.point(n, p) for n in known.poses for p in structure.links[n].points}
+    sketch = _Sketch(structure, group, known, places)
+    return list(islice(sketch.positions(dict(known.poses), {n: pose.axis for n, pose in known.poses.items()}), MOST))
+
+
+class _Sketch:
+    def __init__(
+        self, structure: Structure, group: LargerGroup, known: PlacedLinks, places: Mapping[str, complex]
+    ) -> None:
+        self.members, self.places = group.members, places
+        self.slides = [p for p in group.pairs if not p.turns]
+        self.points = {n: {p: z * known.mm for p, z in link.points.items()} for n, link in structure.links.items()}
+        self.mm = known.mm
+        # links whose directions tell each other's: the second's is the first's times this
+        self.joined = [(s.b, s.a, s.guide.direction * s.turn) for s in self.slides]
+        self.joined += [(*d.links[::-1], cmath.rect(1.0, known.values[d.key])) for d in group.drivers if d.turns]
+
+    def positions(self, poses: dict[str, Pose], axes: Axes) -> Iterator[dict[str, Pose]]:
+        """Every position from the links and directions known already."""
+        self._spread(axes)
+        found = next(((n, axis) for n in self.members if n not in axes and (axis := self._by_points(n))), None)
+        if found is not None:
+            yield from self.positions(poses, {**axes, found[0]: found[1]})
+            return
+        self._place(poses, axes)
+        left = next((n for n in self.members if n not in axes), None)
+        if left is None:
+            if poses.keys() >= set(self.members):
+                yield poses
+            return
+        for name in self.members:
+            if name in axes:
+                continue
+            for axis in self._by_guides(name, poses):
+                yield from self.positions(dict(poses), {**axes, name: axis})
+            return
+
+    def _spread(self, axes: Axes) -> None:
+        grown = True
+        while grown:
+            grown = False
+            for base, name, turn in self.joined:
+                if base in axes and name not in axes:
+                    axes[name], grown = axes[base] * turn, True
+                elif name in axes and base not in axes:
+                    axes[base], grown = axes[name] * turn.conjugate(), True
+
+    def _by_points(self, name: str) -> complex | None:
+        own = {p: z for p, z in self.points[name].items() if p in self.places}
+        a, b = max(((a, b) for a in own for b in own), key=lambda ab: abs(own[ab[0]] - own[ab[1]]), default=("", ""))
+        if a == b or self.places[a] == self.places[b]:
+            return None
+        axis = (self.places[b] - self.places[a]) / (own[b] - own[a])
+        return axis / abs(axis)
+
+    def _by_guides(self, name: str, poses: Mapping[str, Pose]) -> list[complex]:
+        """Directions of a link at which what slides on guides, of it or of links joined to it, lies on them."""
+        turned: Axes = {name: 1 + 0j}
+        self._spread(turned)
+        rows = []
+        for s in self.slides:
+            block, rail = self._one_point(s.a, poses), self._one_point(s.b, poses)
+            if s.b not in turned or block is None or rail is None or block[0] == rail[0]:
+                continue
+            offset = (s.turn * block[1]).imag + cross(s.guide.direction, s.guide.through * self.mm - rail[1])
+            rows.append((turned[s.b] * s.guide.direction, block[0] - rail[0], offset))
+        senses = []
+        for along, way, offset in rows:
+            lean = math.asin(min(1.0, max(-1.0, offset / abs(way))))
+            # towards what slides first, as a rod lies on its cylinder
+            senses += [cmath.rect(1.0, cmath.phase(way) + turn) / along for turn in (-lean, lean - math.pi)]
+        told: list[tuple[float, complex]] = []
+        for axis in senses:
+            off = max(abs(cross(axis * along, way) - offset) for along, way, offset in rows)
+            if all(abs(axis - other) > ALIKE for _, other in told):
+                told.append((off, axis))
+        least = min((off for off, _ in told), default=0.0)
+        return [axis for off, axis in told if off <= least + ALIKE]
+
+    def _one_point(self, name: str, poses: Mapping[str, Pose]) -> tuple[complex, complex] | None:
+        """Where a point of a link lies, and its place on the link."""
+        if name in poses:
+            return poses[name].origin, 0j
+        return next(((self.places[p], z) for p, z in self.points[name].items() if p in self.places), None)
+
+    def _place(self, poses: dict[str, Pose], axes: Axes) -> None:
+        """The links of known direction: by a point of them, or where two of their guides tell the place."""
+        grown = True
+        while grown:
+            grown = False
+            for name in self.members:
+                if name in poses or name not in axes:
+                    continue
+                at = self._one_point(name, poses)
+                origin = at[0] - axes[name] * at[1] if at is not None else self._by_two_guides(name, poses, axes)
+                if origin is not None:
+                    poses[name], grown = Pose(origin, axes[name]), True
+
+    def _by_two_guides(self, name: str, poses: Mapping[str, Pose], axes: Axes) -> complex | None:
+        ways, offs = [], []
+        for s in self.slides:
+            other = s.b if s.a == name else s.a
+            if name not in (s.a, s.b) or other not in poses:
+                continue
+            along = axes[s.b] * s.guide.direction
+            through = axes[s.b] * s.guide.through * self.mm
+            start = poses[other].origin + (through if s.a == name else -through)
+            ways.append((-along.imag, along.real))
+            offs.append(cross(along, start))
+        if len(ways) < 2 or np.linalg.svd(np.array(ways), compute_uv=False)[-1] < ACROSS:
+            return None
+        x, y = np.linalg.lstsq(np.array(ways), np.array(offs), rcond=None)[0]
+        return complex(x, y)

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.construction.assembly import as_sketched
 from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.position import as_sketched
 from graphkin.structure import LargerGroup
 
 BESIDE_A_GUIDE: dict[str, Any] = {  # the guides of link 5 lie beside its pin: they tell how it is turned

@@ -10,7 +10,7 @@ import pytest
 
 import graphkin
 from graphkin import solver
-from graphkin.construction import assembly
+from graphkin.construction import position
 from graphkin.construction.centres import find_centres, measured
 from graphkin.construction.plan import draft
 from graphkin.construction.reduced_mechanism import reduced_mechanisms
@@ -101,19 +101,11 @@ def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> Non
         assert sheet.poses[block].axis / sheet.poses[link].axis == pytest.approx(cmath.rect(1.0, turned), abs=1e-9)
 
 
-@pytest.mark.parametrize("told", [True, False], ids=["loci reach over each other up to there", "they tell nothing"])
 @pytest.mark.parametrize("root", [0.3, 1e-9, 0.999], ids=str)
-def test_the_last_value_that_can_be_drawn_is_found_to_rounding(root, told):
-    asked = []
-
+@pytest.mark.parametrize("bad", [1.0, -1.0])
+def test_the_last_value_that_can_be_drawn_is_found_to_rounding(root, bad):
     def gap(value):
-        asked.append(value)
-        return 1.0 + value if value <= root else math.nan
+        return 1.0 + value if abs(value) <= root else math.nan
 
-    def rooms(value):
-        return [1.0, (root - value) * (3.0 + value) if told else 1.0]
-
-    good, last = assembly._inside(gap, rooms, (1.0, math.nan), (0.0, 1.0))
-    assert (0.0, 1.0) == good
-    assert root - 1e-13 <= last[0] <= root
-    assert told is (len(asked) < 20)
+    last = position._last_drawn(gap, 0.0, bad)
+    assert root - 1e-13 <= abs(last) <= root
