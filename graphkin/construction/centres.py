@@ -241,9 +241,9 @@ class Centres:
         """A pin or a point of any link, or the point of a contact, on paper (mm)."""
         contact = next((c for c in self.scene.contacts if c.name == name), None)
         if contact is not None:
-            return self.touching.contact(contact)[0]
+            return self.touching.of(contact).at
         holder = next(n for n in self.scene.holders[name] if n in self.poses)
-        return self.touching.place(holder, self.scene.by_name[holder].points[name])
+        return self.touching.place(holder, name)
 
     @cached_property
     def chart(self) -> ProjectiveChart:
@@ -344,23 +344,24 @@ def _permanent(links: Centres) -> Iterator[Centre]:
             place = chart.towards(1j * poses[s.on].axis * links.scene.by_name[s.on].guides[s.guide].direction)
             far = chart.direction(place)
             yield Centre(links.pair(s.link, s.on), "permanent", place, direction=far, joint=s.key)
-    for a, b, z, name in links.touching.rolling():
-        yield Centre(links.pair(a, b), "permanent", chart.at(z), z, joint=name, rolls=True)
+    for touch in links.touching.rolling():
+        yield Centre(links.pair(*touch.links), "permanent", chart.at(touch.at), touch.at, joint=touch.name, rolls=True)
 
 
 def _normals(links: Centres) -> Iterator[CentreRelation]:
     """The common normals: of a pin in a slot the line through the pin square to the slot, and of sliding contacts."""
-    scene, poses, place = links.scene, links.poses, links.touching.place
+    scene, poses = links.scene, links.poses
     for pin in scene.pins:
         if pin.of in poses and pin.on in poses and pin.of != pin.on:
             guide = scene.by_name[pin.on].guides[pin.guide]
             along = poses[pin.on].axis * guide.direction
-            at, start = place(pin.of, scene.by_name[pin.of].points[pin.point]), place(pin.on, guide.through)
+            at, start = links.touching.place(pin.of, pin.point), poses[pin.on].place(guide.through * links.mm)
             line = links.chart.line(start + along * dot(at - start, along), 1j * along)
             yield CentreRelation(links.pair(pin.of, pin.on), line, ROUNDING, (pin.key,))
     for contact in scene.contacts:
         if not contact.rolling and set(contact.links) <= poses.keys():
-            line = links.chart.line(*links.touching.contact(contact))
+            touch = links.touching.of(contact)
+            line = links.chart.line(touch.at, touch.normal)
             yield CentreRelation(links.pair(*contact.links), line, ROUNDING, (contact.name,))
 
 

@@ -56,7 +56,6 @@ from graphkin.construction.steps import (
     TakenOff,
     Vector,
 )
-from graphkin.construction.touching import Touching
 from graphkin.construction.trains import rolled
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, dot, unit
@@ -404,23 +403,21 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
 
 def _mark_pitch_point(plot: Polygons, name: str) -> str:
     letter = plot.pitch_points[name] = next(iter(_free_letters(plot)))
-    touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
-    at = plot.board.instrument.point(touching.rolling_centres(name)[0])
+    touch = plot.touch(name)
+    at = plot.board.instrument.point(touch.at)
     plot.special.add(letter)
     plot.places[letter] = at
-    wheels = next(g.wheels for g in plot.structure.scene.gears if g.name == name)
-    plot.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=wheels))
+    plot.do(Step("mark", "pitch point", strokes=(Mark(PointRef(letter), at),), point=letter, links=touch.links))
     return letter
 
 
 def _direction(plot: Polygons, edge: Edge, places: Mapping[str, complex]) -> complex:
     if edge.rolling:
-        touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
-        return 1j * touching.rolling_centres(edge.rolling)[1]
+        return 1j * plot.touch(edge.rolling).normal
     if edge.slide is not None:
         return plot.paper.poses[edge.slide.b].axis * edge.slide.guide.direction
     if edge.contact:
-        return -1j * plot.contact(edge.contact)[2]
+        return -1j * plot.touch(edge.contact).normal
     if edge.joint is not None and edge.joint.pair.turns:  # both ends lie at one place, off the hinge
         return 1j * unit(places[edge.end.point] - places[edge.joint.pair.point])
     return 1j * unit(places[edge.end.point] - places[edge.start.point])

@@ -20,7 +20,6 @@ from graphkin.construction.net import (
 from graphkin.construction.polygons import RATE, Component, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
 from graphkin.construction.steps import GIVEN, Aid, Bar, Direction, Mark, Order, Ray, Role, Size, Step, Term, Vector
-from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
@@ -531,24 +530,21 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     """The material point of one body at a contact relative to that of the other: slip along the tangent; with the term
     of Coriolis, and along the normal what the curvatures of both outlines give."""
     one, two = (ref.link for ref in edge.labels)
-    contact, place, normal = plot.contact(edge.contact)
-    touching = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses)
-    plot.board.notice(order, "at contact", contact.name)
-    tangent, per = -1j * normal, plot.scales.of(order)
+    touch = plot.touch(edge.contact)
+    plot.board.notice(order, "at contact", touch.name)
+    normal, tangent, per = touch.normal, -1j * touch.normal, plot.scales.of(order)
     if order == "velocity":
         return [_term(plot, edge, "v", tangent, None, edge.direction)]
-    centres = dict(zip((d.link for d in contact.round), touching.centres(contact), strict=True))
-    # 1/m, positive where the centre of curvature lies on the side of the normal
-    bends = [plot.paper.mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
+    bends = touch.curvatures((one, two), plot.paper.mm)
     omega, other = (plot.rates["velocity"][n].value for n in (one, two))
     _, speed = _slip_read(plot, edge, tangent)
     turning = other - omega
     off = turning * speed - (turning - bends[0] * speed) * (turning - bends[1] * speed) / (bends[0] - bends[1])
-    if one in centres:
-        curves = (one, two) if two in centres else (one,)
+    if one in touch.centres:
+        curves = (one, two) if two in touch.centres else (one,)
         size = Size("slip on curves", (two, one), symbol_of(plot, "v", edge), curves=curves)
     else:
-        size = _by_rate(plot, (two, one), (contact.round[0].centre, contact.name), square=True)
+        size = _by_rate(plot, (two, one), (touch.centres[two][0], touch.name), square=True)
     turned = Direction("turned", edge.direction.names)
     parts = [
         _coriolis(plot, edge, one, normal, 2 * omega * speed / per, turned),
@@ -564,18 +560,17 @@ def _rolling_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     if order == "velocity":
         return []
     one, two = (ref.link for ref in edge.labels)
-    mm = plot.paper.mm
-    place, normal, centres = Touching(plot.structure.scene, mm, plot.paper.poses).rolling_centres(edge.rolling)
-    bends = [mm / dot(centres[n] - place, normal) if n in centres else 0.0 for n in (one, two)]
+    touch = plot.touch(edge.rolling)
+    bends = touch.curvatures((one, two), plot.paper.mm)
     turning = plot.rates["velocity"][two].value - plot.rates["velocity"][one].value
     off = turning**2 / (bends[1] - bends[0]) / plot.scales.acceleration
-    along = normal if off >= 0.0 else -normal
+    along = touch.normal if off >= 0.0 else -touch.normal
     links = tuple(n for n in (two, one) if n not in plot.still) or (two,)
-    if len(centres) == 1:
-        ((link, centre),) = centres.items()
-        names = plot.centre_letter(edge.rolling, link), edge.start.point
+    if len(touch.centres) == 1:
+        ((letter, centre),) = touch.centres.values()
+        names = letter, edge.start.point
         size = _by_rate(plot, links, names, square=True)
-        way = Direction("towards", names if off * dot(normal, place - centre) > 0 else names[::-1])
+        way = Direction("towards", names if off * dot(touch.normal, touch.at - centre) > 0 else names[::-1])
     else:
         inside = bends[0] * bends[1] > 0.0
         pair = (one, two) if not inside or abs(bends[0]) > abs(bends[1]) else (two, one)

@@ -21,11 +21,10 @@ from graphkin.construction.net import VectorChain, node
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
 from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Ray, Role, Size, Step, Vector
-from graphkin.construction.touching import Touching
+from graphkin.construction.touching import Touch, Touching
 from graphkin.construction.trains import PlansDrawn
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
-from graphkin.scene.model import PlacedContact
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
@@ -158,13 +157,6 @@ class Polygons:
             return replace(symbol, to=PointRef(end.point, self.held))
         return replace(symbol, seen=self.held) if self.held else symbol
 
-    def centre_letter(self, name: str, link: str) -> str:
-        """The centre of what is round on a link in a contact, or the axis of a wheel."""
-        scene = self.structure.scene
-        discs = [d for c in scene.contacts if c.name == name for d in c.round]
-        axes = [(w, p) for g in scene.gears if g.name == name for w, p in zip(g.wheels, g.axes, strict=True)]
-        return dict([*((d.link, d.centre) for d in discs), *axes])[link]
-
     def label(self, ref: PointRef) -> PointRef:
         """A node as it is written: the block of a pin in a slot bears the name of the pin's link."""
         return PointRef(ref.point, self.block_of[ref.link]) if ref.link in self.block_of else ref
@@ -203,10 +195,9 @@ class Polygons:
                     grown = True
         return still
 
-    def contact(self, name: str) -> tuple[PlacedContact, complex, complex]:
-        """A contact, where it is made (mm), and the direction of its normal."""
-        found = next(c for c in self.structure.scene.contacts if c.name == name)
-        return found, *Touching(self.structure.scene, self.paper.mm, self.paper.poses).contact(found)
+    def touch(self, name: str) -> Touch:
+        """Where a contact is made, or wheels mesh."""
+        return Touching(self.structure.scene, self.paper.mm, self.paper.poses).named(name)
 
     def length(self, arm: complex, between: Sequence[str]) -> float:
         """The length (m) between two points of the mechanism that lie ``arm`` apart on paper: given where one link has
@@ -442,7 +433,7 @@ def _split(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) ->
     tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
     arm = plot.places[of.point] - plot.places[to.point]
     if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
-        arm = Touching(plot.structure.scene, plot.paper.mm, plot.paper.poses).rolling_centres(of.point)[1]
+        arm = plot.touch(of.point).normal
     elif abs(arm) <= plot.tiny:
         raise CallError(
             Problem(

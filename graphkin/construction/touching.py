@@ -10,8 +10,8 @@ from __future__ import annotations
 import cmath
 import math
 from cmath import phase
-from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Literal, NamedTuple
 
@@ -33,14 +33,21 @@ POINTS = 180
 
 @dataclass(frozen=True)
 class Touch:
-    """Two links that touch: a letter for it, where, and the direction of the common normal.  Wheels mesh whose centres
-    another link holds apart: what they carry is tangential."""
+    """Two links that touch: a letter for it, where, the direction of the common normal, and letters and places of the
+    centres of what is round there, by link.  Wheels mesh whose centres another link holds apart: what they carry is
+    tangential."""
 
     name: str
     links: tuple[str, str]
     at: complex
     normal: complex
     means: Literal["slides", "rolls", "meshes"]
+    centres: Mapping[str, tuple[str, complex]] = field(default_factory=dict)
+
+    def curvatures(self, links: Sequence[str], mm: float) -> list[float]:
+        """Those of the outlines of links (1/m; ``mm`` of paper for one m), positive where the centre of curvature lies
+        on the side of the normal; 0 of what is not round."""
+        return [mm / dot(self.centres[n][1] - self.at, self.normal) if n in self.centres else 0.0 for n in links]
 
 
 @dataclass(frozen=True)
@@ -51,110 +58,89 @@ class Touching:
     mm: float
     poses: Mapping[str, Pose]
 
-    def place(self, link: str, local: complex) -> complex:
-        """A place given in a link's own axes (m), on paper (mm)."""
-        return self.poses[link].place(local * self.mm)
+    def place(self, link: str, point: str) -> complex:
+        """A point of a link on paper (mm)."""
+        return self.poses[link].place(self.scene.by_name[link].points[point] * self.mm)
 
-    def contacts(self) -> Iterator[PlacedContact]:
+    def of(self, pair: PlacedContact | PlacedGear) -> Touch:
+        """Where a contact is made, its normal out of the face, or from the first centre to the second; or where pitch
+        circles touch, or circle and pitch line, its normal the line of centres, of a rack square to its pitch line."""
+        if isinstance(pair, PlacedContact):
+            means: Literal["slides", "rolls", "meshes"] = "slides"
+            if pair.rolling:
+                means = "meshes" if pair.carrier else "rolls"
+            centres = {d.link: (d.centre, self.place(d.link, d.centre)) for d in pair.round}
+            first = centres[pair.round[0].link][1]
+            if pair.flat:
+                guide = self.scene.by_name[pair.face].guides[pair.guide]
+                normal = self.poses[pair.face].axis * guide.direction * pair.normal_to_face
+                at = first - normal * pair.round[0].radius * self.mm
+                return Touch(pair.name, pair.links, at, normal, means, centres)
+            one, two = pair.round
+            way = centres[two.link][1] - first
+            at = first + way * (one.radius / (one.radius + two.radius))
+            return Touch(pair.name, pair.links, at, way / abs(way), means, centres)
+        axes = zip(pair.wheels, pair.axes, strict=True)
+        centres = {wheel: (letter, self.place(pair.carrier, letter)) for wheel, letter in axes if letter}
+        wheel, other = pair.wheels
+        axis, teeth = centres[wheel][1], pair.teeth[1]
+        if teeth is None:
+            rack, pose = self.scene.by_name[other].guides[pair.guide], self.poses[other]
+            along, start = pose.axis * rack.direction, pose.place(rack.through * self.mm)
+            at = start + along * dot(axis - start, along)
+            return Touch(pair.name, pair.wheels, at, 1j * along, "meshes", centres)
+        way = centres[other][1] - axis
+        held = self.scene.by_name[pair.carrier].points
+        normal = self.poses[pair.carrier].axis * (held[pair.axes[1]] - held[pair.axes[0]])
+        share = pair.teeth[0] / (pair.teeth[0] + teeth)
+        return Touch(pair.name, pair.wheels, axis + way * share, normal / abs(normal), "meshes", centres)
+
+    def contacts(self) -> Iterator[tuple[PlacedContact, Touch]]:
         """The contacts both of whose links stand on paper."""
-        return (c for c in self.scene.contacts if set(c.links) <= self.poses.keys())
+        return ((c, self.of(c)) for c in self.scene.contacts if self.poses.keys() >= {*c.links})
 
-    def gears(self) -> Iterator[PlacedGear]:
+    def gears(self) -> Iterator[tuple[PlacedGear, Touch]]:
         """The gears whose wheels and carrier stand on paper."""
-        return (g for g in self.scene.gears if {*g.wheels, g.carrier} <= self.poses.keys())
-
-    def centres(self, contact: PlacedContact) -> list[complex]:
-        """The centres of its discs."""
-        return [self.place(d.link, self.scene.by_name[d.link].points[d.centre]) for d in contact.round]
-
-    def contact(self, contact: PlacedContact) -> tuple[complex, complex]:
-        """Where a contact is made, and the direction of its normal: out of the face, or from the first centre to the
-        second."""
-        spots = self.centres(contact)
-        if contact.flat:
-            guide = self.scene.by_name[contact.face].guides[contact.guide]
-            normal = self.poses[contact.face].axis * guide.direction * contact.normal_to_face
-            return spots[0] - normal * contact.round[0].radius * self.mm, normal
-        one, two = contact.round
-        way = spots[1] - spots[0]
-        return spots[0] + way * (one.radius / (one.radius + two.radius)), way / abs(way)
-
-    def pitch_point(self, gear: PlacedGear) -> complex:
-        """Where the pitch circles touch, or circle and pitch line."""
-        held = self.scene.by_name[gear.carrier].points
-        axis = self.place(gear.carrier, held[gear.axes[0]])
-        if gear.teeth[1] is None:
-            rack = self.scene.by_name[gear.wheels[1]].guides[gear.guide]
-            along = self.poses[gear.wheels[1]].axis * rack.direction
-            start = self.place(gear.wheels[1], rack.through)
-            return start + along * dot(axis - start, along)
-        way = self.place(gear.carrier, held[gear.axes[1]]) - axis
-        return axis + way * (gear.teeth[0] / (gear.teeth[0] + gear.teeth[1]))
-
-    def normal(self, gear: PlacedGear) -> complex:
-        """The direction of the line of centres of two wheels, of a rack square to its pitch line."""
-        if gear.teeth[1] is None:
-            rack = self.scene.by_name[gear.wheels[1]].guides[gear.guide]
-            return 1j * self.poses[gear.wheels[1]].axis * rack.direction
-        held = self.scene.by_name[gear.carrier].points
-        way = self.poses[gear.carrier].axis * (held[gear.axes[1]] - held[gear.axes[0]])
-        return way / abs(way)
+        return ((g, self.of(g)) for g in self.scene.gears if self.poses.keys() >= {*g.wheels, g.carrier})
 
     def touches(self) -> Iterator[Touch]:
         """Everything that touches: contacts, wheels, cams with their followers."""
-        for contact in self.contacts():
-            means: Literal["slides", "rolls", "meshes"] = "slides"
-            if contact.rolling:
-                means = "meshes" if contact.carrier else "rolls"
-            yield Touch(contact.name, contact.links, *self.contact(contact), means)
+        contacts = [touch for _, touch in self.contacts()]
+        yield from contacts
         taken = {*self.scene.holders, *(contact.name for contact in self.scene.contacts)}
-        for gear in self.gears():
-            yield Touch(_free(gear.name, taken), gear.wheels, self.pitch_point(gear), self.normal(gear), "meshes")
-        touched = [{*contact.links} for contact in self.contacts()]
+        for _, touch in self.gears():
+            yield replace(touch, name=_free(touch.name, taken))
         for cam in self.scene.cams:
             both = {cam.link, cam.follower}
-            if both <= self.poses.keys() and both not in touched:  # drawn at the contact, it is one of the contacts
+            if self.poses.keys() >= both and all(both != {*touch.links} for touch in contacts):
                 pose = self.poses[cam.link]
                 here = station(cam, cam.sense * phase(pose.axis))
                 at, normal = pose.origin + pose.axis * here.contact * self.mm, pose.axis * here.normal
                 yield Touch(_free("K", taken), (cam.link, cam.follower), at, normal, "slides")
 
-    def rolling(self) -> Iterator[tuple[str, str, complex, str]]:
-        """Links that roll on each other, where they touch, and the name of the contact or the gear."""
-        for contact in self.contacts():
-            if contact.rolling:
-                yield *contact.links, self.contact(contact)[0], contact.name
-        for gear in self.gears():
-            yield *gear.wheels, self.pitch_point(gear), gear.name
+    def rolling(self) -> Iterator[Touch]:
+        """Where links roll on each other, by the name of the contact or the gear."""
+        yield from (touch for contact, touch in self.contacts() if contact.rolling)
+        yield from (touch for _, touch in self.gears())
 
-    def rolling_centres(self, name: str) -> tuple[complex, complex, Mapping[str, complex]]:
-        """Where a contact rolls or wheels mesh, the direction of their normal, and the centres of what is round there,
-        by the links."""
-        contact = next((c for c in self.contacts() if c.name == name), None)
-        if contact is not None:
-            spots = dict(zip((d.link for d in contact.round), self.centres(contact), strict=True))
-            return *self.contact(contact), spots
-        gear = next(g for g in self.gears() if g.name == name)
-        held = self.scene.by_name[gear.carrier].points
-        axes = {w: self.place(gear.carrier, held[p]) for w, p in zip(gear.wheels, gear.axes, strict=True) if p}
-        return self.pitch_point(gear), self.normal(gear), axes
+    def named(self, name: str) -> Touch:
+        """Where a contact is made, or wheels mesh."""
+        pairs: tuple[PlacedContact | PlacedGear, ...] = (*self.scene.contacts, *self.scene.gears)
+        return next(self.of(pair) for pair in pairs if pair.name == name)
 
     def pitch_circles(self) -> Iterator[tuple[str, complex, float]]:
         """Wheels with the centre and the radius (mm, negative for internal teeth) of each pitch circle."""
-        for gear in self.gears():
-            held, at = self.scene.by_name[gear.carrier].points, self.pitch_point(gear)
-            for wheel, axis, teeth in zip(gear.wheels, gear.axes, gear.teeth, strict=True):
+        for gear, touch in self.gears():
+            for wheel, teeth in zip(gear.wheels, gear.teeth, strict=True):
                 if teeth is not None:
-                    centre = self.place(gear.carrier, held[axis])
-                    yield wheel, centre, math.copysign(abs(at - centre), teeth)
+                    _, centre = touch.centres[wheel]
+                    yield wheel, centre, math.copysign(abs(touch.at - centre), teeth)
 
     def pitch_lines(self) -> Iterator[tuple[str, complex, complex]]:
         """Racks with the pitch point, and the direction from the wheel to the rack's body."""
-        for gear in self.gears():
+        for gear, touch in self.gears():
             if gear.is_rack:
-                at = self.pitch_point(gear)
-                axis = self.place(gear.carrier, self.scene.by_name[gear.carrier].points[gear.axes[0]])
-                yield gear.wheels[1], at, (at - axis) / abs(at - axis)
+                yield gear.wheels[1], touch.at, unit(touch.at - touch.centres[gear.wheels[0]][1])
 
     def outermost(self, of: Collection[str] | None = None) -> list[complex]:
         """The four outermost places of each round outline and each pitch circle, ``of`` some links or of all."""
@@ -162,7 +148,7 @@ class Touching:
         found = [(c, abs(radius)) for wheel, c, radius in self.pitch_circles() if wheel in names]
         for link in (self.scene.frame, *self.scene.links):
             if link.name in names:
-                found += [(self.place(link.name, link.points[d.centre]), abs(d.radius) * self.mm) for d in link.discs]
+                found += [(self.place(link.name, d.centre), abs(d.radius) * self.mm) for d in link.discs]
         return [centre + radius * way for centre, radius in found for way in (1, 1j, -1, -1j)]
 
 

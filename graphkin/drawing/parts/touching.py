@@ -46,7 +46,7 @@ def outlines_of(here: MechanismOnPaper, link: str, replaced: bool = False) -> li
     for disc in here.scene.by_name[link].discs:
         if replaced and disc not in rolling:
             continue
-        centre = links.place(link, here.scene.by_name[link].points[disc.centre])
+        centre = links.place(link, disc.centre)
         radius = abs(disc.radius) * links.mm
         parts += _outline(on_page(centre), radius, strokes.LINK.coloured(colour))
         if link == here.ground or disc.radius < 0:
@@ -99,19 +99,18 @@ def _hatched(start: complex, end: complex, body: complex) -> tuple[Primitive, ..
 
 def faces_of_frame(here: MechanismOnPaper) -> list[Primitive]:
     """Flat faces that the frame carries."""
-    links, parts = _on_paper(here), list[Primitive]()
-    for contact in links.contacts():
+    parts = list[Primitive]()
+    for contact, touch in _on_paper(here).contacts():
         if contact.flat and contact.face == here.ground:
-            at, normal = links.contact(contact)
-            along = 1j * normal * FACE
-            parts += _hatched(at - along, at + along, -normal)
+            along = 1j * touch.normal * FACE
+            parts += _hatched(touch.at - along, touch.at + along, -touch.normal)
     return parts
 
 
 def contact_marks(here: MechanismOnPaper) -> Piece:
     """At every contact the common normal n-n and the common tangent t-t."""
-    links = _on_paper(here)
-    return dated(_marks((contact.name, *links.contact(contact)) for contact in links.contacts()), here.stands)
+    places = ((touch.name, touch.at, touch.normal) for _, touch in _on_paper(here).contacts())
+    return dated(_marks(places), here.stands)
 
 
 def marks_cut_free(here: MechanismOnPaper, cut: frozenset[str], tag: str) -> Piece:
@@ -143,14 +142,13 @@ def replacing_links(here: MechanismOnPaper, clear: float = 0.0) -> tuple[Primiti
     among them with the cam's own to its axis, the block at the one of a disc whose guide runs along the face; bars end
     ``clear`` mm before the middles of their pins."""
     links, drawn = _on_paper(here), list[Primitive]()
-    for contact in links.contacts():
+    for contact, touch in links.contacts():
         if contact.rolling:
             continue
         colour = here.colour(contact.block)
-        spots = links.centres(contact)
+        spots = [touch.centres[disc.link][1] for disc in contact.round]
         if contact.flat:
-            _, normal = links.contact(contact)
-            along = 1j * normal
+            along = 1j * touch.normal
             drawn += symbols.block(on_page(spots[0]), phase(along), colour)
             reach = FACE * along
             drawn.append(Line(on_page(spots[0] - reach), on_page(spots[0] + reach), strokes.DIRECTION))
