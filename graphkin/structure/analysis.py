@@ -19,8 +19,9 @@ from typing import Literal, TypeVar
 
 from graphkin.errors import CallError, NoDriver, Problem, Unsolvable, did_you_mean
 from graphkin.scene.cams import SlidingFollower
-from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
+from graphkin.scene.model import Driver, Mechanism, PlacedLink
 from graphkin.structure.model import (
+    OWN_AXIS,
     Body,
     Driven,
     DrivenJoint,
@@ -34,6 +35,7 @@ from graphkin.structure.model import (
     RollingRelation,
     Structure,
     driver_pair,
+    reached,
 )
 from graphkin.structure.replacement import replacing_link
 from graphkin.structure.rolling import followers_of, meshes_of, relations_of, rolled_by, start_drivers, unrolled
@@ -95,7 +97,7 @@ def _placed(scene: Mechanism) -> Structure:
     ]  # fmt: skip
     for pin in scene.pins:
         if pin.of in links and pin.on in links:
-            links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), {"": PlacedGuide("", 0j, 1 + 0j)})
+            links[pin.key] = PlacedLink(pin.key, {pin.point: 0j}, (pin.point,), OWN_AXIS)
             slides.append(Pair(pin.key, pin.key, pin.on, links[pin.on].guides[pin.guide], 1 + 0j, pin.point, True))
     contacts = [c for c in scene.contacts if {*c.links, c.carrier} - {""} <= links.keys()]
     gears = [g for g in scene.gears if {*g.wheels, g.carrier} <= links.keys()]
@@ -237,17 +239,6 @@ def components(needs: Mapping[N, Sequence[N]]) -> list[tuple[N, ...]]:
         for node in together:
             finished.pop(node, None)
     return found[::-1]
-
-
-def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, None]:
-    """What can be reached from some nodes, these included, in the order in which it is met."""
-    found = dict.fromkeys(start)
-    queue = list(found)
-    while queue:
-        fresh = [node for node in dict.fromkeys(onward(queue.pop())) if node not in found]
-        found.update(dict.fromkeys(fresh))
-        queue += fresh
-    return found
 
 
 def _in_order(

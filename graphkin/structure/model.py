@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, S
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeVar
 
 from graphkin.errors import CallError, Problem, did_you_mean
 from graphkin.plane import added_up
@@ -20,33 +20,16 @@ from graphkin.scene.symbol import Symbol, centre_links
 from graphkin.words import Phrase
 
 __all__ = [
-    "Body",
-    "Driven",
-    "DrivenJoint",
-    "DrivenTriangle",
-    "Dyad",
-    "DyadKind",
-    "Element",
-    "LargerGroup",
-    "Mobility",
-    "Pair",
-    "Rolled",
-    "RollingRelation",
-    "Structure",
-    "by_drivers_alone",
-    "driver_pair",
-    "greatest_before",
-
-    "links_for",
-    "named_with_contact",
-    "needed",
-    "part_of",
-    "without",
-]
+    "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup", "Mobility", "Pair",
+    "Rolled", "RollingRelation", "Structure", "by_drivers_alone", "driver_pair", "greatest_before", "links_for",
+    "named_with_contact", "needed", "part_of", "reached", "without",
+]  # fmt: skip
 
 
 NO_GUIDE = PlacedGuide("", 0j, 0j)
 """Where a pair has no direction in which it slides: it turns."""
+OWN_AXIS = {"": PlacedGuide("", 0j, 1 + 0j)}
+"""The one guide of a link that has no other: its own x axis."""
 
 
 @dataclass(frozen=True)
@@ -381,24 +364,15 @@ class Structure:
         }}  # fmt: skip
 
     @cached_property
-    def hangs_on(self) -> tuple[frozenset[str], ...]:
-        """The links that each element hangs on; what stands for a contact is there only with both links of it."""
-        found = [element.outside for element in self.elements]
+    def led_by(self) -> tuple[frozenset[int], ...]:
+        """For each element the places of all that it hangs on, by one or more others, and its own; what stands for a
+        contact is there only with both links of it, and what rolls may follow through links that come later."""
+        outside = [element.outside for element in self.elements]
         for contact in self.scene.contacts:
             if (place := self.place_of.get(contact.block)) is not None:
-                found[place] |= {*contact.links}
-        return tuple(map(frozenset, found))
-
-    @cached_property
-    def found_by_groups(self) -> frozenset[str]:
-        """The links that are not moved by drivers and cams alone: those of groups, and what hangs on them."""
-        found = {name for element in self.groups for name in element.members}
-        before = -1
-        while len(found) > before:  # what rolls may follow through links that come later
-            before = len(found)
-            found.update(n for e, on in zip(self.elements, self.hangs_on, strict=True)
-                         if not on.isdisjoint(found) for n in e.members)  # fmt: skip
-        return frozenset(found)
+                outside[place] |= {*contact.links}
+        before = [[self.place_of[n] for n in names if n in self.place_of] for names in outside]
+        return tuple(frozenset(reached([place], before.__getitem__)) for place in range(len(before)))
 
     @property
     def whole(self) -> Structure | Mechanism:
@@ -417,6 +391,20 @@ def named_with_contact(structure: Structure, dyad: Dyad) -> Phrase:
     if contact is not None:
         return Phrase("contact of links", contact=contact.name, links=', '.join(contact.links))
     return Phrase("links", links=", ".join(dyad.links))
+
+
+N = TypeVar("N", bound=Hashable)
+
+
+def reached(start: Iterable[N], onward: Callable[[N], Iterable[N]]) -> dict[N, None]:
+    """What can be reached from some nodes, these included."""
+    found = dict.fromkeys(start)
+    queue = list(found)
+    while queue:
+        fresh = [node for node in dict.fromkeys(onward(queue.pop())) if node not in found]
+        found.update(dict.fromkeys(fresh))
+        queue += fresh
+    return found
 
 
 def driver_pair(driver: Driver, links: Mapping[str, PlacedLink], slides: tuple[Pair, ...]) -> Pair | None:
@@ -439,27 +427,26 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     """
     if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
         return list(structure.elements)
-    wanted = [name for symbol in asked for name in links_for(structure, symbol)]
-    kept: set[int] = set()
-    while wanted:
-        place = structure.place_of.get(wanted.pop())
-        if place is not None and place not in kept:
-            kept.add(place)
-            wanted += structure.hangs_on[place]
+    kept = {place for symbol in asked for place in _leading(structure, links_for(structure, symbol))}
     return [structure.elements[place] for place in sorted(kept)]
+
+
+def _leading(structure: Structure, links: Iterable[str]) -> set[int]:
+    """The places of the elements on the way to some links."""
+    places = (structure.place_of.get(name) for name in links)
+    return {before for place in places if place is not None for before in structure.led_by[place]}
 
 
 def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     """Whether a quantity of the motion hangs on no group, but on links that drivers and cams move from the frame: it is
     known where a group is lost in rounding."""
-    if symbol.seen or not all(
-        name in structure.links for name in symbol.links()
-    ):  # of redundant links nothing is asked
+    if symbol.seen or not structure.links.keys() >= set(symbol.links()):  # of redundant links nothing is asked
         return False
     try:
-        return links_for(structure, symbol).isdisjoint(structure.found_by_groups)
+        places = _leading(structure, links_for(structure, symbol))
     except CallError:  # a special point of the drawing
         return False
+    return all(isinstance(structure.elements[place], Driven) for place in places)
 
 
 def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
@@ -469,35 +456,29 @@ def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]])
     rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
     link that is held still, all sizes count; theirs count from the first larger group on.
     """
+    elements = structure.elements
+    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
 
-    def places(symbol: Symbol) -> list[int] | None:
+    def links(symbol: Symbol) -> frozenset[str] | None:
         try:
-            found = None if symbol.seen else links_for(structure, symbol)
+            return None if symbol.seen else links_for(structure, symbol)
         except CallError:
             return None
-        return None if found is None else [place for n in found if (place := structure.place_of.get(n)) is not None]
 
-    count = len(structure.elements)
-    special = next((i for i, e in enumerate(structure.elements) if isinstance(e, LargerGroup)), count - 1)
-    before = [0.0] * count
+    greatest: dict[int, float] = {}  # of what each element adds
     for symbol, size in sizes:
-        at = places(symbol)
-        if count and at != []:
-            last = special if at is None else max(at)
-            before[last] = max(before[last], size)
-    whole, grows = max(before, default=0.0), True
-    while grows:  # what rolls may follow through links that come later
-        grows = False
-        for i, links in enumerate(structure.hangs_on):
-            most = max((before[structure.place_of[n]] for n in links if n in structure.place_of), default=0.0)
-            if most > before[i]:
-                before[i], grows = most, True
+        names = links(symbol)
+        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
+        place = special if names is None else max(of_frame, default=-1)
+        greatest[place] = max(greatest.get(place, 0.0), size)
+    greatest.pop(-1, None)
 
-    def greatest(symbol: Symbol) -> float:
-        at = places(symbol)
-        return whole if at is None else max((before[place] for place in at), default=0.0)
+    def before(symbol: Symbol) -> float:
+        names = links(symbol)
+        places = greatest.keys() if names is None else greatest.keys() & _leading(structure, names)
+        return max((greatest[place] for place in places), default=0.0)
 
-    return greatest
+    return before
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:

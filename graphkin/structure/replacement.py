@@ -15,15 +15,15 @@ Source: Artobolevsky, Theory of Machines and Mechanisms, on substitute linkages.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, unit
 from graphkin.scene.bodies import CircularSlot, PinInSlot
-from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism, PlacedContact, PlacedDisc, PlacedGuide, PlacedLink
-from graphkin.structure.model import Pair, Structure
+from graphkin.structure.model import OWN_AXIS, Mobility, Pair, Structure
 from graphkin.words import Phrase
 
 __all__ = ["cams_replaced", "pins_on_circles", "replacement_told", "replacing_link"]
@@ -32,25 +32,23 @@ __all__ = ["cams_replaced", "pins_on_circles", "replacement_told", "replacing_li
 def replacing_link(contact: PlacedContact, links: Mapping[str, PlacedLink]) -> tuple[PlacedLink, Pair | None]:
     """The link that stands for a contact, and for a flat face the sliding pair.  The point of contact is a point of it.
     Where another link holds both centres of a rolling pair, it is that link with the point of contact."""
-    own = {"": PlacedGuide("", 0j, 1 + 0j)}
+    one = contact.round[0]
+    if contact.flat:
+        face = links[contact.face].guides[contact.guide]
+        along = replace(face, through=face.through + contact.normal_to_face * face.direction * one.radius)
+        places = {one.centre: 0j, contact.name: -contact.normal_to_face * one.radius}
+        block = PlacedLink(contact.block, places, (one.centre,), OWN_AXIS)
+        return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, one.centre, True)
+    two = contact.round[1]
+    part = one.radius / (one.radius + two.radius)
     if contact.carrier:
-        one, two = contact.round
         held = links[contact.carrier]
         a, b = held.points[one.centre], held.points[two.centre]
-        at = a + (b - a) * (one.radius / (one.radius + two.radius))
-        return replace(held, points={**held.points, contact.name: at}), None
-    if not contact.flat:
-        one, two = contact.round
-        far = abs(one.radius + two.radius)
-        at = far * one.radius / (one.radius + two.radius)
-        places = {one.centre: 0j, two.centre: complex(far), contact.name: complex(at)}
-        return PlacedLink(contact.block, places, (one.centre, two.centre), own), None
-    (disc,) = contact.round
-    face = links[contact.face].guides[contact.guide]
-    along = replace(face, through=face.through + contact.normal_to_face * face.direction * disc.radius)
-    places = {disc.centre: 0j, contact.name: -contact.normal_to_face * disc.radius}
-    block = PlacedLink(contact.block, places, (disc.centre,), own)
-    return block, Pair(contact.block, contact.block, contact.face, along, 1 + 0j, disc.centre, True)
+        return replace(held, points={**held.points, contact.name: a + (b - a) * part}), None
+    far = abs(one.radius + two.radius)
+    at = far * one.radius / (one.radius + two.radius)
+    places = {one.centre: 0j, two.centre: complex(far), contact.name: complex(at)}
+    return PlacedLink(contact.block, places, (one.centre, two.centre), OWN_AXIS), None
 
 
 def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex]]) -> Mechanism:
@@ -79,8 +77,8 @@ def pins_on_circles(scene: Mechanism, poses: Mapping[str, tuple[complex, complex
 
 def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
     """The higher pairs in words, what replaces each, and the mobility counted after the replacement."""
-    scene, said = structure.scene, list[Phrase]()
-    links = lower = 0
+    scene, m, said = structure.scene, structure.mobility, list[Phrase]()
+    sliding = [c for c in scene.contacts if not c.rolling]
     for contact in scene.contacts:
         names = (contact.name, *contact.links)
         if contact.rolling:
@@ -89,15 +87,11 @@ def replacement_told(structure: Structure) -> tuple[Phrase, ...]:
             said.append(Phrase("structure flat contact", (*names, contact.round[0].centre)))
         else:
             said.append(Phrase("structure contact", (*names, contact.block)))
-        if not contact.rolling:
-            links, lower = links + 1, lower + 2
     said += [Phrase("structure gear", (*g.wheels, g.name)) for g in scene.gears]
-    replaced = len(scene.whole.pins) + len(scene.cams)
-    links, lower = links + replaced, lower + 2 * replaced
-    if scene.cams or any(not c.rolling for c in scene.contacts):
-        m = structure.mobility
-        after = m.links + links, m.lower + lower, m.higher - links
-        said.append(Phrase("structure replaced", (*after, 3 * after[0] - 2 * after[1] - after[2])))
+    if scene.cams or sliding:
+        more = len(sliding) + len(scene.whole.pins) + len(scene.cams)  # links, each with two lower pairs
+        after = Mobility(m.links + more, m.lower + 2 * more, m.higher - more)
+        said.append(Phrase("structure replaced", (after.links, after.lower, after.higher, after.value)))
     return tuple(said)
 
 
@@ -132,7 +126,7 @@ def cams_replaced(
     slots: list[CircularSlot] = []
     contacts: list[PlacedContact] = []
     places = dict(seen)
-    names = _free_names(scene)
+    names, letters = _free_names(scene, "O", "Q"), _free_names(scene, "K")  # of centres of curvature, and of contacts
     for cam in scene.cams:
         start, turn = cam.beginning, cmath.rect(1.0, turns[cam.link])
         if start is None:
@@ -147,13 +141,14 @@ def cams_replaced(
             point, radius = next(names), start + lift.lift + lift.bend
             links[cam.link] = replace(link, points={**link.points, point: centre / turn})
             touches = not bars and abs(radius) >= SHARP * cam.base
-            off = 0.0 if touches else radius
-            face = _guide(follower, "f", -off / _turned_to(scene, cam), 1j / _turned_to(scene, cam), 0.0)
+            # the turn from the guide of a sliding follower to its own axis
+            turned = next(s.turn for s in scene.slidings if s.link == cam.follower and s.on == scene.frame.name)
+            face = _guide(follower, "f", -(0.0 if touches else radius) / turned, 1j / turned, 0.0)
             links[cam.follower] = replace(follower, guides={**follower.guides, face.name: face})
             if touches:
                 disc = PlacedDisc(cam.link, point, point, radius)
-                pair, name = (disc, None), _free_name(scene, contacts)
-                contacts.append(PlacedContact(name, cam.link, cam.follower, pair, face.name, True, False))
+                name = next(letters)
+                contacts.append(PlacedContact(name, cam.link, cam.follower, (disc, None), face.name, True, False))
             else:
                 pins.append(PinInSlot(point, cam.link, cam.follower, face.name))
             continue
@@ -173,7 +168,7 @@ def cams_replaced(
                 middle = 0j
             links[cam.link] = replace(link, points={**link.points, centre: middle / turn})
             bar = PlacedLink(f"{centre}{point}", {centre: 0j, point: complex(1.0 / abs(bends))}, (centre, point),
-                             {"": PlacedGuide("", 0j, 1 + 0j)})  # fmt: skip
+                             OWN_AXIS)  # fmt: skip
             made[bar.name] = bar
             slots.append(CircularSlot(bar.name, cam.link, centre, 1.0 / abs(bends), bar.name, point))
             continue
@@ -189,25 +184,13 @@ def cams_replaced(
     )  # fmt: skip
 
 
-def _turned_to(scene: Mechanism, cam: LawCam) -> complex:
-    """The turn from the guide of a sliding follower to its own axis."""
-    return next(s.turn for s in scene.slidings if s.link == cam.follower and s.on == scene.frame.name)
-
-
 def _guide(link: PlacedLink, name: str, through: complex, direction: complex, bends: float) -> PlacedGuide:
     while name in link.guides:
         name += "1"
     return PlacedGuide(name, through, direction, bends)
 
 
-def _free_name(scene: Mechanism, contacts: Sequence[PlacedContact]) -> str:
-    """A letter for a contact that no point and no contact has."""
-    taken = {*scene.holders, *(c.name for c in (*scene.contacts, *contacts))}
-    return next(name for name in ("K", *(f"K{k}" for k in range(1, 1000))) if name not in taken)
-
-
-def _free_names(scene: Mechanism) -> Iterator[str]:
-    """Letters for centres of curvature that no point has."""
-    taken = set(scene.holders)
-    letters = ["O", "Q", *(f"O{k}" for k in range(1, 1000))]
-    return (name for name in letters if name not in taken)
+def _free_names(scene: Mechanism, *first: str) -> Iterator[str]:
+    """Letters that no point and no contact has: these, then the first of them with numbers."""
+    taken = {*scene.holders, *(contact.name for contact in scene.contacts)}
+    return (name for name in (*first, *(f"{first[0]}{k}" for k in range(1, 1000))) if name not in taken)

@@ -87,63 +87,52 @@ def relations_of(scene: Mechanism, meshes: Iterable[Mesh]) -> tuple[RollingRelat
         one, two = mesh.parts
         # a block turns as its face does
         carrier = ("angle", mesh.carrier if mesh.carrier in scene.by_name else mesh.wheels[1])
-        wheel = ("angle", mesh.wheels[0])
+        wheel, other = ("angle", mesh.wheels[0]), ("angle", mesh.wheels[1])
+        rolled: tuple[tuple[Coordinate, Fraction], ...] = ((wheel, one), (other, two or Fraction(0)))
         if two is None:
-            terms: tuple[tuple[Coordinate, Fraction], ...] = (
-                (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, one), (carrier, -one)
-            )  # fmt: skip
-        else:
-            terms = (wheel, one), (("angle", mesh.wheels[1]), two), (("angle", mesh.carrier), -one - two)
-        found.append(_relation(scene, mesh.name, mesh.links, terms))
+            rolled = (("travel", mesh.slide), Fraction(mesh.sense)), (wheel, one)
+        terms: dict[Coordinate, Fraction] = {}
+        for coordinate, factor in (*rolled, (carrier, -one - (two or 0))):
+            terms[coordinate] = terms.get(coordinate, Fraction(0)) + factor
+        terms = {c: f for c, f in terms.items() if f and c != ("angle", scene.frame.name)}
+        found.append(RollingRelation(mesh.name, terms, mesh.links))
     return tuple(found)
-
-
-def _relation(
-    scene: Mechanism, name: str, links: Sequence[str], terms: Sequence[tuple[Coordinate, Fraction]]
-) -> RollingRelation:
-    summed: dict[Coordinate, Fraction] = {}
-    for coordinate, factor in terms:
-        if coordinate != ("angle", scene.frame.name):
-            summed[coordinate] = summed.get(coordinate, Fraction(0)) + factor
-    return RollingRelation(name, {c: f for c, f in summed.items() if f}, tuple(dict.fromkeys(links)))
 
 
 Unknown = Coordinate | int
 """The rate of a coordinate, or that of a driver by its number."""
+Row = dict[Unknown, Fraction]
+Rows = dict[Unknown, Row]
+"""Linear equations in reduced echelon form, by the coordinates that lead them: coordinates by the rates of drivers."""
 
 
-class _Rows:
-    """Linear equations in reduced echelon form: coordinates by the rates of the drivers."""
+def _add(rows: Rows, terms: Mapping[Coordinate, Fraction] | Mapping[Unknown, Fraction]) -> bool:
+    """Take one more equation, a sum that is 0; False where it says nothing new.  Numbers stand for drivers."""
+    rest = dict[Unknown, Fraction](terms.items())
+    for key in rows.keys() & rest.keys():
+        rest = _less(rest, rest[key], rows[key])
+    lead = next((k for k in rest if not isinstance(k, int)), None)
+    if lead is None:
+        return False
+    row = {k: f / rest[lead] for k, f in rest.items()}
+    for other, own in rows.items():
+        rows[other] = _less(own, own.get(lead, Fraction(0)), row)
+    rows[lead] = row
+    return True
 
-    def __init__(self) -> None:
-        self.rows: dict[Unknown, dict[Unknown, Fraction]] = {}
 
-    def add(self, terms: Mapping[Coordinate, Fraction] | Mapping[Unknown, Fraction]) -> bool:
-        """Take one more equation, a sum that is 0; False where it says nothing new.  Numbers stand for drivers."""
-        rest = dict[Unknown, Fraction](terms.items())
-        for key in [k for k in rest if k in self.rows]:
-            factor = rest[key]
-            for k, f in self.rows[key].items():
-                rest[k] = rest.get(k, Fraction(0)) - factor * f
-        rest = {k: f for k, f in rest.items() if f}
-        lead = next((k for k in rest if not isinstance(k, int)), None)
-        if lead is None:
-            return False
-        row = {k: f / rest[lead] for k, f in rest.items()}
-        for other, own in self.rows.items():
-            if lead in own:
-                factor = own[lead]
-                mixed = {k: own.get(k, Fraction(0)) - factor * row.get(k, Fraction(0)) for k in {**own, **row}}
-                self.rows[other] = {k: f for k, f in mixed.items() if f}
-        self.rows[lead] = row
-        return True
+def _less(row: Row, factor: Fraction, other: Row) -> Row:
+    """A row less a multiple of another."""
+    mixed = {k: row.get(k, Fraction(0)) - factor * other.get(k, Fraction(0)) for k in {**row, **other}}
+    return {k: f for k, f in mixed.items() if f}
 
-    def ratios(self, coordinate: Coordinate, drivers: int) -> tuple[Fraction, ...] | None:
-        """A coordinate's rate by those of the drivers; None where they do not determine it."""
-        row = self.rows.get(coordinate)
-        if row is None or any(k != coordinate and not isinstance(k, int) for k in row):
-            return None
-        return tuple(-row.get(k, Fraction(0)) for k in range(drivers))
+
+def _ratios(rows: Rows, coordinate: Coordinate, drivers: int) -> tuple[Fraction, ...] | None:
+    """A coordinate's rate by those of the drivers; None where they do not determine it."""
+    row = rows.get(coordinate)
+    if row is None or any(k != coordinate and not isinstance(k, int) for k in row):
+        return None
+    return tuple(-row.get(k, Fraction(0)) for k in range(drivers))
 
 
 def followers_of(
@@ -151,57 +140,42 @@ def followers_of(
 ) -> tuple[tuple[Driver, ...], tuple[RollingRelation, ...]]:
     """What rolling makes follow the drivers in constant ratios, as drivers of their own; and the relations that are
     left, between coordinates that also depend on lengths."""
-    if not relations:
-        return (), ()
     frame, count = scene.frame.name, len(scene.drivers)
-    base, whole = _Rows(), _Rows()
-    for system in (base, whole):
-        for s in slides:
-            system.add(_angles(frame, s.a, s.b))
-        for k, driver in enumerate(scene.drivers):
-            travel: dict[Unknown, Fraction] = {("travel", driver.key): Fraction(1)}
-            given = _angles(frame, *driver.links) if driver.turns else travel
-            system.add({**given, k: Fraction(-1)})
+
+    def turned(one: str, two: str) -> Row:
+        return {("angle", name): Fraction(sign) for name, sign in ((one, 1), (two, -1)) if name != frame}
+
+    base: Rows = {}
+    for s in slides:
+        _add(base, turned(s.a, s.b))
+    for k, driver in enumerate(scene.drivers):
+        along: Row = {("travel", driver.key): Fraction(1)}
+        _add(base, {**(turned(*driver.links) if driver.turns else along), k: Fraction(-1)})
+    whole = dict(base)
     # what the drivers and others before it settle holds the links a second time: it stays, and the count finds it
-    twice = [relation for relation in relations if not whole.add(relation.terms)]
-    candidates: list[Coordinate] = [("angle", name) for name in links if name != frame]
-    candidates += [("travel", s.key) for s in slides]
-    followers: list[Driver] = []
-    settled = [r for r in relations if r not in twice and all(whole.ratios(c, count) is not None for c in r.terms)]
+    twice = [relation for relation in relations if not _add(whole, relation.terms)]
+    settled = [r for r in relations if r not in twice and all(_ratios(whole, c, count) is not None for c in r.terms)]
     through = tuple(dict.fromkeys(chain.from_iterable(r.links for r in settled)))
-    for coordinate in candidates:
-        ratios = whole.ratios(coordinate, count)
-        if ratios is None or base.ratios(coordinate, count) is not None:
+    followers: list[Driver] = []
+    for coordinate in [*(("angle", name) for name in links if name != frame), *(("travel", s.key) for s in slides)]:
+        ratios = _ratios(whole, coordinate, count)
+        if ratios is None or _ratios(base, coordinate, count) is not None:
             continue
-        followers.append(_follower(scene, coordinate, tuple(map(float, ratios)), through, links, slides))
-        follows: dict[Unknown, Fraction] = {k: -f for k, f in enumerate(ratios)}
-        base.add({coordinate: Fraction(1), **follows})
-    left = tuple(r for r in relations if r in twice or (r not in settled and base.add(r.terms)))
+        rate, second = (added_up(float(r) * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True))
+                        for k in (1, 2))  # fmt: skip
+        kind, name = coordinate
+        start = scene.starts.get(name)
+        follower = Driver(name, frame, start or 0.0, rate, second, ratios=tuple(map(float, ratios)), through=through)
+        if kind == "travel":
+            slide = next(s for s in slides if s.key == name)
+            follower = replace(follower, link=slide.a, relative_to=slide.b, slide=name)
+        elif start is None:
+            follower = replace(follower, value=drawn_angle(scene, links[name]) or 0.0)
+        followers.append(follower)
+        follows: Row = {k: -f for k, f in enumerate(ratios)}
+        _add(base, {coordinate: Fraction(1), **follows})
+    left = tuple(r for r in relations if r in twice or (r not in settled and _add(base, r.terms)))
     return tuple(followers), left
-
-
-def _angles(frame: str, one: str, two: str) -> dict[Unknown, Fraction]:
-    found: dict[Unknown, Fraction] = {}
-    for name, sign in ((one, 1), (two, -1)):
-        if name != frame:
-            found["angle", name] = Fraction(sign)
-    return found
-
-
-def _follower(
-    scene: Mechanism, coordinate: Coordinate, ratios: tuple[float, ...], through: tuple[str, ...],
-    links: Mapping[str, PlacedLink], slides: Sequence[Pair],
-) -> Driver:
-    kind, name = coordinate
-    rate, second = (added_up(r * d.values[k] for r, d in zip(ratios, scene.drivers, strict=True)) for k in (1, 2))
-    if kind == "travel":
-        slide = next(s for s in slides if s.key == name)
-        place = scene.starts.get(name, 0.0)
-        return Driver(slide.a, slide.b, place, rate, second, name, ratios=ratios, through=through)
-    start = scene.starts.get(name)
-    if start is None:
-        start = drawn_angle(scene, links[name]) or 0.0
-    return Driver(name, scene.frame.name, start, rate, second, ratios=ratios, through=through)
 
 
 def drawn_angle(scene: Mechanism, link: PlacedLink) -> float | None:
@@ -257,12 +231,12 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
     others = [("angle", n) for n in group.links if ("angle", n) not in relation.terms and n in scene.starts]
     for coordinate in (*reversed(list(relation.terms)), *others):
         kind, name = coordinate
+        start = scene.starts.get(name)
         if kind == "travel":
             slide = structure.slide(name)
-            if name in scene.starts and inside & {slide.a, slide.b}:
-                found.append((1, Driver(slide.a, slide.b, scene.starts[name], 0.0, 0.0, name)))
+            if start is not None and inside.intersection(slide.links):
+                found.append((1, Driver(slide.a, slide.b, start, 0.0, 0.0, name)))
         elif name in inside and name in scene.by_name:
-            start = scene.starts.get(name)
             drawn = None if start is not None else drawn_angle(scene, structure.links[name])
             rank = (0 if coordinate in relation.terms else 1) if start is not None else 2 if drawn is not None else 3
             found.append((rank, _turned(structure, name, start if start is not None else drawn or 0.0)))
@@ -271,24 +245,16 @@ def _of(structure: Structure, group: LargerGroup, relation: RollingRelation) -> 
 
 def _turned(structure: Structure, name: str, angle: float) -> Driver:
     """A driver by which a link's own axis stands at an angle (rad): from a link to which it is pinned and that never
-    turns, where there is one."""
-    still = _still(structure)
-    pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
+    turns, for it slides on the frame, or on such a link, where there is one."""
     frame = structure.scene.frame.name
-    base = frame if frame in pinned or not pinned else pinned[0]
-    return Driver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)
-
-
-def _still(structure: Structure) -> Mapping[str, complex]:
-    """The own axes of links that slide on the frame, or on such links, and so never turn."""
-    found = {structure.scene.frame.name: 1 + 0j}
-    grown = True
+    still, grown = {frame: 1 + 0j}, True  # own axes
     while grown:
         grown = False
         for s in structure.slides:
             turn = s.guide.direction * s.turn
-            if s.b in found and s.a not in found:
-                found[s.a], grown = found[s.b] * turn, True
-            elif s.a in found and s.b not in found:
-                found[s.b], grown = found[s.a] / turn, True
-    return found
+            if (s.a in still) != (s.b in still):
+                grown = True
+                still |= {s.a: still[s.b] * turn} if s.b in still else {s.b: still[s.a] / turn}
+    pinned = [n for names in structure.hinges.values() if name in names for n in names if n in still]
+    base = frame if frame in pinned or not pinned else pinned[0]
+    return Driver(name, base, cmath.phase(cmath.rect(1.0, angle) / still[base]), 0.0, 0.0)

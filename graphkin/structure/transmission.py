@@ -113,47 +113,43 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
     for dyad in structure.dyads.values():
         if name in dyad.members:
             return joint_of_dyad(structure, dyad)
-    frame, link = structure.scene.frame, structure.links.get(name)
     members = {n for group in structure.larger_groups if name in group.links for n in group.links}
     # in a larger group: by a bar of two joints, which passes a force on along itself
-    for other in (n for n in structure.scene.links if n.name in members and link is not None):
-        ends = [p for p in other.points if len(structure.scene.holders[p]) > 1]
-        if other.name == name or len(ends) != 2 or other.points[ends[0]] == other.points[ends[1]]:
+    for bar in (link for link in structure.scene.links if link.name in members - {name}):
+        ends = [p for p in bar.points if len(structure.scene.holders[p]) > 1]
+        if len(ends) != 2 or bar.points[ends[0]] == bar.points[ends[1]]:
             continue
         for point, far in (ends, ends[::-1]):
-            assert link is not None
-            if point not in link.points or far in link.points or frame.name in structure.scene.holders[far]:
-                continue
-            bar = (other.name, other.points[far]), (other.name, other.points[point])
-            slide = next((s for s in structure.slides if s.a == name and s.b == frame.name), None)
-            if slide:
-                return TransmissionAngle(bar, _guide(slide), True)
-            pivot = next((p for p in link.points if p in frame.points and link.points[p] != link.points[point]), None)
-            if pivot:
-                return TransmissionAngle(bar, ((name, link.points[pivot]), (name, link.points[point])))
+            points = structure.links[name].points
+            if point in points and far not in points and structure.scene.frame.name not in structure.scene.holders[far]:
+                line = (bar.name, bar.points[far]), (bar.name, bar.points[point])
+                joint = _pushed(structure, name, line, (name, points[point]))
+                if joint is not None:
+                    return joint
     raise CallError(
         Problem(str(symbol), Phrase("link is driven through no joint of a", name=name), Phrase("name a follower"))
     )
 
 
 def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> TransmissionAngle | None:
-    """The common normal, and what the velocity of the link's point at the contact is square to: a guide of the frame on
-    which it slides, or the line to its fixed pivot."""
-    block, frame = contact.block, structure.scene.frame
-    if block not in structure.links or name not in structure.links:
+    """A link is pushed along the common normal."""
+    if contact.block not in structure.links or name not in structure.links:
         return None
-    replacing_link = structure.links[block]
-    centre = replacing_link.points[contact.round[0].centre]
-    far = replacing_link.points[contact.name] if contact.flat else replacing_link.points[contact.round[1].centre]
-    normal = (block, centre), (block, far)
+    block, points = contact.block, structure.links[contact.block].points
+    far = contact.name if contact.flat else contact.round[1].centre
+    normal = (block, points[contact.round[0].centre]), (block, points[far])
+    return _pushed(structure, name, normal, (block, points[contact.name]))
+
+
+def _pushed(structure: Structure, name: str, line: Way, at: Spot) -> TransmissionAngle | None:
+    """Between the line along which a link is pushed at a place and what the velocity of the link there is square to: a
+    guide of the frame on which it slides, or the line to its fixed pivot."""
+    frame, points = structure.scene.frame, structure.links[name].points
     slide = next((s for s in structure.slides if s.a == name and s.b == frame.name and not s.slot), None)
     if slide is not None:
-        return TransmissionAngle(normal, _guide(slide), True)
-    link = structure.links[name]
-    pivot = next((p for p in link.points if p in frame.points), None)
-    if pivot is None:
-        return None
-    return TransmissionAngle(normal, ((name, link.points[pivot]), (block, replacing_link.points[contact.name])))
+        return TransmissionAngle(line, _guide(slide), True)
+    pivot = next(((name, z) for p, z in points.items() if p in frame.points and (name, z) != at), None)
+    return None if pivot is None else TransmissionAngle(line, (pivot, at))
 
 
 def sliding_pair(structure: Structure, symbol: Symbol) -> Pair:
