@@ -7,7 +7,7 @@ lines along them cross in the end point.  The angular rates follow from the vect
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Literal
 
 from graphkin.construction.net import (
@@ -17,9 +17,22 @@ from graphkin.construction.net import (
     contacts_of,
     node,
 )
-from graphkin.construction.polygons import RATE, Component, Polygons, letter
+from graphkin.construction.polygons import PARTS, RATE, Component, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
-from graphkin.construction.steps import GIVEN, Aid, Bar, Direction, Mark, Order, Ray, Role, Size, Step, Term, Vector
+from graphkin.construction.steps import (
+    GIVEN,
+    ORDERS,
+    Aid,
+    Bar,
+    Direction,
+    Mark,
+    Order,
+    Ray,
+    Size,
+    Step,
+    Term,
+    Vector,
+)
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
@@ -63,24 +76,17 @@ def same_turn(plot: Polygons, group: Dyad | LargerGroup) -> dict[str, str]:
 def turned(plot: Polygons, order: Order | None, group: Dyad | LargerGroup) -> list[tuple[str, str, float]]:
     """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a); without an order only
     which."""
-    whole = group if plot.part_of is None else plot.part_of
-    pairs = _turned_alike(whole, order or "velocity", plot.given if order else {})
+    whole = plot.part_of or group
+    joints = () if isinstance(whole, LargerGroup) else tuple(joint for body in whole.bodies for joint in body.joints)
+    drivers = whole.drivers if isinstance(whole, LargerGroup) else tuple(joint.driver for joint in joints)
+    pairs = [(p.a, p.b, 0.0) for p in (*whole.pairs, *(joint.pair for joint in joints)) if not p.turns]
+    for d in drivers:
+        if d.turns:
+            pairs.append((d.relative_to, d.link, plot.given[d.key][ORDERS.index(order)] if order else 0.0))
     for held, rest in plot.contours.get(group, ()) if isinstance(group, LargerGroup) else ():
         seen = plot.seen[held].rates[order] if order and held in plot.seen else {}
         pairs += [(held, n, seen[n].value if n in seen else 0.0) for n in rest.members if not order or n in seen]
     return pairs
-
-
-def _turned_alike(
-    group: Dyad | LargerGroup, order: Order, rates: Mapping[str, tuple[float, float]]
-) -> list[tuple[str, str, float]]:
-    """Links a and b of a group that turn alike but for a given rate: (a, b, that of b from a)."""
-    joints = () if isinstance(group, LargerGroup) else tuple(w for body in group.bodies for w in body.joints)
-    drivers = group.drivers if isinstance(group, LargerGroup) else tuple(w.driver for w in joints)
-    which = 0 if order == "velocity" else 1
-    slides = [(p.a, p.b, 0.0) for p in (*group.pairs, *(w.pair for w in joints)) if not p.turns]
-    given = [(d.relative_to, d.link, rates[d.key][which] if rates else 0.0) for d in drivers if d.turns]
-    return [*slides, *given]
 
 
 def known_turns(plot: Polygons, order: Order, group: Dyad | LargerGroup) -> None:
@@ -399,10 +405,6 @@ def symbol_of(plot: Polygons, kind: str, edge: Edge) -> Symbol:
     return plot.symbol(kind, edge.labels[1], edge.labels[0])
 
 
-ROLES: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
-"""Of the parts of a relative acceleration."""
-
-
 def _term(
     plot: Polygons, edge: Edge, kind: str, along: complex, mm: float | None, written: Direction,
     size: Size | None = None,
@@ -417,7 +419,7 @@ def _term(
     written : its direction as it is written
     size : the rule of its size
     """
-    role = ROLES.get(kind) or ("resultant" if plot.fixed(edge.start) else "relative")
+    role = PARTS.get(kind) or ("resultant" if plot.fixed(edge.start) else "relative")
     return Component(symbol_of(plot, kind, edge), role, along, None if mm is None else along * mm, written, size)
 
 

@@ -30,9 +30,11 @@ from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
-__all__ = ["NO_SLIP", "RATE", "Component", "Polygons", "Slip", "draw_asked", "letter"]
+__all__ = ["NO_SLIP", "PARTS", "RATE", "Component", "Polygons", "Slip", "draw_asked", "letter"]
 
 RATE: Mapping[Order, Literal["omega", "alpha"]] = {"velocity": "omega", "acceleration": "alpha"}
+PARTS: Mapping[str, Role] = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
+"""Of a relative acceleration."""
 SHARED = {"chains", "plans", "contours"}  # by all drawings of a task
 
 
@@ -391,109 +393,70 @@ def letter(order: Order) -> str:
 def draw_asked(plot: Polygons, asked: Sequence[Symbol]) -> None:
     """Draw the vectors that are asked for and stand in no equation."""
     for symbol in asked:
-        if symbol.is_vector:
-            _show(plot, symbol)
+        order: Order = "velocity" if symbol.kind == "v" else "acceleration"
+        if not symbol.is_vector or symbol.of is None or symbol in plot.drawn[order]:
+            continue
+        of, to = (node(plot.links, ref.point, ref.link) if ref and ref.link else ref for ref in (symbol.of, symbol.to))
+        assert of is not None
+        if not all(_reachable(plot, ref) for ref in (of, to) if ref):
+            continue
+        tail, tip = plot.end(order, to) if to else 0j, plot.end(order, of)
+        role = PARTS.get(symbol.kind) or ("relative" if to else "resultant")
+        if symbol.kind in ("an", "at"):
+            tail = plot.end(order, to := to or _pivot(plot, of))
+            along = _joining(plot, symbol, of, to)
+            corner = tail + along * dot(tip - tail, along)
+        elif to is not None and role in ("coriolis", "sliding"):
+            slip = plot.end("velocity", of) - plot.end("velocity", to)
+            omega = plot.rates["velocity"][_guide_of(plot, of, to, symbol)].value
+            corner = tail + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
+        if role in ("normal", "coriolis"):
+            tip = corner
+        elif role in ("tangential", "sliding"):
+            tail = corner
+        vector = plot.drawn[order][symbol] = Vector(symbol, tail, tip, role)
+        plot.do(Step("join", "asked", order, (vector,), symbol=symbol))
 
 
-def _show(plot: Polygons, symbol: Symbol) -> None:
-    order: Order = "velocity" if symbol.kind == "v" else "acceleration"
-    if symbol in plot.drawn[order] or symbol.of is None:
-        return
-    of = _asked_node(plot, symbol.of)
-    to = _asked_node(plot, symbol.to) if symbol.to else None
-    if not _reachable(plot, of) or (to and not _reachable(plot, to)):
-        return
-    tail, tip = (plot.end(order, to) if to else 0j), plot.end(order, of)
-    if symbol.kind in ("v", "a"):
-        _draw_asked(plot, order, Vector(symbol, tail, tip, "relative" if to else "resultant"))
-    elif symbol.kind in ("an", "at"):
-        _split(plot, symbol, of, to)
-    else:
-        _coincident(plot, symbol, of, to)
-
-
-def _asked_node(plot: Polygons, ref: PointRef) -> PointRef:
-    return node(plot.links, ref.point, ref.link) if ref.link else ref
+def _holders(plot: Polygons, ref: PointRef) -> list[str]:
+    """The links that have a point, or on which it is meant."""
+    return [ref.link] if ref.link else [name for name, link in plot.links.items() if ref.point in link.points]
 
 
 def _reachable(plot: Polygons, ref: PointRef) -> bool:
-    names = [ref.link] if ref.link else [n for n, k in plot.links.items() if ref.point in k.points]
-    return ref.point in plot.places and any(n in plot.rates["velocity"] for n in names)
+    return ref.point in plot.places and any(n in plot.rates["velocity"] for n in _holders(plot, ref))
 
 
-def _draw_asked(plot: Polygons, order: Order, vector: Vector) -> None:
-    plot.drawn[order][vector.symbol] = vector
-    plot.board.do(Step("join", "asked", order, (vector,), symbol=vector.symbol))
-
-
-def _split(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
-    """Normal and tangential part of a relative acceleration: along the bar and square to it."""
-    if to is None:
-        to = _pivot(plot, of)
-    tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
+def _joining(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef) -> complex:
+    """The direction of the bar between two points, or of the normal where links roll on each other."""
     arm = plot.places[of.point] - plot.places[to.point]
     if any(c.rolling and c.name == of.point == to.point for c in plot.structure.scene.contacts):
-        arm = plot.touch(of.point).normal
-    elif abs(arm) <= plot.tiny:
-        raise CallError(
-            Problem(
-                str(symbol),
-                Phrase("the two points coincide no line joins them"),
-                Phrase("ask for ak and ar of coincident points"),
-            )
-        )
-    along = unit(arm)
-    foot = tail + along * dot(tip - tail, along)
-    if symbol.kind == "an":
-        _draw_asked(plot, "acceleration", Vector(symbol, tail, foot, "normal"))
-    else:
-        _draw_asked(plot, "acceleration", Vector(symbol, foot, tip, "tangential"))
+        return plot.touch(of.point).normal
+    if abs(arm) > plot.tiny:
+        return unit(arm)
+    said = Phrase("the two points coincide no line joins them"), Phrase("ask for ak and ar of coincident points")
+    raise CallError(Problem(str(symbol), *said))
 
 
 def _pivot(plot: Polygons, of: PointRef) -> PointRef:
-    names = [of.link] if of.link else [n for n, k in plot.links.items() if of.point in k.points]
-    ground = plot.links[plot.ground]
-    for name in names:
-        for point in plot.links[name].points:
-            if point in ground.points and point != of.point:
-                return PointRef(point)
-    raise CallError(
-        Problem(
-            f"{of}",
-            Phrase("its link has no fixed pivot to which"),
-            Phrase("name the other point too for example an_c"),
-        )
-    )
+    """The point of the frame on the same link."""
+    ground = plot.links[plot.ground].points
+    points = (point for name in _holders(plot, of) for point in plot.links[name].points)
+    found = next((point for point in points if point in ground and point != of.point), None)
+    if found is None:
+        said = Phrase("its link has no fixed pivot to which"), Phrase("name the other point too for example an_c")
+        raise CallError(Problem(f"{of}", *said))
+    return PointRef(found)
 
 
-def _coincident(plot: Polygons, symbol: Symbol, of: PointRef, to: PointRef | None) -> None:
-    """Coriolis and sliding part for two coincident points that stand in no equation."""
-    assert to is not None
-    pair = _pair(plot, of, to, symbol)
-    tail, tip = plot.end("acceleration", to), plot.end("acceleration", of)
-    slip = plot.end("velocity", of) - plot.end("velocity", to)
-    omega = plot.rates["velocity"][pair].value
-    corner = tail + 2j * omega * slip * (plot.scales.velocity / plot.scales.acceleration)
-    if symbol.kind == "ak":
-        _draw_asked(plot, "acceleration", Vector(symbol, tail, corner, "coriolis"))
-    else:
-        _draw_asked(plot, "acceleration", Vector(symbol, corner, tip, "sliding"))
-
-
-def _pair(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
+def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str:
     """The guide of the sliding pair between two coincident points; of links of a group the one it is seen from."""
     for s in plot.structure.slides:
-        sides = {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)}
-        if sides == {of, to}:
+        if {node(plot.links, of.point, s.a), node(plot.links, of.point, s.b)} == {of, to}:
             return s.b
     seen = {ref.link for ref in (symbol.of, symbol.to) if ref}
     if symbol.to and any(seen <= {*group.members} for group in plot.structure.larger_groups):
         return symbol.to.link  # links of a group that are drawn as one, seen from one of them
     known = ", ".join(s.key for s in plot.structure.slides)
-    raise CallError(
-        Problem(
-            str(symbol),
-            Phrase("these two points do not lie on the"),
-            Phrase("known are", names=known) if known else Phrase("this mechanism has none"),
-        )
-    )
+    wanted = Phrase("known are", names=known) if known else Phrase("this mechanism has none")
+    raise CallError(Problem(str(symbol), Phrase("these two points do not lie on the"), wanted))
