@@ -152,7 +152,7 @@ def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
         )
     along = plot.paper.poses[slide.b].axis * slide.guide.direction
     slip = plot.end(order, node(plot.links, point, slide.a)) - plot.end(order, node(plot.links, point, slide.b))
-    return dot(slip, along) * plot.scales.of(order)
+    return dot(slip, along) * plot.per[order]
 
 
 def _slide_edge(plot: Polygons, slide: Pair, point: str) -> Edge:

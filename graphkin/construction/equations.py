@@ -442,7 +442,7 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     """Two points of one link: omega times their distance, square to it; omega squared towards the start, and alpha."""
     if edge.link in plot.still:
         return []
-    arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.scales.of(order), edge.bar
+    arm, per, bar = plot.places[edge.end.point] - plot.places[edge.start.point], plot.per[order], edge.bar
     square = 1j * unit(arm)
     rate = None if edge.unknown else plot.rates[order].get(edge.link)
     rule = None if rate is None else _by_rate(plot, (edge.link,), bar, RATE[order])
@@ -460,7 +460,7 @@ def _rigid_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
 
 def _driven_joint_parts(plot: Polygons, order: Order, edge: Edge, joint: DrivenJoint) -> list[Component]:
     """A point of a link that a driver turns about a hinge of another link, relative to that link."""
-    hinge, per = joint.pair.point, plot.scales.of(order)
+    hinge, per = joint.pair.point, plot.per[order]
     arm = plot.places[edge.end.point] - plot.places[hinge]
     way = 1 if (joint.driver.link == joint.b) == edge.forward else -1  # whether the driver turns the end from the start
     omega, alpha = (way * rate for rate in plot.given[joint.driver.key])
@@ -509,7 +509,7 @@ def _slide_parts(plot: Polygons, order: Order, edge: Edge, slide: Pair) -> list[
     """Both sides of a sliding pair: the rest runs along the guide, Coriolis square to it; a curved guide adds the
     square of the sliding velocity over the radius of curvature, towards its centre."""
     sense = plot.paper.poses[slide.b].axis * slide.guide.direction * (1 if edge.forward else -1)
-    given, per = _given(plot, slide.key, order), plot.scales.of(order)
+    given, per = _given(plot, slide.key, order), plot.per[order]
     mm, size = (None, None) if given is None else (given / per, GIVEN)
     if order == "velocity":
         return [_term(plot, edge, "v", sense, mm, edge.direction, size)]
@@ -534,7 +534,7 @@ def _contact_parts(plot: Polygons, order: Order, edge: Edge) -> list[Component]:
     one, two = (ref.link for ref in edge.labels)
     touch = plot.touch(edge.contact)
     plot.board.notice(order, "at contact", touch.name)
-    normal, tangent, per = touch.normal, -1j * touch.normal, plot.scales.of(order)
+    normal, tangent, per = touch.normal, -1j * touch.normal, plot.per[order]
     if order == "velocity":
         return [_term(plot, edge, "v", tangent, None, edge.direction)]
     bends = touch.curvatures((one, two), plot.paper.mm)

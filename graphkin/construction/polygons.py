@@ -76,6 +76,7 @@ class Polygons:
         self, board: Board, structure: Structure, paper: PlacedLinks, scales: Scales, slip: Slip = NO_SLIP
     ) -> None:
         self.board, self.structure, self.paper, self.scales, self.slip = board, structure, paper, scales, slip
+        self.per = {order: scales.of(order) for order in ORDERS}  # m/s or m/s2 for one mm
         self.given = {d.key: d.values[1:] for d in structure.drivers}  # rates of the drivers
         self.believed: set[tuple[Order, str]] = set()  # rates of links that a slip has put in place of the measured
         self.links = dict(structure.links)  # with the special points that larger groups get
@@ -237,7 +238,7 @@ class Polygons:
         """The size of a rate (rad/s, rad/s2), by the length of a vector on paper and the bar it belongs to, and that
         length as read (mm)."""
         read = abs(self.board.instrument.read(mm) if self.trial else self.board.read(symbol, mm))
-        value = read * self.scales.of(order) / self.length(arm, between)
+        value = read * self.per[order] / self.length(arm, between)
         return self.board.instrument.noted(value, min(MOST - 1, figures(on_paper(read)))), read
 
     def _given_arm(self, start: str, end: str) -> complex | None:
