@@ -28,6 +28,7 @@ from graphkin.construction.equations import (
     turned,
 )
 from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
+from graphkin.construction.links_on_paper import stuck
 from graphkin.construction.net import (
     Edge,
     Net,
@@ -44,6 +45,7 @@ from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours
 from graphkin.construction.sheet import DrawnGroup, Rate
 from graphkin.construction.steps import (
+    ORDERS,
     Aid,
     Bar,
     Direction,
@@ -57,13 +59,12 @@ from graphkin.construction.steps import (
     Vector,
 )
 from graphkin.construction.trains import rolled
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import Unsolvable
 from graphkin.plane import added_up, dot, unit
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair, Rolled, driver_pair
-from graphkin.words import Phrase
 from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = ["draw_element", "drawn_group"]
@@ -84,7 +85,11 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
     elif isinstance(element, Dyad):
         known_turns(plot, order, element)
         if element not in plot.chains:
-            plot.chains[element] = _equation_of(plot, element)
+            chain = equation_of(_net_of(plot, element), plot.ends["velocity"])
+            if chain is None:
+                # every dyad has an equation with two unknowns, but its points must be apart on the sheet
+                raise stuck("not drawn", element.links, "points of theirs fall together on any sheet")
+            plot.chains[element] = chain
         draw_equation(plot, order, element, plot.chains[element])
     else:
         _draw_group(plot, order, element)
@@ -96,7 +101,7 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
 def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     name, driver, pair = element.link, element.driver, element.pair
     mm = _roll(plot, order, driver) if driver.rolls else 0.0
-    rate = plot.given[driver.key][0 if order == "velocity" else 1]
+    rate = plot.given[driver.key][ORDERS.index(order)]
     if isinstance(driver, Driver) and driver.turns:
         other, sign = (driver.relative_to, 1) if driver.link == name else (driver.link, -1)
         base = plot.rates[order][other].value
@@ -112,14 +117,16 @@ def _driven(plot: Polygons, order: Order, element: Driven) -> None:
     share_rate(plot, order, known, name)
     point = pair.pin or next(iter([*plot.links[name].points, *plot.places]), "")
     if point:
-        edge = _slide_edge(plot, pair, point)
+        a, b = node(plot.links, point, pair.a), node(plot.links, point, pair.b)
+        labels, way = (PointRef(point, pair.b), PointRef(point, pair.a)), Direction("along", plot.guide_names(pair))
+        edge = Edge(b, a, labels, way, slide=pair)
         draw_equation(plot, order, element, VectorChain.closing(edge if name == pair.a else edge.reversed()))
 
 
 def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> float:
     """The rate of what rolls, read off a velocity plan, as the driver's; and the length read for it (mm)."""
     coordinate = "angle" if driver.turns else "travel", driver.key
-    which = 0 if order == "velocity" else 1
+    which = ORDERS.index(order)
     turns = [(s.a, s.b, 0.0) for s in plot.structure.slides]
     turns += [(*d.links, d.values[1 + which]) for d in plot.structure.scene.drivers if d.turns]
     known = {name: rate.value for name, rate in plot.rates[order].items()}
@@ -137,41 +144,18 @@ def _roll(plot: Polygons, order: Order, driver: Driver | LawCam | Rolled) -> flo
 def _travel_rate(plot: Polygons, order: Order, key: str) -> float | None:
     """How fast a sliding link goes along its guide (m/s, m/s2), where that is known: given, or read off the polygon
     as the part along it of its motion relative to the coincident point; that of Coriolis is square to it."""
-    which = 0 if order == "velocity" else 1
     given = next((d for d in plot.structure.scene.drivers if d.key == key and not d.turns), None)
     if given is not None:
-        return given.values[1 + which]
+        return given.values[1 + ORDERS.index(order)]
     slide = plot.structure.slide(key)
     if not {slide.a, slide.b} <= plot.rates[order].keys():
         return None
     point = slide.pin or next(iter(plot.links[slide.a].points), "")
     if not point:
-        names = ", ".join((slide.a, slide.b))
-        raise Unsolvable(
-            "not drawn", Problem(Phrase("links", links=names), Phrase("no point of the sliding link is drawn"))
-        )
+        raise stuck("not drawn", (slide.a, slide.b), "no point of the sliding link is drawn")
     along = plot.paper.poses[slide.b].axis * slide.guide.direction
     slip = plot.end(order, node(plot.links, point, slide.a)) - plot.end(order, node(plot.links, point, slide.b))
     return dot(slip, along) * plot.per[order]
-
-
-def _slide_edge(plot: Polygons, slide: Pair, point: str) -> Edge:
-    a, b = node(plot.links, point, slide.a), node(plot.links, point, slide.b)
-    labels = (PointRef(point, slide.b), PointRef(point, slide.a))
-    return Edge(b, a, labels, Direction("along", plot.guide_names(slide)), slide=slide)
-
-
-def _equation_of(plot: Polygons, dyad: Dyad) -> VectorChain:
-    """The shortest equation with two unknown sizes of a dyad."""
-    chain = equation_of(_net_of(plot, dyad), plot.ends["velocity"])
-    if chain is None:
-        # every dyad has an equation with two unknowns, but its points must be apart on the sheet
-        names = ", ".join(dyad.links)
-        raise Unsolvable(
-            "not drawn",
-            Problem(Phrase("links", links=names), Phrase("points of theirs fall together on any sheet")),
-        )
-    return chain
 
 
 # -- larger groups -----------------------------------------------------------------------------------------------------
@@ -226,11 +210,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
         if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
             break  # none can be so much better
     if best is None or not best[0]:
-        names = ", ".join(group.links)
-        raise Unsolvable(
-            "dead point",
-            Problem(Phrase("links", links=names), Phrase("no drawing tells how this group moves here")),
-        )
+        raise stuck("dead point", group.links, "no drawing tells how this group moves here")
     plot.plans[group] = best[1]
     _draw_by(plot, order, group, best[1])
 
@@ -246,8 +226,12 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
     _complete(plot, order, group)
     for move in plan.moves:
         _draw_move(plot, order, group, move)
-    for edge in _left_over(plot, order, plan.net):
-        draw_equation(plot, order, group, VectorChain.closing(edge))
+    # what moves along the guides, or slips at the contacts, and has not been drawn
+    for edge in [edge for ref in plan.net.nodes for edge in plan.net.edges[ref] if edge.forward]:
+        if edge.contact or (edge.slide is not None and edge.start.point == edge.slide.pin):
+            symbol = plot.symbol(letter(order), edge.labels[1], edge.labels[0])
+            if symbol not in plot.drawn[order] and not plot.fixed(edge.start):
+                draw_equation(plot, order, group, VectorChain.closing(edge))
 
 
 # -- moves -------------------------------------------------------------------------------------------------------------
@@ -277,20 +261,6 @@ def _complete(plot: Polygons, order: Order, group: LargerGroup) -> None:
         for name in ready:
             plot.complete(order, name)
             left.remove(name)
-
-
-def _left_over(plot: Polygons, order: Order, net: Net) -> list[Edge]:
-    """What moves along the guides of a group, or slips at its contacts, and has not been drawn."""
-    found = []
-    for ref in net.nodes:
-        for edge in net.edges[ref]:
-            s = edge.slide
-            if not edge.forward or not (edge.contact or (s is not None and edge.start.point == s.pin)):
-                continue
-            symbol = plot.symbol(letter(order), edge.labels[1], edge.labels[0])
-            if symbol not in plot.drawn[order] and not plot.fixed(edge.start):
-                found.append(edge)
-    return found
 
 
 def _special_point(plot: Polygons, order: Order, group: LargerGroup, move: Special) -> None:
@@ -330,7 +300,9 @@ def _to_special(
 
 def _mark_special(plot: Polygons, move: Special) -> None:
     """The special point on the mechanism: where the lines of two legs cross."""
-    (p, d), (q, e) = (_leg_line(plot, leg) for leg in move.sides)
+    free = (next(e for e in leg if e.unknown) for leg in move.sides)
+    d, e = (1j * _direction(plot, edge, plot.places) for edge in free)
+    p, q = (plot.places[leg[-1].end.point] for leg in move.sides)
     d = plot.slip.line(Symbol("v", PointRef(move.letter)), d)
     at = plot.board.cross("mechanism", p, d, q, e, move.letter)
     plot.special.add(move.letter)
@@ -342,13 +314,8 @@ def _mark_special(plot: Polygons, move: Special) -> None:
     joints = tuple(leg[-1].end.point for leg in move.sides)
     driven = any(not e.unknown and (e.slide or e.joint) for leg in move.sides for e in leg)
     strokes = Bar(p, at, ""), Bar(q, at, ""), Mark(PointRef(move.letter), at)
-    step = Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link)
-    plot.do(replace(step, base=move.base, kind="driven" if driven else ""))
-
-
-def _leg_line(plot: Polygons, leg: Path) -> tuple[complex, complex]:
-    free = next(e for e in leg if e.unknown)
-    return plot.places[leg[-1].end.point], 1j * _direction(plot, free, plot.places)
+    plot.do(Step("cross", "special point", strokes=strokes, point=move.letter, points=joints, link=move.link,
+                 base=move.base, kind="driven" if driven else ""))  # fmt: skip
 
 
 # -- nets --------------------------------------------------------------------------------------------------------------
@@ -402,7 +369,7 @@ def _rolling_points(plot: Polygons, group: LargerGroup) -> dict[str, tuple[str, 
 
 
 def _mark_pitch_point(plot: Polygons, name: str) -> str:
-    letter = plot.pitch_points[name] = next(iter(_free_letters(plot)))
+    letter = plot.pitch_points[name] = _free_letters(plot)[0]
     touch = plot.touch(name)
     at = plot.board.instrument.point(touch.at)
     plot.special.add(letter)

@@ -76,37 +76,27 @@ def moved_to(
     ------
     Unsolvable : "not assembled": the motion does not reach the values; the message gives the limit
     """
-    drivers = choices.structure.scene.drivers
-    first, goal = [own[d.key] for d in drivers], [values[d.key] for d in drivers]
-    limits: list[Mapping[str, float]] = []
-    for way in ways(drivers, first, goal, choices.structure.rolls):
-        target = dict(zip((d.key for d in drivers), way, strict=True))
-        found, part = _walk(choices, elements, own, target, poses)
-        if part == 1.0:
-            return found
-        limits.append(_part_way(own, target, part))
-    raise Unsolvable("not assembled", out_of_reach(choices.structure.scene, dict(zip(own, goal, strict=True)), limits))
-
-
-def _part_way(own: Mapping[str, float], target: Mapping[str, float], part: float) -> dict[str, float]:
-    return {k: own[k] + part * (target[k] - own[k]) for k in own}
-
-
-def _walk(
-    choices: Choices, elements: Sequence[Element], own: Mapping[str, float], target: Mapping[str, float], start: Poses
-) -> tuple[dict[str, Pose], float]:
-    """The last position that the motion reaches on its way, and at what part of this it lies."""
     scene = choices.structure.scene
-    length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
-    longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
-    # nothing says yet where the links go: the first step is small
-    pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)
+    first, goal = [own[d.key] for d in scene.drivers], [values[d.key] for d in scene.drivers]
+    limits: list[Mapping[str, float]] = []
+    for way in ways(scene.drivers, first, goal, choices.structure.rolls):
+        target = dict(zip((d.key for d in scene.drivers), way, strict=True))
+        length = max(abs(target[d.key] - own[d.key]) / d.span(scene.size) for d in scene.drivers)
+        longest = 1.0 / max(1, math.ceil(length / (STEP if choices.of else LONG_STEP)))
+        # nothing says yet where the links go: the first step is small
+        pace = Pace(longest, longest / 64, SURPRISE, SURPRISE, longest / 1e10)
 
-    def near(t: float, guess: Poses, at: Poses) -> Poses | None:
-        return found_near(choices, elements, _part_way(own, target, t), guess, at)
+        def at(part: float, target: Mapping[str, float] = target) -> dict[str, float]:
+            return {k: own[k] + part * (target[k] - own[k]) for k in own}
 
-    part, poses = [(0.0, start), *walk(near, start, 0.0, 1.0, pace)][-1]
-    return dict(poses), part
+        def near(part: float, guess: Poses, there: Poses, at: Callable[[float], dict[str, float]] = at) -> Poses | None:
+            return found_near(choices, elements, at(part), guess, there)
+
+        part, found = [(0.0, poses), *walk(near, poses, 0.0, 1.0, pace)][-1]
+        if part == 1.0:
+            return dict(found)
+        limits.append(at(part))
+    raise Unsolvable("not assembled", out_of_reach(scene, dict(zip(own, goal, strict=True)), limits))
 
 
 @dataclass(frozen=True)
@@ -328,11 +318,6 @@ def best_first(
             yield one.reduced
 
 
-def _with_links(candidates: Sequence[ReducedMechanism], names: set[str]) -> list[ReducedMechanism]:
-    """Those that leave none of these links out."""
-    return [reduced for reduced in candidates if not names.intersection(r.left_out for r in reduced.removed)]
-
-
 def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Poses) -> ReducedMechanism | None:
     """A group in which links roll and move each other at the scene's own position, ``choices`` being of the mechanism
     that drivers hold there: without its rolling.  None where all are at dead points."""
@@ -347,7 +332,8 @@ def standing(choices: Choices, group: LargerGroup, known: PlacedLinks, guess: Po
             # what later ones hang on is not left out
             wanted = {name for later in mine[k + 1 :] for name in later.outside}
             few_or_more = (choices.of[element], choices.further(element))
-            found = (_best_of(_with_links(some, wanted), before, guess) for some in few_or_more)
+            served = ([r for r in some if wanted.isdisjoint(x.left_out for x in r.removed)] for some in few_or_more)
+            found = (_best_of(some, before, guess) for some in served)
             best = next((one for one in found if one is not None), None)
             if best is None:
                 return None

@@ -33,7 +33,8 @@ from graphkin.words import Phrase
 
 __all__ = [
     "Choose", "LinkMotion", "Meeting", "PlacedLinks", "Pose", "Poses", "RigidBody", "Story", "across", "apart",
-    "assemble", "assembled", "drive", "meant", "meet", "pushed_by_driver", "reading", "refuse", "start_board", "travel",
+    "assemble", "assembled", "drive", "meant", "meet", "pushed_by_driver", "reading", "refuse", "start_board", "stuck",
+    "travel",
 ]  # fmt: skip
 
 SAME_HOLE = 1e-9
@@ -446,6 +447,11 @@ def meant(structure: Structure, paper: PlacedLinks, dyad: Dyad) -> Poses:
     refuse(structure, dyad, meeting)
     candidates = [paper.fresh(poses) for poses in meeting.poses]
     return meeting.poses[pick(structure.scene, dyad.links, candidates, 0).index]
+
+
+def stuck(status: str, links: Iterable[str], said: str) -> Unsolvable:
+    """Why links cannot be placed or drawn, said of them by the key of a phrase."""
+    return Unsolvable(status, Problem(Phrase("links", links=", ".join(links)), Phrase(said)))
 
 
 Choose = Callable[[int, Dyad | LargerGroup], Poses | None]

@@ -36,12 +36,12 @@ from graphkin.construction.links_on_paper import (
     meet,
     refuse,
     start_board,
+    stuck,
 )
 from graphkin.construction.reduced_mechanism import ReducedMechanism
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Reason, Step
 from graphkin.construction.touching import coordinate_on_paper
-from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
@@ -244,8 +244,7 @@ def nearest_assembly(
             else:
                 reduced = best_reduced(choices, element, paper, poses)
             if reduced is None:
-                links = Phrase("links", links=", ".join(element.links))
-                raise Unsolvable("dead point", Problem(links, Phrase("every trial drawing is at a dead point")))
+                raise stuck("dead point", element.links, "every trial drawing is at a dead point")
             given = starting is not None and bool(element.rolling)
             trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
         for name in element.members:
@@ -291,10 +290,7 @@ def _group_by_sketch(choices: Choices, paper: PlacedLinks, group: LargerGroup) -
             _add_new(found, all_fits(reduced, paper))
         _add_new(found, sketched)
     if not found:
-        names = ", ".join(group.links)
-        raise Unsolvable(
-            "not assembled", Problem(Phrase("links", links=names), Phrase("no trial position closes this group here"))
-        )
+        raise stuck("not assembled", group.links, "no trial position closes this group here")
     found = _without_twins(structure, paper, group, found)
     candidates = [paper.fresh(poses) for poses in found]
     return found[pick(structure.scene, group.links, candidates, None).index]

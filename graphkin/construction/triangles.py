@@ -20,6 +20,7 @@ from graphkin.construction.links_on_paper import (
     meant,
     reading,
     start_board,
+    stuck,
     travel,
 )
 from graphkin.construction.polygons import Polygons
@@ -27,12 +28,11 @@ from graphkin.construction.position import Position, assembly_at, each_assembly,
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import DIAGRAMS, ORDERS, Step
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import Unsolvable
 from graphkin.plane import dot
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Driven, DrivenTriangle, Dyad, Element, LargerGroup, Structure, analyse, pick, without
-from graphkin.words import Phrase
 
 __all__ = ["Inversion", "inversions_of", "opened_at_triangles", "own_assembly"]
 
@@ -174,8 +174,7 @@ def own_assembly(
         run = [element for element in left if element in group.parts]
         found = list(_ways(paper, run, [v for v in inversions if v.triangle in group.triangles]))
         if not found:
-            said = Phrase("links", links=", ".join(group.links)), Phrase("no assembly of the group fits together here")
-            raise Unsolvable("not assembled", Problem(*said))
+            raise stuck("not assembled", group.links, "no assembly of the group fits together here")
         index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None).index
         triangles, paper.values, poses = found[index]
         taken += triangles
