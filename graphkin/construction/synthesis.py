@@ -9,7 +9,6 @@ What stands on the paper are strokes in mm, y up, in numbered steps.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import singledispatch
 from typing import Literal
@@ -17,7 +16,7 @@ from typing import Literal
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.sheet import PARALLEL
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import cross, cross_line_arc, cross_lines, direction, dot, unit
+from graphkin.plane import cross, cross_arcs, cross_line_arc, cross_lines, direction, dot, unit
 from graphkin.scene.designs import (
     BarPositionsTask,
     CrankRockerTask,
@@ -95,86 +94,79 @@ class DesignStep:
     strokes: tuple[DesignStroke, ...]
 
 
-@dataclass(frozen=True)
-class DesignSheet:
-    """A construction on paper, in mm, y up.
+def _not_drawn(what: str, found: str, wanted: str) -> Unsolvable:
+    return Unsolvable("not drawn", Problem(what, Phrase(found), Phrase(wanted)))
 
+
+@dataclass
+class DesignSheet:
+    """A construction on paper, in mm, y up; it grows while it is drawn.
+
+    Parameters
+    ----------
     scale : units of the task's length for one mm
+    steps : what was done, in order
     lengths : what was measured, mm on paper, by the two points of a bar ("ram": distance of its line from C)
     turned : bars that were found opposite to the angles asked
     """
 
     task: DesignTask
     scale: float
-    instrument: str
-    steps: tuple[DesignStep, ...]
-    points: Mapping[str, complex]
-    lengths: Mapping[str, float]
-    turned: tuple[str, ...] = ()
-
-
-@dataclass
-class DesignPaper:
-    """The sheet while a task is drawn on it; the one thing here that grows."""
-
-    scale: float
     hand: Instrument
     steps: list[DesignStep] = field(default_factory=list)
-    points: dict[str, complex] = field(default_factory=dict)
     lengths: dict[str, float] = field(default_factory=dict)
     turned: list[str] = field(default_factory=list)
+
+    @property
+    def points(self) -> dict[str, complex]:
+        """The places of the named points."""
+        strokes = (stroke for step in self.steps for stroke in step.strokes)
+        return {stroke.name: stroke.at for stroke in strokes if isinstance(stroke, DesignPoint) and stroke.name}
 
     # -- acts of the hand ----------------------------------------------------------------------------------------------
 
     def do(self, key: str, args: tuple[object, ...], *strokes: DesignStroke) -> None:
+        """Record one step with the strokes that it leaves."""
         self.steps.append(DesignStep(len(self.steps) + 1, Phrase(key, args), strokes))
-        for stroke in strokes:
-            if isinstance(stroke, DesignPoint) and stroke.name:
-                self.points[stroke.name] = stroke.at
 
     def mm(self, length: float) -> float:
+        """A length of the task on paper."""
         return length / self.scale
 
-    def shown(self, length: float) -> str:
-        """A length as it is laid off: mm on paper."""
-        return f"{length:.2f}"
-
     def lay_off(self, start: complex, along: complex, mm: float) -> complex:
+        """A length in a direction that the set square gives."""
         return self.hand.point(start + self.hand.length(mm) * self.hand.direction(along))
 
     def lay_off_angle(self, start: complex, along: complex, mm: float) -> complex:
+        """A length in a direction that the protractor gives."""
         return self.hand.point(start + self.hand.length(mm) * self.hand.angle(along))
 
     def plot(self, at: complex) -> complex:
         """A point by its coordinates."""
-        return self.hand.point(complex(self.hand.length(at.real / self.scale), self.hand.length(at.imag / self.scale)))
+        return self.hand.point(complex(self.hand.length(self.mm(at.real)), self.hand.length(self.mm(at.imag))))
 
     def meet(self, what: str, p: complex, d: complex, q: complex, e: complex) -> complex:
-        if abs(cross(d, e)) < PARALLEL:
-            raise Unsolvable(
-                "not drawn", Problem(what, Phrase("the lines that should find it are parallel"), Phrase("other data"))
-            )
+        """Where two lines meet, each through a point along a direction.  Raises Unsolvable where they are parallel."""
         at = cross_lines(p, d, q, e)
-        assert at is not None
+        if abs(cross(d, e)) < PARALLEL or at is None:
+            raise _not_drawn(what, "the lines that should find it are parallel", "other data")
         return self.hand.point(at)
 
     def cut(self, what: str, p: complex, d: complex, centre: complex, radius: float) -> tuple[complex, complex]:
-        """Where a line cuts a circle, the one further along d first."""
+        """Where a line cuts a circle, the one further along d first.  Raises Unsolvable where it does not."""
         found = cross_line_arc(p, d, centre, radius)
         if found is None:
-            raise Unsolvable(
-                "not drawn", Problem(what, Phrase("the line does not reach the circle"), Phrase("other data"))
-            )
+            raise _not_drawn(what, "the line does not reach the circle", "other data")
         return self.hand.point(found[0]), self.hand.point(found[1])
 
     def bisector(self, a: complex, b: complex) -> tuple[complex, complex]:
         """A point and the direction of the perpendicular bisector, drawn by two pairs of compass arcs."""
         return self.hand.point((a + b) / 2), self.hand.direction(1j * unit(b - a))
 
-    def measure(self, name: str, a: complex, b: complex) -> float:
-        """The length of a bar off the paper (mm)."""
-        self.lengths[name] = self.hand.read(abs(b - a))
-        return self.lengths[name]
+    def measure(self, *bars: tuple[str, complex, complex]) -> list[str]:
+        """The lengths of bars off the paper (mm), each by its name, and as they are written."""
+        self.lengths |= {name: self.hand.read(abs(b - a)) for name, a, b in bars}
+        return [f"{name if name == 'ram' else f'${name}$'} = {self.lengths[name]:.2f} mm" for name, _, _ in bars]
 
 
 # -- the tasks ---------------------------------------------------------------------------------------------------------
@@ -187,94 +179,94 @@ def construct(task: DesignTask, scale: float = 1.0, instrument: Instrument = EXA
     ------
     Unsolvable : lines or arcs that should meet do not
     """
-    paper = DesignPaper(scale, instrument)
+    paper = DesignSheet(task, scale, instrument)
     draw(task, paper)
-    return DesignSheet(
-        task, scale, instrument.name, tuple(paper.steps), dict(paper.points), dict(paper.lengths), tuple(paper.turned)
-    )
+    return paper
+
+
+def _mm(length: float) -> str:
+    """A length as it is laid off: mm on paper."""
+    return f"{length:.2f}"
 
 
 @singledispatch
-def draw(task: DesignTask, paper: DesignPaper) -> None:
+def draw(task: DesignTask, paper: DesignSheet) -> None:
     """Draw a task on paper, by its kind."""
     raise TypeError(task)
 
 
 @draw.register
-def _(task: SliderCrankTask, paper: DesignPaper) -> None:
+def _(task: SliderCrankTask, paper: DesignSheet) -> None:
     theta = _theta(task.K)
     near = paper.hand.point(0j)
     far = paper.lay_off(near, 1 + 0j, paper.mm(task.stroke))
-    paper.do("design stroke", (Markup("C_{2}C_{1}"), paper.shown(paper.mm(task.stroke))),
+    paper.do("design stroke", (Markup("C_{2}C_{1}"), _mm(paper.mm(task.stroke))),
             DesignLine(near, far, "given"), DesignPoint("C1", far), DesignPoint("C2", near))  # fmt: skip
     middle, radius = _locus(paper, far, near, 1, theta, task.K)
     # A lies beyond the near end of the stroke, the offset above its line
     height = near + 1j * paper.hand.length(paper.mm(task.offset))
     along = paper.hand.direction(1 + 0j)
     A = paper.cut("A", height, along, middle, radius)[1]
-    paper.do("design parallel", (paper.shown(paper.mm(task.offset)),),
+    paper.do("design parallel", (_mm(paper.mm(task.offset)),),
             DesignLine(A, complex(far.real, A.imag), "direction"), DesignPoint("A", A, pivot=True))  # fmt: skip
     _crank_from_limits(paper, A, far, near)
 
 
 @draw.register
-def _(task: CrankRockerTask, paper: DesignPaper) -> None:
+def _(task: CrankRockerTask, paper: DesignSheet) -> None:
     theta, half = _theta(task.K), task.swing / 2
     D = paper.hand.point(0j)
     arm = paper.mm(task.rocker)
     first = paper.lay_off_angle(D, direction(90.0 + half), arm)
     second = paper.lay_off_angle(D, direction(90.0 - half), arm)
-    paper.do("design swing", (f"{task.swing:.6g}", paper.shown(arm)), DesignPoint("D", D, pivot=True),
+    paper.do("design swing", (f"{task.swing:.6g}", _mm(arm)), DesignPoint("D", D, pivot=True),
             DesignLine(D, first, "given"), DesignLine(D, second, "given"), DesignPoint("C1", first),
             DesignPoint("C2", second),
             DesignAngle(D, second - D, first - D, task.swing, "ψ"))  # fmt: skip
     A = _pivot_on_line(paper, D, first, second, task) if theta == 0.0 else _pivot_on_circle(
         paper, D, _locus(paper, first, second, -1, theta, task.K), task
     )
+    _between_limits(paper, A, D, first, second)
+
+
+def _between_limits(paper: DesignSheet, A: complex, D: complex, first: complex, second: complex) -> None:
+    """The crank and the rod from both limit positions of a rocker, then the rocker and the frame."""
     swapped = abs(first - A) < abs(second - A)
     far, near = (second, first) if swapped else (first, second)
     _crank_from_limits(paper, A, far, near, swapped)
-    paper.measure("CD", first, D)
-    paper.measure("AD", A, D)
+    paper.measure(("CD", first, D), ("AD", A, D))
 
 
-def _pivot_on_circle(paper: DesignPaper, D: complex, circle: tuple[complex, float], task: CrankRockerTask) -> complex:
+def _pivot_on_circle(paper: DesignSheet, D: complex, circle: tuple[complex, float], task: CrankRockerTask) -> complex:
     """The crank's pivot, where the arc of the frame about D cuts the circle over C1C2."""
     middle, radius = circle
     reach = paper.hand.compass(paper.mm(task.frame))
-    line = middle - D
-    if abs(line) < 1e-9 * radius:
-        raise Unsolvable(
-            "not drawn", Problem("A", Phrase("the circle over c1c2 is one about d"), Phrase("another k or swing"))
-        )
-    up = (reach**2 - (radius - abs(line)) * (radius + abs(line))) / (2.0 * abs(line))
-    across = (reach - up) * (reach + up)
-    if across < 0.0:
-        raise Unsolvable(
-            "not drawn", Problem("A", Phrase("the arc about d does not reach the"), Phrase("another frame"))
-        )
-    sides = [D + unit(line) * complex(up, s * math.sqrt(across)) for s in (1.0, -1.0)]
-    A = paper.hand.point(min(sides, key=lambda z: z.real))
-    paper.do("design arc", (Markup("D"), paper.shown(paper.mm(task.frame)), Markup("A")),
-            DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
+    if abs(middle - D) < 1e-9 * radius:
+        raise _not_drawn("A", "the circle over c1c2 is one about d", "another k or swing")
+    met = cross_arcs(D, reach, middle, radius)
+    if met is None:
+        raise _not_drawn("A", "the arc about d does not reach the", "another frame")
+    A = paper.hand.point(min(met, key=lambda z: z.real))
+    paper.do("design arc", (Markup("D"), _mm(paper.mm(task.frame)), Markup("A")),
+             DesignCircle(D, reach, (A,)), DesignPoint("A", A, pivot=True))  # fmt: skip
     return A
 
 
 def _pivot_on_line(
-    paper: DesignPaper, D: complex, first: complex, second: complex, task: CrankRockerTask
+    paper: DesignSheet, D: complex, first: complex, second: complex, task: CrankRockerTask
 ) -> complex:
     """The same for K = 1: crank and rod lie in the line C1C2 in both limit positions."""
     reach = paper.hand.compass(paper.mm(task.frame))
     A = paper.cut("A", second, unit(first - second), D, reach)[0]
     paper.do("design theta", (f"{task.K:.6g}", "0"))
-    paper.do("design line", (Markup("D"), paper.shown(paper.mm(task.frame)), Markup("A")),
-            DesignLine(second, A, "construction"), DesignCircle(D, reach, (A,)),
-            DesignPoint("A", A, pivot=True))  # fmt: skip
+    paper.do("design line", (Markup("D"), _mm(paper.mm(task.frame)), Markup("A")),
+             DesignLine(second, A, "construction"), DesignCircle(D, reach, (A,)),
+             DesignPoint("A", A, pivot=True))  # fmt: skip
     return A
 
 
 def _locus(
-    paper: DesignPaper, first: complex, second: complex, above: int, theta: float, K: float
+    paper: DesignSheet, first: complex, second: complex, above: int, theta: float, K: float
 ) -> tuple[complex, float]:
     """The circle over C1C2 from whose points above the chord (-1: below) it is seen under theta: centre and radius."""
     left, right = sorted((first, second), key=lambda z: z.real)
@@ -294,7 +286,7 @@ def _locus(
     return centre, radius
 
 
-def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: complex, swapped: bool = False) -> None:
+def _crank_from_limits(paper: DesignSheet, A: complex, far: complex, near: complex, swapped: bool = False) -> None:
     """The crank as half the difference of AC1 and AC2, laid off by the compass, with both limit positions."""
     names = ("C_{2}", "C_{1}") if swapped else ("C_{1}", "C_{2}")
     reach = paper.hand.compass(abs(near - A))
@@ -310,22 +302,16 @@ def _crank_from_limits(paper: DesignPaper, A: complex, far: complex, near: compl
     paper.do("design crank circle", (), DesignCircle(A, crank), DesignPoint(labels[0], out),
             DesignPoint(labels[1], back), DesignLine(A, back, "limit"),
             DesignLine(A, out, "mechanism"), DesignLine(out, far, "mechanism"))  # fmt: skip
-    AB, BC = paper.measure("AB", A, out), paper.measure("BC", out, far)
-    paper.do("design measured", (_length_line("AB", AB) + ",  " + _length_line("BC", BC),))
-
-
-def _length_line(name: str, mm: float) -> str:
-    shown = name if name == "ram" else f"${name}$"
-    return f"{shown} = {mm:.2f} mm"
+    paper.do("design measured", (",  ".join(paper.measure(("AB", A, out), ("BC", out, far))),))
 
 
 @draw.register
-def _(task: GuideBarTask, paper: DesignPaper) -> None:
+def _(task: GuideBarTask, paper: DesignSheet) -> None:
     theta = _theta(task.K)
     half = theta / 2
     C = paper.hand.point(0j)
     A = paper.lay_off(C, 1j, paper.mm(task.centres))
-    paper.do("design centres", (paper.shown(paper.mm(task.centres)),), DesignLine(C, A, "given"),
+    paper.do("design centres", (_mm(paper.mm(task.centres)),), DesignLine(C, A, "given"),
             DesignPoint("A", A, pivot=True), DesignPoint("C", C, pivot=True))  # fmt: skip
     paper.do("design theta", (f"{task.K:.6g}", f"{math.degrees(theta):.6g}"))
     left = paper.hand.angle(unit(A - C) * complex(math.cos(half), math.sin(half)))
@@ -343,7 +329,7 @@ def _(task: GuideBarTask, paper: DesignPaper) -> None:
     first = paper.meet("D1", C, left, C - apart, paper.hand.direction(1j))
     second = paper.meet("D2", C, right, C + apart, paper.hand.direction(1j))
     middle = C + 1j * abs(first - C)
-    paper.do("design bar ends", (paper.shown(paper.mm(task.stroke) / 2),),
+    paper.do("design bar ends", (_mm(paper.mm(task.stroke) / 2),),
             DesignLine(C - apart, first, "construction"), DesignLine(C + apart, second, "construction"),
             DesignPoint("D1", first), DesignPoint("D2", second), DesignLine(C, first, "mechanism"),
             DesignLine(C, second, "limit"))  # fmt: skip
@@ -355,31 +341,26 @@ def _(task: GuideBarTask, paper: DesignPaper) -> None:
             DesignLine(first, second, "construction"),
             DesignLine(line - apart, line + apart + rod, "direction"))  # fmt: skip
     E = paper.cut("E", line, 1 + 0j, first, rod)[0]
-    paper.do("design ram", (paper.shown(paper.mm(task.rod_length)),), DesignCircle(first, rod, (E,)),
+    paper.do("design ram", (_mm(paper.mm(task.rod_length)),), DesignCircle(first, rod, (E,)),
             DesignPoint("E1", E), DesignLine(first, E, "mechanism"))  # fmt: skip
-    told = [_length_line(name, paper.measure(name, a, b))
-            for name, a, b in (("AB", A, foot), ("AC", A, C), ("CD", C, first), ("ram", C, line))]  # fmt: skip
+    told = paper.measure(("AB", A, foot), ("AC", A, C), ("CD", C, first), ("ram", C, line))
     paper.do("design measured", (",  ".join(told),))
 
 
 @draw.register
-def _(task: LimitsTask, paper: DesignPaper) -> None:
+def _(task: LimitsTask, paper: DesignSheet) -> None:
     A, D = paper.plot(task.A), paper.plot(task.D)
     arm = paper.mm(task.rocker)
     first, second = (paper.lay_off_angle(D, direction(angle), arm) for angle in task.angles)
     shown = tuple(f"{angle:.6g}" for angle in task.angles)
-    paper.do("design limit positions", (paper.shown(arm), *shown), DesignPoint("A", A, pivot=True),
+    paper.do("design limit positions", (_mm(arm), *shown), DesignPoint("A", A, pivot=True),
             DesignPoint("D", D, pivot=True), DesignLine(D, first, "given"), DesignLine(D, second, "given"),
             DesignPoint("C1", first), DesignPoint("C2", second))  # fmt: skip
-    swapped = abs(first - A) < abs(second - A)
-    far, near = (second, first) if swapped else (first, second)
-    _crank_from_limits(paper, A, far, near, swapped)
-    paper.measure("CD", first, D)
-    paper.measure("AD", A, D)
+    _between_limits(paper, A, D, first, second)
 
 
 @draw.register
-def _(task: BarPositionsTask, paper: DesignPaper) -> None:
+def _(task: BarPositionsTask, paper: DesignSheet) -> None:
     bars = [(paper.plot(bar.B), paper.plot(bar.C)) for bar in task.positions]
     named = [(f"{name}{i}", at) for i, bar in enumerate(bars, 1) for name, at in zip("BC", bar, strict=True)]
     marks = [DesignPoint(name, at) for name, at in named]
@@ -404,14 +385,14 @@ def _(task: BarPositionsTask, paper: DesignPaper) -> None:
     _chain(paper, chain, close="DN" if len(chain) and chain[2][0] == "N" else "CD")
 
 
-def _carried(paper: DesignPaper, at: complex, bar: tuple[complex, complex], to: tuple[complex, complex]) -> complex:
+def _carried(paper: DesignSheet, at: complex, bar: tuple[complex, complex], to: tuple[complex, complex]) -> complex:
     """A point carried along with the bar, by overlay."""
     turn = unit(to[1] - to[0]) / unit(bar[1] - bar[0])
     return paper.hand.point(to[0] + (at - bar[0]) * turn)
 
 
 def _circle_centre(
-    paper: DesignPaper, name: str, of: str, points: list[complex], pivot: bool = False,
+    paper: DesignSheet, name: str, of: str, points: list[complex], pivot: bool = False,
     numbered: tuple[int, ...] = (1, 2, 3),
 ) -> complex:
     """The centre of the circle through three points: where the perpendicular bisectors of two chords meet."""
@@ -432,17 +413,16 @@ def _circle_centre(
     return at
 
 
-def _chain(paper: DesignPaper, chain: tuple[tuple[str, complex], ...], close: str) -> None:
+def _chain(paper: DesignSheet, chain: tuple[tuple[str, complex], ...], close: str) -> None:
     """The four bars of a linkage measured, drawn as it stands."""
     (a, A), (b, B), (c, C), (d, D) = chain
     bars = [DesignLine(A, B, "mechanism"), DesignLine(B, C, "mechanism"), DesignLine(C, D, "mechanism")]
-    told = [_length_line(name, paper.measure(name, p, q))
-            for name, p, q in ((a + b, A, B), (b + c, B, C), (close, C, D), (a + d, A, D))]  # fmt: skip
+    told = paper.measure((a + b, A, B), (b + c, B, C), (close, C, D), (a + d, A, D))
     paper.do("design measured", (",  ".join(told),), *bars)
 
 
 @draw.register
-def _(task: FunctionTask, paper: DesignPaper) -> None:
+def _(task: FunctionTask, paper: DesignSheet) -> None:
     """Two trial cranks, each with the rockers that two pairs of pairs ask for; between the reciprocals of crank and
     rocker each relation is a straight line (Freudenstein's equation is linear in them)."""
     frame = paper.mm(task.frame)
@@ -452,7 +432,7 @@ def _(task: FunctionTask, paper: DesignPaper) -> None:
     psi = [paper.hand.angle(direction(pair[1])) for pair in task.pairs]
     rays = [DesignLine(A, A + 0.6 * frame * way, "direction") for way in phi]
     rays += [DesignLine(D, D + 0.6 * frame * way, "direction") for way in psi]
-    paper.do("design pairs", (paper.shown(frame),), DesignLine(A, D, "given"), DesignPoint("A", A, pivot=True),
+    paper.do("design pairs", (_mm(frame),), DesignLine(A, D, "given"), DesignPoint("A", A, pivot=True),
             DesignPoint("D", D, pivot=True), *rays)  # fmt: skip
     trials = [_trials(paper, A, D, frame, phi, psi, other) for other in (1, 2)]
     # one unit of the diagram, so that what was tried fits beside the mechanism
@@ -467,13 +447,11 @@ def _(task: FunctionTask, paper: DesignPaper) -> None:
     for a, b in ((p, q), (r, s)):
         along = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
         strokes.append(DesignLine(corner + along[0], corner + along[-1], "construction"))
-    paper.do("design reciprocals", (paper.shown(one),), *axes, *strokes, DesignPoint("Q", corner + crossing))
+    paper.do("design reciprocals", (_mm(one),), *axes, *strokes, DesignPoint("Q", corner + crossing))
     across = paper.hand.read(abs(crossing.real)) * math.copysign(1.0, crossing.real)
     upward = paper.hand.read(abs(crossing.imag)) * math.copysign(1.0, crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * one:
-        raise Unsolvable(
-            "not drawn", Problem("design.pairs", Phrase("they ask for a bar without end"), Phrase("other angles"))
-        )
+        raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
     crank, rocker = frame * one / across, frame * one / upward
     paper.turned += [name for name, mm in (("AB", crank), ("CD", rocker)) if mm < 0]
     B = paper.hand.point(A + paper.hand.length(abs(crank)) * math.copysign(1.0, crank) * phi[0])
@@ -496,7 +474,7 @@ def _reckoned(frame: float, one: float, across: float, upward: float) -> tuple[s
 
 
 def _trials(
-    paper: DesignPaper, A: complex, D: complex, frame: float, phi: list[complex], psi: list[complex], other: int
+    paper: DesignSheet, A: complex, D: complex, frame: float, phi: list[complex], psi: list[complex], other: int
 ) -> tuple[complex, complex]:
     """Two points of a line in the diagram of reciprocals: frame over crank, frame over rocker."""
     back = psi[0] / psi[other]
@@ -516,9 +494,7 @@ def _trials(
         if len(found) == 2:
             break
     if len(found) < 2:
-        raise Unsolvable(
-            "not drawn", Problem("design.pairs", Phrase("no trial crank tells the pairs apart"), Phrase("other pairs"))
-        )
+        raise _not_drawn("design.pairs", "no trial crank tells the pairs apart", "other pairs")
     strokes: list[DesignStroke] = []
     ends = []
     for crank, reciprocal, B, moved, p in found:

@@ -120,7 +120,7 @@ def design_figure(
     ]  # fmt: skip
     spoken = " ".join(as_plain(rich_text(s.phrase, every[0])) + "." for s in sheet.steps)
     found = "; ".join(f"{row.symbol} = {row.measured:.6g} {unit}" for row in rows)
-    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.instrument}
+    facts = {"kind": design.task.kind, "units": {"length": unit, "paper": "mm"}, "instrument": sheet.hand.name}
     return worked_page(
         (design.title_in(each) or design.name for each in every), asked_words(design, language), parts, notes,
         _scale(design, sheet), title="design figure", said=f"{spoken} {found}", language=language,
