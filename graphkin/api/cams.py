@@ -24,8 +24,8 @@ from graphkin.words.written import true_minus
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
-    from graphkin.solver.cams import AtDegree, CamStudy
-    from graphkin.solver.discs import DiscCam
+    from graphkin.solver.cams import AtDegree, CamAt, CamStudy
+    from graphkin.solver.discs import DiscCam, DiscCourse
     from graphkin.table import Array, Table
 
 __all__ = ["CamMade", "Cams", "cam", "cam_made", "cam_table"]
@@ -214,27 +214,23 @@ def cam_table(scene: Mechanism, step: float = STEP, discs: Sequence[DiscCam] = (
     metres = scene.units.metres
     count = max(1, round(360.0 / step))
     degree = np.arange(count) * (360.0 / count)
-    none = np.full(count, complex(np.nan, np.nan))
-    parts: list[tuple[list[str], list[Array]]] = []
-    for one in scene.cams:
-        # a degree is a rotation of the law, whatever way the cam turns
-        at = cam_at(one, np.radians(degree))
-        per = math.radians(1.0) if isinstance(one.motion, SwingingFollower) else metres
-        pitch = none if one.flat else at.pitch / metres
-        profile = at.profile / metres
-        columns = [degree, at.lift / per, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(at.pressure)]
-        parts.append(([one.link] * count, columns))
-    for disc in discs:
-        course = disc_course(structure_of(scene), disc, np.radians(degree))
-        lift = course.lift / (math.radians(1.0) if disc.swings else metres)
-        pitch = none if course.pitch is None else course.pitch / metres
-        profile = course.profile / metres
-        pressure = np.degrees(course.pressure)
-        columns = [degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, pressure]
-        parts.append(([disc.link] * count, columns))
+    # a degree is a rotation of the law, whatever way the cam turns
+    found: list[tuple[str, bool, bool, CamAt | DiscCourse]] = [
+        (one.link, isinstance(one.motion, SwingingFollower), one.flat, cam_at(one, np.radians(degree)))
+        for one in scene.cams
+    ]
+    found += [
+        (disc.link, disc.swings, disc.pitch is None, disc_course(structure_of(scene), disc, np.radians(degree)))
+        for disc in discs
+    ]
+    parts: list[list[Array]] = []
+    for _, swings, flat, at in found:
+        pitch = np.full(count, complex(np.nan, np.nan)) if flat or at.pitch is None else at.pitch / metres
+        lift, profile = at.lift / (math.radians(1.0) if swings else metres), at.profile / metres
+        parts.append([degree, lift, pitch.real, pitch.imag, profile.real, profile.imag, np.degrees(at.pressure)])
     names = ("angle_deg", "lift", "pitch_x", "pitch_y", "profile_x", "profile_y", "pressure_deg")
-    joined = [np.concatenate([columns[k] for _, columns in parts]) for k in range(len(names))]
-    links = [link for own, _ in parts for link in own]
+    joined = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    links = [link for link, *_ in found for _ in range(count)]
     return Table((text_column("cam", links), *(Column(n, v) for n, v in zip(names, joined, strict=True))))
 
 

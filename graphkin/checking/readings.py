@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import travel
-from graphkin.construction.sheet import MOST_LOST, Sheet, either_way
+from graphkin.construction.sheet import MOST_LOST, Reading, Sheet, either_way
 from graphkin.construction.steps import DiagramName, Vector
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.symbol import PointRef, Symbol, centre_links
@@ -26,21 +26,6 @@ __all__ = ["Reading", "read_off"]
 Place = Callable[[str], complex | None]
 Measured = tuple[float | None, float]
 """A length in mm on paper (None for an angle or a number) and the value (m, rad)."""
-
-
-@dataclass(frozen=True)
-class Reading:
-    """One quantity measured on the drawing.
-
-    ``on_paper`` is the length on paper (mm) it comes from, None for an angle read with the protractor; ``value`` a
-    complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
-    ``diagram`` is the one it was read from.
-    """
-
-    symbol: Symbol
-    on_paper: float | None
-    value: complex | float
-    diagram: DiagramName
 
 
 def read_off(
@@ -73,7 +58,7 @@ def read_off(
         from graphkin.construction.forces import force_readings, readings_of
 
         told = force_readings(sheet, instrument) if forces is None else readings_of(sheet, forces, instrument)
-        found |= {r.symbol: Reading(r.symbol, r.mm, r.value, r.diagram) for r in told}
+        found |= {reading.symbol: reading for reading in told}
         for symbol in (*sheet.asked, *asked):
             same = _as_drawn(symbol, found)
             if same is not None and symbol not in found:

@@ -43,8 +43,8 @@ if TYPE_CHECKING:
     from graphkin.construction.trains import TrainPlan
 
 __all__ = [
-    "MOST_LOST", "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Remark", "Sheet", "either_way",
-    "without_residues",
+    "MOST_LOST", "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Reading", "Remark", "Sheet",
+    "either_way", "without_residues",
 ]  # fmt: skip
 
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
@@ -147,6 +147,21 @@ class Rate:
         """The same rate read off larger figures; one that was read off a velocity plan stays."""
         off_plan = self.mm and not self.arm_mm
         return self if off_plan else replace(self, mm=self.mm * vector_times, arm_mm=self.arm_mm * arm_times)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One quantity read off a drawing.
+
+    ``on_paper`` is the length on paper (mm) it comes from, None for an angle read with the protractor; ``value`` a
+    complex number (m/s, m/s2) for a vector, a float (rad/s, rad/s2, counter-clockwise positive; m, rad) for others.
+    ``diagram`` is the one it was read from.
+    """
+
+    symbol: Symbol
+    on_paper: float | None
+    value: complex | float
+    diagram: DiagramName
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -159,8 +160,11 @@ def test_the_lines_of_every_centre_in_the_figure_are_named_there_or_in_a_picture
 
 def test_a_picture_of_one_centre_has_its_two_lines_through_the_centres_that_are_known() -> None:
     found = graphkin.centres("single-flier")
+    crowded = found.centres.at(replace(found.centres.sheet.scales, length=5e-3))
+    pages = centres_figure(crowded, found.turning).further
+    assert 2 <= len(pages)
     small: dict[int, list[Line]] = {}
-    for page in found.figure.further:
+    for page in pages:
         for group in (g for g in walk(page.children) if isinstance(g, Group) and g.id.startswith("centre-lines-")):
             small[int(group.id.removeprefix("centre-lines-"))] = [t for t in group.children if isinstance(t, Line)]
     numbers = {c.number: c for c in found.centres.found if c.lines}
@@ -175,7 +179,7 @@ def test_a_picture_of_one_centre_has_its_two_lines_through_the_centres_that_are_
 
 def test_the_pages_of_single_centres_are_files_beside_the_figure(tmp_path: Path) -> None:
     written = {path.name for path in graphkin.centres("single-flier").write(tmp_path, ("svg", "pdf"))}
-    assert {"centres.svg", "centres-2.svg", "centres-3.svg", "centres.pdf", "centres.csv"} <= written
+    assert {"centres.svg", "centres-2.svg", "centres.pdf", "centres.csv"} <= written
     assert "centres-2.pdf" not in written
 
 

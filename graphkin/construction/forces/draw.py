@@ -16,7 +16,7 @@ and machines, ch. 13).  A couple is a pair of forces square to a bar, at the end
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from graphkin.construction.forces.force_sheet import ForceSheet, ForceState, ForceVector, Lever, MomentTerm
 from graphkin.construction.forces.groups import NORMAL, TANGENT, CutFree, at_driver, of_dyad, of_larger_group
@@ -25,8 +25,7 @@ from graphkin.construction.forces.known import from_outside, inertias
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import DiagramName
+from graphkin.construction.sheet import Reading, Sheet
 from graphkin.construction.touching import Touching
 from graphkin.plane import added_up, cross, unit
 from graphkin.scene.bodies import PinInSlot
@@ -34,7 +33,7 @@ from graphkin.scene.model import PlacedGuide
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, Dyad, analyse
 
-__all__ = ["ROOM", "ForceReading", "force_readings", "force_scale", "forces_on", "readings_of"]
+__all__ = ["ROOM", "force_readings", "force_scale", "forces_on", "readings_of"]
 
 ROOM = (98.0, 84.0)
 """Width and height (mm) that the largest force polygon fills at most, where the scene wishes for no scale."""
@@ -224,28 +223,17 @@ def _arm(end: complex, force: complex, hand: Instrument) -> float:
 # -- what is read off --------------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class ForceReading:
-    """A quantity with its length on paper (mm; None where it is the result of a moment equation) and its value (N, N m,
-    m, m/s)."""
-
-    symbol: Symbol
-    mm: float | None
-    value: complex | float
-    diagram: DiagramName
-
-
-def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[ForceReading, ...]:
+def force_readings(sheet: Sheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:
     """Draw the forces of a sheet with an instrument and read them off.  Raises Unsolvable as `forces_on`."""
     return readings_of(sheet, forces_on(sheet, hand), hand)
 
 
-def readings_of(sheet: Sheet, forces: ForceSheet, hand: Instrument = EXACT) -> tuple[ForceReading, ...]:
+def readings_of(sheet: Sheet, forces: ForceSheet, hand: Instrument = EXACT) -> tuple[Reading, ...]:
     """What is read off forces that are drawn; with ``+`` what a load changes that begins or ends exactly there."""
     return (*_of_states(forces, hand), *_shifts(sheet, forces), *_arms(forces))
 
 
-def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[ForceReading]:
+def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[Reading]:
     base, *_ = forces.states
     for state in forces.states:
         most = max((abs(m) for m in state.moments.values()), default=0.0)
@@ -257,21 +245,21 @@ def _of_states(forces: ForceSheet, hand: Instrument) -> Iterator[ForceReading]:
                     continue
                 size = abs(value)
                 if not symbol.is_vector or size == 0.0:
-                    yield ForceReading(named, 0.0 if symbol.is_vector else None, value, "force")
+                    yield Reading(named, 0.0 if symbol.is_vector else None, value, "force")
                     continue
                 length = abs(hand.read(size))
                 along = hand.read_direction(value / size) if hand is not EXACT else value / size
-                yield ForceReading(named, length, length * along * forces.per_mm, "force")
+                yield Reading(named, length, length * along * forces.per_mm, "force")
 
 
-def _shifts(sheet: Sheet, forces: ForceSheet) -> Iterator[ForceReading]:
+def _shifts(sheet: Sheet, forces: ForceSheet) -> Iterator[Reading]:
     """The shifts of inertia forces that have a couple."""
     for link, one in forces.inertias.items():
         if one.h is not None and one.inertia and abs(one.force) > NOUGHT * forces.largest * forces.per_mm:
-            yield ForceReading(Symbol("h", link=link), abs(one.h) / sheet.scales.length, one.h, "mechanism")
+            yield Reading(Symbol("h", link=link), abs(one.h) / sheet.scales.length, one.h, "mechanism")
 
 
-def _arms(forces: ForceSheet) -> Iterator[ForceReading]:
+def _arms(forces: ForceSheet) -> Iterator[Reading]:
     """The arms of all forces on the lever of one driver, in the state in which they act."""
     if any(len(state.levers) != 1 for state in forces.states):
         return
@@ -284,4 +272,4 @@ def _arms(forces: ForceSheet) -> Iterator[ForceReading]:
             if forceful and symbol not in seen:
                 seen.add(symbol)
                 arm = row.moment if sought else row.arm or 0.0  # what balances may act between two moving links
-                yield ForceReading(symbol, abs(arm), arm * lever.per_mm, "velocity")
+                yield Reading(symbol, abs(arm), arm * lever.per_mm, "velocity")
