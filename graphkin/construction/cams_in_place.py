@@ -9,12 +9,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.follow import Choices
-from graphkin.construction.links_on_paper import PlacedLinks
+from graphkin.construction.links_on_paper import PlacedLinks, travel
 from graphkin.construction.position import assembly_at, own_position, place
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
-from graphkin.plane import dot
-from graphkin.scene.cams import LawCam, SwingingFollower
+from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
 from graphkin.structure import Structure, analyse, part_of
@@ -47,7 +46,9 @@ def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool 
     seen: Mapping[str, complex] = {}
     for k in range(count):
         at = {d.key: a + (b - a) * k / count for d, a, b in zip(scene.drivers, first, way, strict=True)}
-        seen = _places(analyse(_replaced(scene, at, seen)), at)
+        structure = analyse(_replaced(scene, at, seen))
+        paper, links = _placed(structure, at), structure.scene.links
+        seen = {p: paper.point(link.name, p) / paper.mm for link in links for p in link.points}
     return analyse(_replaced(scene, values, seen, bars))
 
 
@@ -61,22 +62,16 @@ def _replaced(
         if driver is not None and driver.turns_about(scene.frame.name):
             turns[cam.link] = values[driver.key]
         else:
-            turns[cam.link] = _drawn_turn(scene, cam, values, seen)
+            part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
+            behind = analyse(_replaced(part, values, seen)) if part.cams else analyse(part)  # cams that move this one
+            paper = _placed(behind, values) if part.cams else _moved_to(behind, values)
+            turns[cam.link] = cmath.phase(paper.poses[cam.link].axis)
     return replace(cams_replaced(scene, turns, values, seen, bars), starts=_rolled(scene, values))
-
-
-def _drawn_turn(scene: Mechanism, cam: LawCam, values: Mapping[str, float], seen: Mapping[str, complex]) -> float:
-    """The angle of a cam that other links turn."""
-    part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
-    behind = bool(part.cams)
-    paper = _placed(analyse(_replaced(part, values, seen)), values) if behind else _moved_to(analyse(part), values)
-    return cmath.phase(paper.poses[cam.link].axis)
 
 
 def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
     """A mechanism without cams, moved from its own position to driver values, on paper of its size."""
-    drivers = structure.scene.drivers
-    kept = {d.key: values[d.key] for d in drivers}
+    kept = {d.key: values[d.key] for d in structure.scene.drivers}
     branches = assembly_at(structure, structure.elements, kept)[0]
     return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
 
@@ -90,26 +85,17 @@ def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     part = part_of(analyse(scene), [Symbol("theta", link=name) for name in sorted(names)])
     if part.cams:
         return dict(scene.starts)
-    paper = _moved_to(analyse(part), values)
+    structure = analyse(part)
+    paper = _moved_to(structure, values)
     found = {name: cmath.phase(paper.poses[name].axis) for name in names if name in paper.poses}
-    for pair in part.slidings:
-        guide = part.by_name[pair.on].guides[pair.guide]
-        line = paper.poses[pair.on]
-        start = line.origin + line.axis * guide.through * paper.mm
-        found[pair.key] = dot(paper.poses[pair.link].origin - start, line.axis * guide.direction) / paper.mm
-    return {**scene.starts, **found}
+    travels = {p.key: travel(structure.slide(p.key), paper.poses, paper.mm) / paper.mm for p in part.slidings}
+    return {**scene.starts, **found, **travels}
 
 
 def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
     """A mechanism at driver values that are its own, on paper of its size."""
     kept = {d.key: values[d.key] for d in structure.scene.drivers}
     return own_position(Choices(structure, structure.elements), structure.elements, kept)
-
-
-def _places(structure: Structure, values: Mapping[str, float]) -> dict[str, complex]:
-    """Where the points of moving links lie (m)."""
-    paper = _placed(structure, values)
-    return {p: paper.point(link.name, p) / paper.mm for link in structure.scene.links for p in link.points}
 
 
 def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:

@@ -36,6 +36,7 @@ from graphkin.construction.steps import (
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
+from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = [
     "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
@@ -111,30 +112,23 @@ def spread(plot: Polygons, order: Order, start: str, group: Dyad | LargerGroup) 
             for known, new, more in ((a, b, add), (b, a, -add)):
                 if known == at and new not in plot.rates[order]:
                     share_rate(plot, order, at, new, more)
-                    told = _told_apart(plot, order, a, b) if a in plot.seen else add != 0.0
+                    told = add != 0.0
+                    if a in plot.seen:  # not where it just turns as a third does
+                        seen = plot.seen[a].rates[order]
+                        as_third = b in seen and seen[b].same_as and seen[seen[b].same_as].value == seen[b].value
+                        told = b in seen and not as_third
                     if isinstance(group, LargerGroup) and at != plot.ground and told:
                         value = plot.rates[order][at].value
                         plot.do(Step("read", "sum of rates", order, kind=RATE[order], link=new, links=(at, b),
-                                           value=value, other=add))  # fmt: skip
+                                     value=value, other=add))  # fmt: skip
                     queue.append(new)
-
-
-def _told_apart(plot: Polygons, order: Order, one: str, other: str) -> bool:
-    """Whether it is told how a link turns as seen from another: it does not just turn as a third does."""
-    rates = plot.seen[one].rates[order]
-    if other not in rates:
-        return False
-    return not rates[other].same_as or rates[rates[other].same_as].value != rates[other].value
 
 
 def first_ends(plot: Polygons, name: str, hinge: str) -> list[PointRef]:
     """With which points of a driven link a drawing begins: one of its own, else those under what slides on it."""
     own = [PointRef(p) for p in plot.links[name].points if p != hinge]
-    under = [
-        node(plot.links, s.pin, name)
-        for s in plot.structure.slides
-        if s.pin in plot.places and s.b == name and "/" not in name
-    ]
+    slides = [s for s in plot.structure.slides if s.b == name and "/" not in name]
+    under = [node(plot.links, s.pin, name) for s in slides if s.pin in plot.places]
     away = [n for n in (*own, *under) if abs(plot.places[n.point] - plot.places[hinge]) > plot.tiny]
     first = away[:1] if any(n in own for n in away) else away
     return list(dict.fromkeys(first))
@@ -175,9 +169,7 @@ def _write(plot: Polygons, order: Order, element: Element, *sides: tuple[Term, .
     return number
 
 
-def draw_equation(
-    plot: Polygons, order: Order, element: Element, equation: VectorChain
-) -> None:
+def draw_equation(plot: Polygons, order: Order, element: Element, equation: VectorChain) -> None:
     """Write a vector equation with no, one or two unknown sizes, draw it, and measure the rates that follow.
 
     An equation that says no more of a vector than that it is itself is not written.
@@ -202,8 +194,10 @@ def draw_equation(
         _close(plot, order, end, sides[0], number)
     for side in sides:
         if len(_open(side)) == 1:  # of several along one line only the sum is known
-            for edge, _ in side:
-                _measure(plot, order, edge, element)
+            for edge in (edge for edge, _ in side if edge.link and edge.unknown):
+                if edge.link not in plot.rates[order]:
+                    symbol = symbol_of(plot, "v" if order == "velocity" else "at", edge)
+                    _rate(plot, order, edge, symbol, plot.drawn[order][symbol].span, element)
 
 
 def _close(plot: Polygons, order: Order, end: PointRef, side: Side, equation: int | None) -> None:
@@ -271,8 +265,7 @@ def _lines_meet(
     meeting = plot.slip.found(symbol, tail, plot.board.cross(order, p, left, q, right, str(symbol)))
     for through, part in lines:
         ray = Ray(through, part.along, meeting, part.written, part.symbol)
-        step = Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.written)
-        plot.do(step)
+        plot.do(Step("line", "direction", order, (ray,), equation, symbol=part.symbol, direction=part.written))
     return meeting
 
 
@@ -349,22 +342,15 @@ def _fill(plot: Polygons, order: Order, side: Side, tip: complex, tail: complex,
             plot.reach(order, edge.end, at, equation)
 
 
-def _measure(plot: Polygons, order: Order, edge: Edge, group: Element) -> None:
-    """The angular rate of a link from the vector just found between two points of it."""
-    if not edge.link or not edge.unknown or edge.link in plot.rates[order]:
-        return
-    symbol = symbol_of(plot, "v" if order == "velocity" else "at", edge)
-    _rate(plot, order, edge, symbol, plot.drawn[order][symbol].span, group)
-
-
 def _rate(plot: Polygons, order: Order, edge: Edge, symbol: Symbol, span: complex, group: Element) -> None:
     """The angular rate of a link, measured from a vector between two points of it and the bar that joins these."""
     arm = plot.places[edge.end.point] - plot.places[edge.start.point]
     # in a trial the ends need not meet: only the part square to the bar turns it
     mm = abs(cross(arm, span) / abs(arm) if plot.trial else span)
-    size, read = plot.rate_of(order, symbol, mm, arm, edge.bar)
+    hand, rate = plot.board.instrument, RATE[order]
+    read = abs(hand.read(mm) if plot.trial else plot.board.read(symbol, mm))
+    size = hand.noted(read * plot.per[order] / plot.length(arm, edge.bar), min(MOST - 1, figures(on_paper(read))))
     value = size if cross(arm, span) >= 0 else -size
-    rate = RATE[order]
     own = plot.slip.rate(Symbol(rate, link=edge.link), value)
     if own is not None:
         plot.believed.add((order, edge.link))

@@ -28,7 +28,6 @@ from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Dyad, LargerGroup, Pair, Structure
 from graphkin.words import Phrase
-from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = ["NO_SLIP", "PARTS", "RATE", "Component", "Polygons", "Slip", "draw_asked", "letter"]
 
@@ -210,9 +209,10 @@ class Polygons:
         ------
         Unsolvable : "not drawn": the two lie so near to each other that the instrument reads nothing
         """
-        given = self._given_arm(*between)
-        if given is not None:
-            return abs(given)
+        start, end = between
+        for link in self.links.values() if self.special.isdisjoint(between) else ():  # special points are drawn
+            if start in link.points and end in link.points and link.points[start] != link.points[end]:
+                return abs(link.points[end] - link.points[start])
         pushed = pushed_by_driver(self.structure, self.paper.values, between)
         if pushed is not None:
             return pushed[1]
@@ -231,25 +231,6 @@ class Polygons:
         if symbol.of is not None and symbol.to is not None and self.fixed(symbol.of):
             symbol = self.symbol(symbol.kind, symbol.to)
         return self.board.read(symbol, abs(slip))
-
-    def rate_of(
-        self, order: Order, symbol: Symbol, mm: float, arm: complex, between: tuple[str, str]
-    ) -> tuple[float, float]:
-        """The size of a rate (rad/s, rad/s2), by the length of a vector on paper and the bar it belongs to, and that
-        length as read (mm)."""
-        read = abs(self.board.instrument.read(mm) if self.trial else self.board.read(symbol, mm))
-        value = read * self.per[order] / self.length(arm, between)
-        return self.board.instrument.noted(value, min(MOST - 1, figures(on_paper(read)))), read
-
-    def _given_arm(self, start: str, end: str) -> complex | None:
-        """From one point to another of the same link, in its own axes (m); None where no link has both, they are one
-        point, or one is a special point, which has been drawn."""
-        if self.special & {start, end}:
-            return None
-        for link in self.links.values():
-            if start in link.points and end in link.points and link.points[start] != link.points[end]:
-                return link.points[end] - link.points[start]
-        return None
 
     def end(self, order: Order, ref: PointRef) -> complex:
         """The end point of a node, found by image if it does not stand there yet; the pole for a fixed point."""
