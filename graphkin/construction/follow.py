@@ -50,9 +50,9 @@ class Choices:
     def at_start(self) -> Choices:
         """Of the mechanism at the scene's own position, where what rolls and moves each other stands as it is given;
         these themselves where there is nothing of it."""
-        there = started(self.structure)
-        if there is self.structure:
+        if not any(group.starts for group in self.structure.larger_groups):
             return self
+        there = started(self.structure)
         wanted = {n for element in self.elements for n in element.members}
         return Choices(there, [e for e in there.elements if wanted.intersection(e.members)])
 

@@ -169,10 +169,14 @@ class _Search:
                     -self._strange((e,)), self.net.fixed(e.start), self.net.known(e.start),
                     abs(places[e.end.point] - places[e.start.point]), e.forward,
                 ))  # fmt: skip
-                self.moves.append(VectorChain.closing(self.seen(best)))
-                self.learn((best,))
-                return True
+                return self.drawn(VectorChain.closing(self.seen(best)), (best,))
         return False
+
+    def drawn(self, move: Move, path: Path) -> bool:
+        """Take one more move, after which a path is known."""
+        self.moves.append(move)
+        self.learn(path)
+        return True
 
     def way(self, edge: Edge) -> complex:
         """Direction of the relative motion of an edge."""
@@ -181,57 +185,46 @@ class _Search:
     def reach(self) -> bool:
         """A way from a known point with nothing unknown to a link of which no point is known; or one with one unknown
         between two known points."""
-        for start in sorted(self.nodes, key=self.net.order.__getitem__):
-            for path in self.ways(start, 1, lambda n: n in self.nodes):
-                fresh = {e.end for e in path} - self.nodes
-                if fresh and len(path) > 1:
-                    self.moves.append(VectorChain.closing(*path))
-                    self.learn(path)
-                    return True
+        for start in self.in_order():
+            for path in self.ways(start, 1, self.nodes.__contains__):
+                if len(path) > 1 and not self.nodes.issuperset(e.end for e in path):
+                    return self.drawn(VectorChain.closing(*path), path)
             for path in self.ways(start, 0, lambda n: n not in self.nodes):
-                link = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
-                if all(not self.nodes.intersection(self.of(name)) for name in link):
-                    self.moves.append(VectorChain.closing(*path))
-                    self.learn(path)
-                    return True
+                links = [name for name in self.net.owners[path[-1].end] if name in self.net.inside]
+                if all(self.nodes.isdisjoint(self.of(name)) for name in links):
+                    return self.drawn(VectorChain.closing(*path), path)
         return False
+
+    def in_order(self) -> list[PointRef]:
+        """The known points."""
+        return sorted(self.nodes, key=self.net.order.__getitem__)
 
     def cross(self) -> bool:
         """The best equation with two unknown sizes."""
         best: tuple[tuple[float, ...], Path] | None = None
-        for start in sorted(self.nodes, key=self.net.order.__getitem__):
-            for path in self.ways(start, 2, lambda n: n in self.nodes):
-                two = [e for e in path if e.unknown]
-                if len(two) != 2:
-                    continue
-                sine = abs(cross(self.way(two[0]), self.way(two[1])))
-                if sine < FLAT:
-                    continue
-                cost = (float(sine < 0.05), len(path) + 0.6 * self._strange(path) - sine,
-                        float(self.net.order[path[0].start]))  # fmt: skip
-                if best is None or cost < best[0]:
-                    best = cost, path
+        for path in (path for start in self.in_order() for path in self.ways(start, 2, self.nodes.__contains__)):
+            two = [e for e in path if e.unknown]
+            sine = abs(cross(self.way(two[0]), self.way(two[1]))) if len(two) == 2 else 0.0
+            cost = (float(sine < 0.05), len(path) + 0.6 * self._strange(path) - sine,
+                    float(self.net.order[path[0].start]))  # fmt: skip
+            if sine >= FLAT and (best is None or cost < best[0]):
+                best = cost, path
         if best is None:
             return False
         path = best[1]
-        second = [i for i, e in enumerate(path) if e.unknown][1]
-        self.moves.append(split(path, second))
-        self.learn(path)
-        return True
+        return self.drawn(split(path, [i for i, e in enumerate(path) if e.unknown][1]), path)
 
     def legs(self, link: str) -> list[Path]:
         """Ways from known points to a link, each with one unknown that is not the link's own rate."""
-        own = self.net.turning(link)
-        mine = set(self.of(link))
+        own, mine = self.net.turning(link), set(self.of(link))
         best: dict[Unknown, Path] = {}
-        for start in sorted(self.nodes, key=self.net.order.__getitem__):
-            for path in self.ways(start, 1, lambda n: n in mine):
-                names = [e.unknown for e in path if e.unknown]
-                if len(names) != 1 or names[0] == own:
-                    continue
-                old = best.get(names[0])
-                if old is None or (len(path), self._strange(path)) < (len(old), self._strange(old)):
-                    best[names[0]] = path
+        for path in (path for start in self.in_order() for path in self.ways(start, 1, mine.__contains__)):
+            unknown = next((e.unknown for e in path if e.unknown), None)
+            if unknown is None or unknown == own:
+                continue
+            old = best.get(unknown)
+            if old is None or (len(path), self._strange(path)) < (len(old), self._strange(old)):
+                best[unknown] = path
         return list(best.values())
 
     def special(self, left_out: Collection[tuple[str, str]]) -> bool:

@@ -94,17 +94,15 @@ class Task:
         placed = {n for e in self.elements for n in e.members}
         pushed = {n for e in self.drawn["acceleration"] for n in e.members}
         gone = {n for e in self.opened.elements if e not in wanted for n in e.members}
+        without = {"left out elements": gone, "left out accelerations": placed - pushed}
         names = [link.name for link in self.structure.scene.links]
-        without = [n for n in names if n in gone], [n for n in names if n in placed - pushed]
-        keys = "left out elements", "left out accelerations"
-        return tuple(Phrase(key, (", ".join(links),)) for key, links in zip(keys, without, strict=True) if links)
+        told = {key: ", ".join(name for name in names if name in links) for key, links in without.items()}
+        return tuple(Phrase(key, (links,)) for key, links in told.items() if links)
 
     @property
     def in_order(self) -> Iterator[tuple[Order, Element]]:
         """What is drawn in the polygons, element by element."""
-        for order in ORDERS:
-            for element in self.drawn[order]:
-                yield order, element
+        return ((order, element) for order in ORDERS for element in self.drawn[order])
 
 
 # -- carried out on a board --------------------------------------------------------------------------------------------
@@ -377,17 +375,12 @@ def plan(
         triangles = tuple(v.followed(own, values) for v in taken)
         values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
     elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys() and not scene.instead_of:
-        start = _known(near)
+        size = near.scales.length / near.scene.size
+        start = near.drivers, {name: pose.scaled(size) for name, pose in near.poses.items()}
     here = {d.key: values[d.key] for d in opened.scene.drivers}
     branches, trials, rolled = assembly_at(opened, elements, here, start)
     values |= rolled
     return _planned(Task(structure, opened, asked, elements, values, branches, trials, triangles), room)
-
-
-def _known(sheet: Sheet) -> Known:
-    """A sheet as a position to start from."""
-    size = sheet.scales.length / sheet.scene.size
-    return sheet.drivers, {name: pose.scaled(size) for name, pose in sheet.poses.items()}
 
 
 def _planned(task: Task, room: Room | None) -> Plan:

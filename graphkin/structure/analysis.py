@@ -359,13 +359,8 @@ def _dyad(structure: Structure, bodies: list[Body], pairs: list[Pair], links: tu
     rank = _ranks(structure)
     own_one, own_two = (next(rank(n) for n in pair.links if n in body.links)
                         for pair, body in ((outer_first, one), (outer_second, two)))  # fmt: skip
-    swap = {
-        "as found": False,
-        "the other": True,
-        "as written": own_two < own_one,
-        "what slides": middle.a in two.links,
-    }[begins]
-    if swap:
+    if begins == "the other" or (begins == "as written" and own_two < own_one) or (
+            begins == "what slides" and middle.a in two.links):
         one, two, outer_first, outer_second = two, one, outer_second, outer_first
     return Dyad(kind, one, two, middle, outer_first, outer_second, links)
 
@@ -530,12 +525,11 @@ def regrouped(scene: Mechanism, known: Iterable[str], members: Iterable[str]) ->
 
 def _wrong_count(structure: Structure) -> Problem:
     scene, mobility = structure.scene, structure.mobility
-    found = len(scene.drivers)
+    found, names = len(scene.drivers), ", ".join(d.key for d in scene.drivers)
     higher = f" - {mobility.higher}" if mobility.higher else ""
     count = f"F = 3*{mobility.links} - 2*{mobility.lower}{higher} = {mobility.value}"
     wanted: list[Wording] = [Phrase("a mechanism of mobility needs as many drivers", mobility=mobility.value)]
     if found > mobility.value > 0:
-        names = ", ".join(d.key for d in scene.drivers)
         wanted = [Phrase("too many drivers a mechanism of mobility takes", names=names, mobility=mobility.value)]
     idle = [link.name for link in scene.links if link.redundant]
     if idle and mobility.value > found:
@@ -543,13 +537,11 @@ def _wrong_count(structure: Structure) -> Problem:
     if found == 0:
         wanted.append(Phrase("write in the file driver with"))
     if mobility.value <= 0:
-        wanted = [Phrase("it is a structure no driver can move")]
         loop = _sliding_loop(structure)
-        if loop:
-            wanted = [Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop))]
-    drivers = (
-        Phrase("no driver") if found == 0 else Phrase("drivers counted" if found > 1 else "driver counted", count=found)
-    )
+        more = Phrase("gruebler's count fails here links slide on each", loop=", ".join(loop)) if loop else None
+        wanted = [more or Phrase("it is a structure no driver can move")]
+    counted = Phrase("drivers counted" if found > 1 else "driver counted", count=found)
+    drivers = counted if found else Phrase("no driver")
     return Problem(Phrase("status mobility"), Phrase("but given", count=count, drivers=drivers), clauses(wanted))
 
 
@@ -611,13 +603,10 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
             continue
         for point in ends:
             like = _like(point, unused) or _like(point, [p for p in lonely if p not in link.points])
-            wanted = (
-                Phrase("did you mean a point", name=like) if like else Phrase("write the same name in the link that")
-            )
-            if like in unused:
-                wanted = Phrase("did you mean a point of the frame", name=like)
+            meant = Phrase("did you mean a point of the frame" if like in unused else "did you mean a point", name=like)
             hangs: Wording = Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
-            yield Problem(where, Phrase("no other link has its point", point=point, link=hangs), wanted)
+            found = Phrase("no other link has its point", point=point, link=hangs)
+            yield Problem(where, found, meant if like else Phrase("write the same name in the link that"))
         if not ends and len(joints) == 1 and structure.mobility.value > len(scene.drivers):
             found = Phrase("it hangs on alone and turns there freely", joints=joints[0])
             yield Problem(where, found, Phrase("join it to another link too or leave"))
@@ -639,21 +628,11 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     CallError : there is no such link, or it neither turns about the frame nor slides on it
     Unsolvable : so driven it is no mechanism
     """
+    frame, where = scene.frame, Phrase("driver of driver", driver=link)
     known = [one.name for one in scene.links]
-    slide = next((s.key for s in scene.slidings if s.link == link and s.on == scene.frame.name), None)
     if link not in known:
-        raise CallError(
-            Problem(
-                Phrase("driver of driver", driver=link),
-                Phrase("there is no link", name=link),
-                did_you_mean(link, known),
-            )
-        )
-    driver: Driver = Driver(link, scene.frame.name, 0.0, 0.0, 0.0)
-    if slide is not None:
-        driver = Driver(link, scene.frame.name, 0.0, 0.0, 0.0, slide)
-    elif not any(p in scene.frame.points for p in scene.by_name[link].points):
-        raise CallError(
-            Problem(Phrase("driver of driver", driver=link), Phrase("neither turns about the frame nor slides on"))
-        )
-    return analyse(replace(scene, drivers=(driver, *scene.drivers[1:])))
+        raise CallError(Problem(where, Phrase("there is no link", name=link), did_you_mean(link, known)))
+    slide = next((s.key for s in scene.slidings if s.link == link and s.on == frame.name), "")
+    if not slide and not any(p in frame.points for p in scene.by_name[link].points):
+        raise CallError(Problem(where, Phrase("neither turns about the frame nor slides on")))
+    return analyse(replace(scene, drivers=(Driver(link, frame.name, 0.0, 0.0, 0.0, slide), *scene.drivers[1:])))

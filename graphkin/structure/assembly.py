@@ -52,58 +52,37 @@ def pick(
         drawn points lie in no assembly, or a group without a rule has several assemblies and no sketch tells which;
         the message lists them, ready to paste
     """
+    def shown(z: complex) -> str:
+        return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
+
     if scene.drawn:
-        _agree(scene, links, candidates)
+        off = [[(abs(z - scene.drawn[p]), p) for p, z in c.items() if p in scene.drawn] for c in candidates]
+        (miss, point), nearest = min((max(one, default=(0.0, "")), i) for i, one in enumerate(off))
+        if miss > 1e-6 * scene.size:
+            found = Phrase("drawn at but what is given for links", place=shown(scene.drawn[point]),
+                           links=", ".join(links), other=shown(candidates[nearest][point]))  # fmt: skip
+            raise SceneError(Problem(f"drawn.{point}", found, Phrase("what is given twice must agree to 1e-6")))
     if len(candidates) == 1:
         return Choice(0, "only")
-    for by, given in (("drawn", scene.drawn), ("sketch", scene.sketch)):
+    told: tuple[tuple[Literal["drawn", "sketch"], Mapping[str, complex]], ...]
+    told = ("drawn", scene.drawn), ("sketch", scene.sketch)
+    for by, given in told:
         sums = [added_up(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
         best = min(range(len(sums)), key=sums.__getitem__)
         rest = min((s, i) for i, s in enumerate(sums) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
         apart = max((abs(z - candidates[best][p]) for p, z in candidates[rest[1]].items() if p in given), default=0.0)
         if rest[0] - sums[best] > TOLD * scene.size * apart:
-            return Choice(best, "drawn" if by == "drawn" else "sketch")
+            return Choice(best, by)
     if default is None:
-        raise SceneError(_several(scene, links, candidates))
+        places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)
+        rows = "\n".join(f"  sketch = {{ {row} }}" for row in places)
+        raise SceneError(Problem(
+            Phrase("links", links=', '.join(links)),
+            Phrase("this group has assemblies here and no sketch", count=len(candidates)),
+            Phrase("paste one of these at the head of the file", rows=rows),
+        ))  # fmt: skip
     return Choice(default, "rule")
-
-
-def _agree(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> None:
-    def worst(candidate: Mapping[str, complex]) -> tuple[float, str]:
-        return max(((abs(z - scene.drawn[p]), p) for p, z in candidate.items() if p in scene.drawn), default=(0.0, ""))
-
-    nearest = min(candidates, key=lambda c: worst(c)[0])
-    miss, point = worst(nearest)
-    if miss > 1e-6 * scene.size:
-        raise SceneError(
-            Problem(
-                f"drawn.{point}",
-                Phrase(
-                    "drawn at but what is given for links",
-                    place=_place(scene, scene.drawn[point]),
-                    links=", ".join(links),
-                    other=_place(scene, nearest[point]),
-                ),
-                Phrase("what is given twice must agree to 1e-6"),
-            )
-        )
-
-
-def _several(scene: Mechanism, links: Sequence[str], candidates: Sequence[Mapping[str, complex]]) -> Problem:
-    rows = []
-    for candidate in candidates:
-        places = ", ".join(f"{p} = {_place(scene, z)}" for p, z in candidate.items())
-        rows.append(f"  sketch = {{ {places} }}")
-    return Problem(
-        Phrase("links", links=', '.join(links)),
-        Phrase("this group has assemblies here and no sketch", count=len(candidates)),
-        Phrase("paste one of these at the head of the file", rows="\n".join(rows)),
-    )
-
-
-def _place(scene: Mechanism, z: complex) -> str:
-    return f"[{z.real / scene.units.metres:.7g}, {z.imag / scene.units.metres:.7g}]"
 
 
 MOST_TURNS = 4
@@ -123,11 +102,8 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
     key = scene.drivers[0].key
     ends = sorted({f(limit[key] for limit in limits) for f in (min, max)})
     asked = listed([Phrase("driver at value", driver=k, value=shown(k, v)) for k, v in values.items()])
-    reach = (
-        shown(key, ends[0])
-        if len(ends) == 1
-        else Phrase("one and other", first=shown(key, ends[0]), second=shown(key, ends[1]))
-    )
+    named = [shown(key, end) for end in ends]
+    reach = named[0] if len(ends) == 1 else Phrase("one and other", first=named[0], second=named[1])
     range_ = Phrase("driver moves between" if len(ends) > 1 else "driver moves up to", driver=key, reach=reach)
     return Problem(Phrase("driver of driver", driver=asked), Phrase("the motion does not reach it"), range_)
 

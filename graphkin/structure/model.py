@@ -354,14 +354,11 @@ class Structure:
 
     def followed(self, values: Mapping[str, float]) -> dict[str, float]:
         """Driver values by key (rad, m), with those of what follows them."""
-        if not self.followers:
-            return dict(values)
-        own = self.scene.drivers
-        moved = [values.get(d.key, d.values[0]) - d.values[0] for d in own]
-        return {**values, **{
-            f.key: f.values[0] + added_up(r * way for r, way in zip(f.ratios, moved, strict=True))
-            for f in self.followers
-        }}  # fmt: skip
+        drivers = self.scene.drivers
+        moved = [values.get(d.key, d.values[0]) - d.values[0] for d in drivers]
+        followed = {f.key: f.values[0] + added_up(r * way for r, way in zip(f.ratios, moved, strict=True))
+                    for f in self.followers}  # fmt: skip
+        return {**values, **followed}
 
     @cached_property
     def led_by(self) -> tuple[frozenset[int], ...]:
