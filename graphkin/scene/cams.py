@@ -1,4 +1,4 @@
-"""Cams by the law of their follower, as a scene file has them and as they are, in SI units.
+"""Cams by the law of their follower, in SI units, and how they are read from a file.
 
 A sliding follower's first point stands beyond the foot of the axis on its line by the root of base radius and offset
 plus the lift (a flat face: by base radius plus lift); a swinging one's bar turns by the lift from where its roller's

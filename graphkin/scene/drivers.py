@@ -1,5 +1,5 @@
-"""What drives a mechanism, as a scene file has it: an angle or a travel, its rates, or the law by which it moves over
-the time; and how a mechanism stands at a moment of such laws.
+"""What drives a mechanism, read from its file: an angle or a travel, its rates, or the law by which it moves over the
+time; and how a mechanism stands at a moment of such laws.
 
 With ``from = "dead point"`` a driver's angle or travel is the distance from a dead point of the mechanism, given
 without loss however small it is: positive beyond a dead point at which the motion begins (as the driver's value grows),

@@ -1,5 +1,5 @@
 """Laws of motion, piece by piece, with their derivatives: the lift of a cam's follower over the angle of the cam, and
-the value of a driver over the time; as a scene file has them, and as functions, in SI units.
+the value of a driver over the time; as functions in SI units, and as they are read from a file.
 """
 
 from __future__ import annotations

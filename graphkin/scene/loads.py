@@ -1,5 +1,4 @@
-"""What a mechanism weighs and carries: masses, loads, springs, gravity, balance and flywheel, as a scene file has them
-and as they act, in SI units.
+"""What a mechanism weighs and carries, read from its file: masses, loads, springs, gravity, balance and flywheel.
 
 In a file forces are in its force unit, moments in it times metre, masses in its mass unit, angles in degrees.
 """

@@ -18,8 +18,8 @@ from typing import Any, Literal
 from graphkin.scene.bodies import CircularSlot, PinInSlot, SlidingPair
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import MotionLaw
+from graphkin.scene.pictures import PlacedBackground, PlacedScan
 from graphkin.scene.scene_tables import Flywheel, Positions, SheetWishes, Vary
-from graphkin.scene.sheet import PlacedBackground, PlacedScan
 from graphkin.scene.symbol import Printed, Symbol
 from graphkin.scene.tables import FileTable, Measure, Unit, Units
 

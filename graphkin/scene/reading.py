@@ -1,5 +1,5 @@
-"""The whole scene file: its tables, the mechanism that they say or all that is wrong, and the tables that say a
-mechanism.
+"""The reading of a scene file: the mechanism that its tables say, or all that is wrong with them; and the file that says
+a mechanism again.
 
 Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
 """
@@ -33,8 +33,8 @@ from graphkin.scene.drivers import drives, placed_driver, stated_driver
 from graphkin.scene.force_names import no_force
 from graphkin.scene.loads import loading_of
 from graphkin.scene.model import Loading, Mechanism, PlacedDisc, PlacedLink, Question
+from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
-from graphkin.scene.sheet import background_of, scans_of
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
 from graphkin.words import Phrase

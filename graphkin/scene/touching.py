@@ -1,5 +1,6 @@
-"""What touches in a scene file: outlines in contact, wheels with teeth, as the file has them, read (names looked up,
-radii with their signs, the carriers of wheels found) and stated again."""
+"""What touches in a scene, read from its file: round outlines, contacts, wheels with teeth; names are looked up, radii
+get the signs with which they meet, the carriers of wheels are found.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
-"""The tables of a scene file that wish something of the papers: the drawn sheet with its scales, letters and tools, a
-picture below it, scans of drawings to be judged, and how a set of problems varies for a class."""
+"""Pictures that a scene file names: a photograph or scan to lie under the mechanism, laid by two points, and scans of
+drawings to be judged, with what was read off them.
+"""
 
 from __future__ import annotations
 
