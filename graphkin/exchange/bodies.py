@@ -48,8 +48,8 @@ class BodyDrive:
 @dataclass
 class Bodies:
     """Points at places in the world (length unit), bodies with the points that they have, the fixed one by the name
-    ``FRAME``; ``lost`` are things that move, drive or load and cannot be carried over, each by its name, ``left`` what
-    else cannot."""
+    ``FRAME``; ``names`` are the names of points by their keys in the file that is read.  ``lost`` are things that move,
+    drive or load and cannot be carried over, each by its name, ``left`` what else cannot."""
 
     title: str
     places: dict[str, complex] = field(default_factory=dict)
@@ -59,22 +59,51 @@ class Bodies:
     unit: str = "mm"
     left: list[str] = field(default_factory=list)
     lost: list[str] = field(default_factory=list)
+    names: dict[str, str] = field(default_factory=dict)
 
-    def point(self, name: str, place: complex) -> str:
-        """A point by a name that a scene may have, which is returned."""
+    def point(self, name: str, place: complex, key: str = "") -> str:
+        """A point by a name that a scene may have, which is returned; ``key`` where the file calls it otherwise."""
         made = _fresh(_point_name(name), self.places)
         if not abs(place) <= FARTHEST:
             found = Phrase("lies at", place=place)
             raise refused(Phrase("point", point=made), found, Phrase("its coordinates are finite numbers"))
-        self.places[made] = place
+        self.places[made], self.names[key or name] = place, made
         return made
 
-    def body(self, name: str, points: Iterable[str]) -> str:
-        """A body by a name that a scene may have, which is returned; of the frame all points come together."""
+    def place(self, key: str) -> complex:
+        """Where a point of the file lies."""
+        return self.places[self.names[key]]
+
+    def body(self, name: str, keys: Iterable[str]) -> str:
+        """A body by a name that a scene may have, which is returned; of the frame all points come together.  Keys of no
+        point are left out."""
         made = FRAME if name == FRAME else _fresh(_link_name(name), {*self.bodies, FRAME})
         own = self.bodies.setdefault(made, [])
-        own += [p for p in points if p not in own]
+        own += [p for p in dict.fromkeys(self.names[k] for k in keys if k in self.names) if p not in own]
         return made
+
+    def holder(self, keys: Iterable[str], but: str | None = None) -> str | None:
+        """The first body that has these points, but for one."""
+        points = {self.names[key] for key in keys}
+        return next((name for name, own in self.bodies.items() if name != but and points <= {*own}), None)
+
+    def slide_on(self, key: str, line: tuple[str, str], otherwise: str) -> None:
+        """A pin at a point runs on the line through two others; where no body has these, ``otherwise`` is lost."""
+        on = self.holder(line)
+        body = self.holder((key,), but=on)
+        if on is None or body is None:
+            self.lost.append(otherwise)
+            return
+        one, two = map(self.place, line)
+        self.slides.append(BodySlide(body, self.names[key], on, one, cmath.phase(two - one), turns=True))
+
+    def turn(self, keys: Iterable[str], rate: float, otherwise: str = "") -> None:
+        """What has these points turns at a rate (rad/s); where nothing that moves has them, ``otherwise`` is lost."""
+        body = self.holder(keys, but=FRAME)
+        if body is not None:
+            self.drives.append(BodyDrive(body, rate))
+        elif otherwise:
+            self.lost.append(otherwise)
 
     def scene(self) -> dict[str, Json]:
         """The mapping of a scene file at this position.

@@ -24,7 +24,7 @@ from itertools import combinations
 from xml.etree import ElementTree
 from zipfile import BadZipFile, ZipFile
 
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, refused
+from graphkin.exchange.bodies import FRAME, Bodies, refused
 from graphkin.files import Tables
 from graphkin.plane import cross_arcs
 from graphkin.words import Phrase
@@ -43,7 +43,6 @@ DAMAGED = (BadZipFile, LookupError, ElementTree.ParseError, OSError, ValueError,
 class _Construction:
     """Points, each constructed from others, and what holds them, all by the labels of the file.
 
-    points : by label, as ``made`` has them
     moving : points that do
     bars : points that keep their distances
     slid : a point, the two points of the line it runs on, and what is said where no link has that line
@@ -51,38 +50,21 @@ class _Construction:
     """
 
     made: Bodies
-    points: dict[str, str] = field(default_factory=dict)
     moving: set[str] = field(default_factory=set)
     bars: list[list[str]] = field(default_factory=list)
     slid: list[tuple[str, tuple[str, str], str]] = field(default_factory=list)
     driven: list[tuple[str, str, float]] = field(default_factory=list)
 
-    def place(self, label: str) -> complex:
-        """Where a point lies."""
-        return self.made.places[self.points[label]]
-
     def bodies(self, frame: Sequence[str]) -> Bodies:
         """The bodies that the bars make beside the frame, what slides on them, and what drives."""
-        self.made.body(FRAME, [self.points[p] for p in frame])
+        self.made.body(FRAME, frame)
         for bar in self._plates():
             if not set(bar) <= set(frame):
-                own = [self.points[p] for p in bar]
-                self.made.body("".join(own)[:20], own)
-        holders = self.made.bodies
-        for label, line, otherwise in self.slid:
-            point, ends = self.points[label], {self.points[p] for p in line}
-            on = next((n for n, own in holders.items() if ends <= set(own)), None)
-            body = next((n for n, own in holders.items() if n != on and point in own), None)
-            if on is None or body is None:
-                self.made.lost.append(otherwise)
-            else:
-                one, two = map(self.place, line)
-                self.made.slides.append(BodySlide(body, point, on, one, cmath.phase(two - one), turns=True))
+                self.made.body("".join(self.made.names[p] for p in bar)[:20], bar)
+        for slide in self.slid:
+            self.made.slide_on(*slide)
         for pivot, end, rate in self.driven:
-            ends = {self.points[pivot], self.points[end]}
-            crank = next((n for n, own in holders.items() if n != FRAME and ends <= set(own)), None)
-            if crank is not None:
-                self.made.drives.append(BodyDrive(crank, rate))
+            self.made.turn((pivot, end), rate)
         return self.made
 
     def _plates(self) -> list[list[str]]:
@@ -126,8 +108,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
             made = _Construction(Bodies(title))
             for element in elements:
                 if element.tag == "element" and element.get("type") == "point":
-                    label = element.get("label", "")
-                    made.points[label] = made.made.point(label, _place(element))
+                    made.made.point(element.get("label", ""), _place(element))
     except DAMAGED as error:
         raise refused(title, Phrase("is no file of geogebra", error=error), Phrase("save it as ggb")) from None
     circles: dict[str, str] = {}
@@ -136,10 +117,11 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
         given, got = (_arguments(command, tag) for tag in ("input", "output"))
         _follow(command.get("name", ""), given, got, made, circles, lines)
     used = {p for held in (*made.bars, *lines.values()) for p in held}
-    frame = [p for p in made.points if p not in made.moving and p in used]
-    for label in [p for p in made.points if p not in used]:
+    points = made.made.names
+    frame = [p for p in points if p not in made.moving and p in used]
+    for label in [p for p in points if p not in used]:
         made.made.left.append(f"point {label} (nothing holds it)")
-        del made.made.places[made.points[label]]
+        del made.made.places[points[label]]
     return made.bodies(frame)
 
 
@@ -148,7 +130,7 @@ def _follow(
     lines: dict[str, tuple[str, str]],
 ) -> None:  # fmt: skip
     """Follow a command: ``circles`` have their centre by name, ``lines`` two points."""
-    out, points = got[0] if got else "", made.points
+    out, points = got[0] if got else "", made.made.names
 
     def slide(point: str, line: str) -> None:
         made.slid.append((point, lines[line], f"point {point} on {line} (no link has that line)"))
@@ -211,53 +193,50 @@ def construct_linkage(bodies: Bodies, joints: Sequence[Tables]) -> None:
     made = _Construction(bodies)
     fixed: list[str] = []
 
-    def put(label: str, place: complex) -> None:
-        made.points[label] = bodies.point(label, place)
-
     def refer(value: object) -> str:
         if isinstance(value, dict) and "ref" not in value and "x" in value:  # a static one that stands here alone
-            label = f"S{len(made.points)}"
-            put(label, complex(float(value["x"]), float(value["y"])))
+            label = f"S{len(bodies.names)}"
+            bodies.point(label, complex(float(value["x"]), float(value["y"])))
             fixed.append(label)
             return label
         label = str(value["ref"] if isinstance(value, dict) else value)
-        if label not in made.points:
+        if label not in bodies.names:
             raise ValueError(Phrase("joint is not there", name=label))
         return label
 
     for joint in joints:
-        kind, label = str(joint["type"]).lower(), str(joint.get("name") or f"J{len(made.points)}")
+        kind, label = str(joint["type"]).lower(), str(joint.get("name") or f"J{len(bodies.names)}")
         first = refer(joint["joint0"]) if joint.get("joint0") is not None else ""
         second = refer(joint["joint1"]) if joint.get("joint1") is not None else ""
         here = complex(float(joint.get("x") or 0.0), float(joint.get("y") or 0.0))
         if kind == "static":
-            put(label, here)
+            bodies.point(label, here)
             fixed.append(label)
             continue
         if not first or (not second and kind != "crank"):
             raise ValueError(Phrase("joint refers to no other", name=label))
-        one = made.place(first)
+        one = bodies.place(first)
         if kind == "crank":
             way = here - one if joint.get("x") is not None else complex(float(joint["distance"]))
-            put(label, one + float(joint.get("distance", abs(way))) * way / abs(way))
+            bodies.point(label, one + float(joint.get("distance", abs(way))) * way / abs(way))
             made.bars.append([first, label])
             made.driven.append((first, label, float(joint.get("angle", STEP))))
         elif kind == "fixed":
-            turn = cmath.phase(made.place(second) - one) + float(joint["angle"])
-            put(label, one + cmath.rect(float(joint["distance"]), turn))
+            turn = cmath.phase(bodies.place(second) - one) + float(joint["angle"])
+            bodies.point(label, one + cmath.rect(float(joint["distance"]), turn))
             if {first, second} <= set(fixed):
                 fixed.append(label)
                 continue
             made.bars.append([first, second, label])
         elif kind in ("revolute", "pivot"):
-            both = cross_arcs(one, float(joint["distance0"]), made.place(second), float(joint["distance1"]))
+            both = cross_arcs(one, float(joint["distance0"]), bodies.place(second), float(joint["distance1"]))
             if both is None:
                 raise ValueError(Phrase("the bars of do not meet", name=label))
-            put(label, min(both, key=lambda z: abs(z - here)))
+            bodies.point(label, min(both, key=lambda z: abs(z - here)))
             made.bars += [[first, label], [second, label]]
         elif kind in ("linear", "prismatic"):
             line = second, refer(joint["joint2"])
-            put(label, here)
+            bodies.point(label, here)
             made.bars.append([first, label])
             made.slid.append((label, line, f"joint {label} (its line belongs to no link)"))
         else:

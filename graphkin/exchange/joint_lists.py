@@ -16,7 +16,6 @@ import cmath
 import math
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
@@ -37,43 +36,30 @@ _JOINT = re.compile(
 )
 
 
-@dataclass(frozen=True)
-class _Joint:
-    """A joint of so many links.
+def _join(
+    made: Bodies, known: dict[str, str], name: str, kind: str, place: complex, links: Sequence[str], angle: float
+) -> None:
+    """Add a joint of so many links, of which ``ground`` is the frame.
 
+    Parameters
+    ----------
+    known : the bodies of links by the file's names
     kind : "R" turning; "P" the others slide on a line of the first link and keep their angle; "RP" a pin of the others
         runs on a line of the first link
     angle : of the line in the world (rad)
     """
-
-    name: str
-    kind: str
-    place: complex
-    links: tuple[str, ...]
-    angle: float = 0.0
-
-
-def _bodies_of(title: str, joints: Sequence[_Joint]) -> Bodies:
-    """Bodies with the points of their joints; ``ground`` is the frame."""
-    made = Bodies(title)
-    names: dict[str, str] = {}
-    for link in dict.fromkeys(link for joint in joints for link in joint.links):
-        names[link] = made.body(FRAME if link.lower() == "ground" else link, [])
-    made.bodies.setdefault(FRAME, [])
-    for k, joint in enumerate(joints):
-        point = made.point(joint.name or _letter(k), joint.place)
-        first, *others = joint.links
-        if joint.kind == "P" and others and names[others[0]] == FRAME:
-            first, others = others[0], [first]  # who slides on whom makes no difference where neither turns
-        if joint.kind == "R" or not others:
-            for link in joint.links:
-                made.bodies[names[link]].append(point)
-            continue
-        for link in others:
-            made.bodies[names[link]].append(point)
-        turns = joint.kind == "RP"
-        made.slides.append(BodySlide(names[others[0]], point, names[first], joint.place, joint.angle, turns))
-    return made
+    for link in links:
+        if link not in known:
+            known[link] = made.body(FRAME if link.lower() == "ground" else link, ())
+    first, *others = (known[link] for link in links)
+    point = made.point(name, place)
+    if kind == "P" and others and others[0] == FRAME:
+        first, others = others[0], [first]  # who slides on whom makes no difference where neither turns
+    holding = [first, *others] if kind == "R" or not others else others
+    for link in holding:
+        made.bodies[link].append(point)
+    if holding is others:
+        made.slides.append(BodySlide(others[0], point, first, place, angle, kind == "RP"))
 
 
 def _letter(number: int) -> str:
@@ -103,7 +89,7 @@ def read_table(text: str, title: str) -> Bodies:
     except ValueError:
         query = {}
     rows = query["mech"][0].split("|") if "mech" in query else text.replace("|", "\n").splitlines()
-    joints, problems = [], []
+    made, known, problems = Bodies(title), dict[str, str](), []
     for count, row in enumerate(rows, 1):
         cells = [c for c in re.split(r"[,\t; ]+", row.strip()) if c]
         if not cells or row.lstrip().startswith("#"):
@@ -117,10 +103,10 @@ def read_table(text: str, title: str) -> Bodies:
             problems.append(Problem(where, found, Phrase("write links r p or rp x y")))
             continue
         angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
-        joints.append(_Joint("", cells[at].upper(), complex(*numbers[:2]), tuple(cells[:at]), angle))
+        _join(made, known, _letter(len(made.places)), cells[at].upper(), complex(*numbers[:2]), cells[:at], angle)
     if problems:
         raise CallError(*problems)
-    made = _bodies_of(title, joints)
+    made.bodies.setdefault(FRAME, [])
     moved = next((n for n in made.bodies if n.lower() == "input"), None)
     if moved is not None:
         made.drives.append(BodyDrive(moved, INPUT_SPEED))
@@ -166,8 +152,10 @@ def read_address(text: str, title: str) -> Bodies:
     turning = (-1.0 if flags & 1 else 1.0) * _whole(speeds[0], title) * math.tau / 60
     sliding = _whole(decimals[1], title) / 1000 if len(decimals) > 1 else 1.0
     joints = {j.id: j for j in (_SharedJoint(text, title) for text in sections[0])}
-    names = {key: made.point(j.name or key, j.place) for key, j in joints.items() if not j.slides}
-    made.body(FRAME, [names[k] for k, j in joints.items() if j.grounded and not j.slides])
+    for key, j in joints.items():
+        if not j.slides:
+            made.point(j.name or key, j.place, key)
+    made.body(FRAME, [key for key, j in joints.items() if j.grounded])
     links: dict[str, str] = {}
     blocks: list[list[str]] = []
     for piece in sections[1]:
@@ -181,20 +169,20 @@ def read_address(text: str, title: str) -> Bodies:
         if piece[1] == "P":
             blocks.append(ends)
         else:
-            links[cells[0][2:]] = made.body(cells[1] or cells[0][2:], [names[k] for k in ends if k in names])
+            links[cells[0][2:]] = made.body(cells[1] or cells[0][2:], ends)
     made.lost += [f"force {piece.split(',')[2]}" for piece in sections[2] if piece.count(",") > 5]
     held = {key for ends in blocks for key in ends}
     loose = [j for key, j in joints.items() if j.slides and key not in held]
     made.lost += [f"slider {j.name or j.id} (no block has it)" for j in loose]
     for ends in blocks:
-        _block(made, ends, joints, names, links, sliding)
+        _block(made, ends, joints, links, sliding)
     for key, joint in joints.items():
         if joint.driven and not joint.slides:
-            turned = [n for n, own in made.bodies.items() if n != FRAME and names[key] in own]
-            if turned and joint.grounded:
-                made.drives.append(BodyDrive(turned[0], turning))
+            lost = f"input at {joint.name or key} (it is no pivot of the frame)"
+            if joint.grounded:
+                made.turn((key,), turning, lost)
             else:
-                made.lost.append(f"input at {joint.name or key} (it is no pivot of the frame)")
+                made.lost.append(lost)
     return made
 
 
@@ -215,9 +203,8 @@ class _SharedJoint:
 
 
 def _block(
-    made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], names: dict[str, str], links: dict[str, str],
-    rate: float,
-) -> None:  # fmt: skip
+    made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links: dict[str, str], rate: float
+) -> None:
     """A block that slides on a line of the frame or of its carrier; welded to a link it is part of that."""
     line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
     pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)
@@ -226,13 +213,13 @@ def _block(
         return
     angle, through, on = line.angle, line.place, FRAME
     if not line.grounded:
-        one, two = (made.places[names[k]] for k in line.ends)
+        one, two = map(made.place, line.ends)
         angle, through, on = cmath.phase(two - one), one, links[line.carrier]
     else:
         angle = _exact(angle)
-    point = names[pin.id]
+    point = made.names[pin.id]
     holders = [n for n, own in made.bodies.items() if n not in (FRAME, on) and point in own]
-    block = holders[0] if pin.welded and holders else made.body("".join(ends), [point])
+    block = holders[0] if pin.welded and holders else made.body("".join(ends), [pin.id])
     made.slides.append(BodySlide(block, point, on, through, angle))
     if line.driven:
         made.drives.append(BodyDrive(block, rate, point))
@@ -254,7 +241,7 @@ def read_pyslvs(text: str, title: str) -> Bodies:
     if begin is None:
         raise refused(title, Phrase("holds no expression m"), Phrase("copy the expression from pyslvs"))
     inner, end = _inside(plain, begin.end(), title)
-    joints: list[_Joint] = []
+    made, known = Bodies(title), dict[str, str]()
     rest = _JOINT.sub("", inner)
     if re.sub(r"[\s,]+", "", rest):
         found = Phrase("is no joint", joint=rest.strip(" ,")[:60])
@@ -264,8 +251,8 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         if not names:
             raise refused(title, Phrase("the joint at has no link", value=x, other=y), Phrase("write l ground link_1"))
         place, turn = complex(float(x), float(y)), math.radians(float(angle or 0))
-        joints.append(_Joint(f"P{len(joints)}", kind, place, names, turn))
-    made = _bodies_of(title, joints)
+        _join(made, known, f"P{len(made.places)}", kind, place, names, turn)
+    made.bodies.setdefault(FRAME, [])
     points = list(made.places)
     pairs = re.findall(r"base\W+(\d+)\D+?drive\W+(\d+)", plain[end:]) or re.findall(
         r"base\W+(\d+)\D+?drive\W+(\d+)", plain[: begin.start()]
@@ -274,11 +261,11 @@ def read_pyslvs(text: str, title: str) -> Bodies:
         pairs = _first_crank(made)
     for base, drive in pairs:
         ends = [points[int(k)] for k in (base, drive) if int(k) < len(points)]
-        turned = [n for n, own in made.bodies.items() if n != FRAME and len(ends) == 2 and set(ends) <= set(own)]
-        if turned:
-            made.drives.append(BodyDrive(turned[0], INPUT_SPEED))
+        lost = f"input from {base} to {drive} (no link has both)"
+        if len(ends) == 2:
+            made.turn(ends, INPUT_SPEED, lost)
         else:
-            made.lost.append(f"input from {base} to {drive} (no link has both)")
+            made.lost.append(lost)
     return made
 
 

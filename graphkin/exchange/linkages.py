@@ -41,35 +41,33 @@ def read_linkage2(text: str, title: str) -> Bodies:
     made = Bodies(title)
     elements = [e for e in root if e.tag in ("element", "Link", "link")]
     used = {c.get("id") for e in elements for c in e}
-    points: dict[str, str] = {}
     nodes = {c.get("id", ""): c for c in root if c.tag == "connector"}
     for key, node in nodes.items():
         if key in used:
-            place = complex(_number(node, "x"), _number(node, "y"))
-            points[key] = made.point(node.get("name") or f"C{key}", place)
+            made.point(node.get("name") or f"C{key}", complex(_number(node, "x"), _number(node, "y")), key)
         else:
             made.left.append(f"connector {node.get('name') or key} (no link has it)")
-    made.body(FRAME, [points[k] for k, node in nodes.items() if k in points and node.get("anchor") == "true"])
+    made.body(FRAME, [key for key, node in nodes.items() if node.get("anchor") == "true"])
     names: dict[str, list[str]] = {}
     for element in elements:
-        own = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in points]
+        own = [c.get("id", "") for c in element if c.tag == "connector" and c.get("id") in made.names]
         label = element.get("name") or f"L{element.get('id', '')}"
         if element.get("gear") == "true":
             made.lost.append(f"gear {label}")
         if all(nodes[k].get("anchor") == "true" for k in own) and own:
             continue  # part of the frame
         if element.get("actuator") == "true" and len(own) == 2:
-            _cylinder(made, element, label, [points[k] for k in own])
+            _cylinder(made, element, label, own)
             continue
-        name = made.body(label, [points[k] for k in own])
+        name = made.body(label, own)
         for key in own:
             names.setdefault(key, []).append(name)
     made.lost += [f"{r.get('type', 'gears')} ratio" for ratios in root if ratios.tag == "ratios" for r in ratios]
     made.lost += [f"fastening of {n.get('name') or n.get('id')}" for n in (*nodes.values(), *elements) if _fastened(n)]
     for key, node in nodes.items():
-        if node.get("slider") == "true" and key in points:
+        if node.get("slider") == "true" and key in made.names:
             holders = names.get(key, []) or [FRAME] * (node.get("anchor") == "true")
-            _slider(made, node, points, holders, names)
+            _slider(made, node, holders, names)
         if node.get("anchor") == "true" and node.get("input") == "true":
             turned = names.get(key, [])
             if not turned:
@@ -95,25 +93,23 @@ def _fastened(node: ElementTree.Element) -> bool:
     )
 
 
-def _slider(
-    made: Bodies, node: ElementTree.Element, points: dict[str, str], own: list[str], names: dict[str, list[str]]
-) -> None:
+def _slider(made: Bodies, node: ElementTree.Element, own: list[str], names: dict[str, list[str]]) -> None:
     """A connector that runs on the straight line between two others, which lie on one body."""
     limits = [c.get("id", "") for c in node if c.tag == "slidelimit"][:2]
     label = node.get("name") or node.get("id")
-    if len(limits) < 2 or any(k not in points for k in limits) or not own:
+    if len(limits) < 2 or any(k not in made.names for k in limits) or not own:
         made.lost.append(f"slider {label} (it has no two limits)")
         return
     if _number(node, "slideradius"):
         made.lost.append(f"slider {label} (its slot is round)")
         return
-    one, two = (made.places[points[k]] for k in limits)
-    fixed = all(points[k] in made.bodies[FRAME] for k in limits)
+    one, two = map(made.place, limits)
+    fixed = all(made.names[k] in made.bodies[FRAME] for k in limits)
     shared = [n for n in names.get(limits[0], []) if n in names.get(limits[1], [])]
     if not fixed and not shared:
         made.lost.append(f"slider {label} (its limits lie on two links)")
         return
-    point = points[node.get("id", "")]
+    point = made.names[node.get("id", "")]
     on = FRAME if fixed else shared[0]
     if point in made.bodies.get(on, []):
         made.lost.append(f"slider {label} (it is a point of the link that guides it)")
@@ -123,12 +119,12 @@ def _slider(
 
 def _cylinder(made: Bodies, element: ElementTree.Element, label: str, ends: list[str]) -> None:
     """A bar whose length is driven: a cylinder about its first end, and a rod that slides in it."""
-    one, two = (made.places[p] for p in ends)
+    one, two = map(made.place, ends)
     cylinder, rod = made.body(f"{label}c", ends[:1]), made.body(f"{label}r", ends[1:])
-    made.slides.append(BodySlide(rod, ends[1], cylinder, one, cmath.phase(two - one)))
+    made.slides.append(BodySlide(rod, made.names[ends[1]], cylinder, one, cmath.phase(two - one)))
     throw = _number(element, "throw") or abs(two - one)
     # out and in again once a cycle
-    made.drives.append(BodyDrive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, ends[1]))
+    made.drives.append(BodyDrive(rod, 2 * throw * _number(element, "cpm", RPM) / 60, made.names[ends[1]]))
 
 
 def write_linkage2(bodies: Bodies) -> str:
@@ -199,7 +195,6 @@ def read_pylinkage(text: str, title: str) -> Bodies:
 
 
 def _mechanism(made: Bodies, data: Tables) -> None:
-    points: dict[str, str] = {}
     sliding: dict[str, OwnTables] = {}
     fixed = {j["id"] for j in data["joints"] if j.get("type") == "ground"}
     fixed |= {str(link.get("motor_joint")) for link in data["links"] if "driver" in str(link.get("type"))}
@@ -209,16 +204,16 @@ def _mechanism(made: Bodies, data: Tables) -> None:
         x, y = joint.get("position") or (None, None)
         if x is None or y is None:
             raise ValueError(Phrase("joint has no place", joint=joint['id']))
-        points[joint["id"]] = made.point(str(joint.get("name") or joint["id"]), complex(float(x), float(y)))
+        made.point(str(joint.get("name") or joint["id"]), complex(float(x), float(y)), joint["id"])
         if joint.get("type") == "prismatic":
             sliding[joint["id"]] = joint
-    made.body(FRAME, [points[k] for k in points if k in fixed])
+    made.body(FRAME, [key for key in made.names if key in fixed])
     for link in data["links"]:
         if link.get("type") == "ground":
             continue
-        own = [points[k] for k in link.get("joints", ()) if k in points]
-        own += [points[t["id"]] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= set(link["joints"])]
-        name = made.body(str(link.get("name") or link["id"]), dict.fromkeys(own))
+        joints = link.get("joints", ())
+        own = [*joints, *(t["id"] for t in trackers if {t["ref_joint1_id"], t["ref_joint2_id"]} <= {*joints})]
+        name = made.body(str(link.get("name") or link["id"]), own)
         if "driver" in str(link.get("type")):
             made.drives.append(BodyDrive(name, float(link.get("angular_velocity", STEP))))
             if link["type"] == "arc_driver":
@@ -226,9 +221,9 @@ def _mechanism(made: Bodies, data: Tables) -> None:
     for key, joint in sliding.items():
         line = complex(*map(float, joint.get("line_point", (0, 0))))
         axis = complex(*map(float, joint.get("axis", (1, 0))))
-        holders = [n for n, own in made.bodies.items() if n != FRAME and points[key] in own]
+        holders = [n for n, own in made.bodies.items() if n != FRAME and made.names[key] in own]
         if holders:
-            made.slides.append(BodySlide(holders[0], points[key], FRAME, line, cmath.phase(axis), turns=True))
+            made.slides.append(BodySlide(holders[0], made.names[key], FRAME, line, cmath.phase(axis), turns=True))
         else:
             made.lost.append(f"slide of joint {key} (no link has it)")
 

@@ -183,7 +183,7 @@ def _fixed(reading: Reading) -> dict[str, complex]:
     while left:
         where = {p: _place_of(f"frame.points.{p}", entry, reading.metres, found) for p, entry in left.items()}
         placed = {p: z for p, z in where.items() if z is not None}
-        reading.wrong(*(z for z in placed.values() if isinstance(z, Problem)))
+        reading.problems.extend(z for z in placed.values() if isinstance(z, Problem))
         if not placed:
             for point, entry in left.items():
                 missing = next(p for p in references(entry) if p not in found)

@@ -1,5 +1,5 @@
-"""The reading of a scene file: the mechanism that its tables say, or all that is wrong with them; and the file that says
-a mechanism again.
+"""The reading of a scene file: the mechanism that its tables say, or all that is wrong with them; and the file that
+says a mechanism again.
 
 Where the format leaves something open, the docstring of `graphkin.scene` says how it is read.
 """
@@ -68,27 +68,27 @@ def mechanism_said(
     reading = Reading(file, lost, list(problems), file.frame, file.links, file.pins)
     problems, metres = reading.problems, reading.metres
     _refuse_too_much(file, problems)
+    _check_texts(reading)
     reading = with_bars(with_carriages(reading))
-    _check_texts(file, reading)
     check_own_points(reading)
     reading = dataclasses.replace(reading, slidings=sliding_pairs(reading))
     reading = dataclasses.replace(reading, running=pins_in_slots(reading))
     discs = discs_of(reading) if any(body.discs for _, _, body in reading.bodies) else {}
     contacts = contacts_of(reading, discs) if file.contacts else ()
     gears = gears_of(reading) if file.gears else ()
-    driven = drives(reading)
     for table in ("sketch", "drawn"):
         reading.wrong(*(reading.no_point(f"{table}.{point}", point) for point in getattr(file, table)))
+    check_references(reading)
     find = asked(reading) if file.find else ()
     stated = stated_values(reading) if file.printed or file.printed_rows or file.printed_table else ()
     positions = positions_named(file.positions, reading) if file.positions else None
     loops = loops_named(reading) if file.loops else {}
-    check_references(reading)
     if not reading.unsure and not reading.lost_under("pins") and not any(p[2:] == ("on",) for p in lost):
         bare = {p.where for p in problems}
         apart = (group for group in islands(reading) if f"links.{group[0]}" not in bare)
         reading.wrong(*(not_held(group, reading.frame.name) for group in apart))
 
+    driven = drives(reading)
     position = places.drawn_position(reading, driven.values())
     places.check_placed_twice(position)
     if not problems:
@@ -127,7 +127,8 @@ def mechanism_said(
         starts=places.starts_of(position, contacts) if contacts or gears else {}, slots=reading.slots,
         question=question,
     )  # fmt: skip
-    _check_forces(made)
+    if find or stated:
+        _check_forces(made)
     return made
 
 
@@ -145,10 +146,10 @@ def _refuse_too_much(file: SceneTables, problems: list[Problem]) -> None:
         raise SceneError(*problems)
 
 
-def _check_texts(file: SceneTables, reading: Reading) -> None:
+def _check_texts(reading: Reading) -> None:
     """Note texts that cannot be written on one line of a sheet."""
     for where in ("title", "title_zh", "source", "source_zh"):
-        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(file, where)):
+        if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(reading.file, where)):
             found = Phrase("holds a control character or a line break")
             reading.say(where, found, Phrase("write one line of plain text"))
 

@@ -232,8 +232,9 @@ def _is_table(value: object) -> bool:
 
 def resolved(source: Mapping[Any, object] | SceneTables, name: str) -> tuple[SceneTables, Mechanism]:
     """What is written in a scene, checked, and what it says.  Raises SceneError with all that is wrong."""
+    folder = safe_name(name)
     tables, problems, lost = SCENE.checked(plain(source))
-    return tables, mechanism_said(tables, safe_name(name), problems, lost)
+    return tables, mechanism_said(tables, folder, problems, lost)
 
 
 def safe_name(name: str) -> str:
