@@ -11,7 +11,7 @@ where over the range of the driver the forces jump, as loads begin and end, and 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,12 +19,12 @@ import numpy as np
 
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints, opposite
-from graphkin.scene.model import BalanceAt, LoadOn, Mechanism, Phase, SpringOn
+from graphkin.scene.model import LoadOn, Phase, SpringOn
 from graphkin.solver.cams import contact_of
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
-from graphkin.structure import Pair, Structure
+from graphkin.structure import Pair
 
 __all__ = [
     "Action", "Forces", "PairForce", "actions", "balances", "forces_of", "pair_forces", "spring_ends", "without_line",
@@ -52,105 +52,78 @@ def pair_forces(motion: Motion) -> list[PairForce]:
     pair a force square to the guide at the sliding link's first point and a couple, of a pin in a slot a force square
     to the slot, of a cam or a sliding contact one along the normal, of wheels one along the tangent of the pitch
     circles."""
-    pairs = _Pairs(motion)
-    return [one for joint in joints(motion.scene) for one in pairs.of_joint(joint)]
+    found: list[PairForce] = []
+    for joint in joints(motion.scene):
+        ways, at = _lines(motion, joint)
+        found += [PairForce(f"F_{joint.name}", joint.first, joint.second, way, at) for way in ways]
+        if joint.kind == "sliding":
+            found.append(PairForce(f"M_{joint.name}", joint.first, joint.second, None, at))
+    return found
+
+
+def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array], Array]:
+    """Along which directions the forces of a joint act, and where: the normal of what slides, the tangent of pitch
+    circles, whose centres another link holds apart, both components of what turns or rolls otherwise."""
+    scene, both = motion.scene, (1 + 0j, 1j)
+    if joint.kind == "turning":
+        return both, motion.position(joint.point)
+    if joint.kind == "slot":
+        slide = motion.structure.slide(f"{joint.point}/{joint.first}")
+        return [_square(motion, slide)], motion.position(joint.point, joint.second)
+    if joint.kind == "sliding":
+        slide = motion.structure.slide(f"{joint.second}/{joint.first}")
+        return [_square(motion, slide)], _foot(motion, slide)
+    if joint.kind == "cam":
+        cam = next(c for c in scene.cams if c.link == joint.first)
+        turn = motion.poses[joint.first]
+        touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
+        return [touching.normal], touching.contact
+    contact = next((c for c in scene.contacts if c.name == joint.point), None)
+    if contact is None:
+        gear = next(g for g in scene.gears if g.name == joint.point)
+        at, _ = pitch_point(motion, gear)
+        way = at - motion.position(gear.axes[0], gear.carrier)
+        return [np.asarray(1j * way / np.abs(way))], at
+    meeting = contact_motion(motion, contact)
+    if joint.kind == "rolling":
+        return both, meeting.place
+    return [meeting.normal * (1j if joint.kind == "gear" else 1.0)], meeting.place
 
 
 def balances(motion: Motion) -> list[PairForce]:
     """What drives: for each driver a moment or a force between the two links that it moves relatively, or what the
     scene says instead."""
-    return _Pairs(motion).balances()
+    scene, found = motion.scene, []
+    said = scene.loading.balance
+    if said is not None:
+        pose = motion.poses[said.link]
+        along = None if said.kind == "moment" else 1j * np.asarray(pose.u) if said.square else said.turn
+        name = f"{'F' if said.kind != 'moment' else 'M'}_{said.link}"
+        return [PairForce(name, scene.frame.name, said.link, along, np.asarray(pose.fixed(said.at).z))]
+    for driver in scene.drivers:
+        if driver.turns:
+            at = np.asarray(motion.poses[driver.link].z)
+            found.append(PairForce(f"M_{driver.link}", driver.relative_to, driver.link, None, at))
+            continue
+        slide = motion.structure.slide(driver.key)
+        pin = next((p for p in scene.pins if p.key == driver.key), None)
+        link, at = (pin.of, motion.position(pin.point, pin.of)) if pin else (slide.a, _foot(motion, slide))
+        along = -1j * _square(motion, slide)
+        found.append(PairForce(f"F_{link}", slide.b or scene.frame.name, link, along, at))
+    return found
 
 
-@dataclass(frozen=True)
-class _Pairs:
-    """The pairs of a motion."""
+def _foot(motion: Motion, slide: Pair) -> Array:
+    """Where the force of a sliding pair acts: the first point of what slides, or its origin."""
+    at = motion.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
+    return np.asarray(motion.poses[slide.a].fixed(at).z)
 
-    motion: Motion
 
-    @property
-    def scene(self) -> Mechanism:
-        return self.motion.scene
-
-    @property
-    def structure(self) -> Structure:
-        return self.motion.structure
-
-    def place(self, link: str, at: complex) -> Array:
-        """A place of a link's own axes in the world."""
-        pose = self.motion.poses[link]
-        return np.asarray(pose.z + pose.u * at)
-
-    def of_joint(self, joint: ForceJoint) -> list[PairForce]:
-        name, first, second = f"F_{joint.name}", joint.first, joint.second
-        if joint.kind == "turning":
-            at = np.asarray(self.motion.point(joint.point).z)
-            return [PairForce(name, first, second, way, at) for way in (1 + 0j, 1j)]
-        if joint.kind == "slot":
-            at = np.asarray(self.motion.point(joint.point, second).z)
-            slide = self.structure.slide(f"{joint.point}/{first}")
-            return [PairForce(name, first, second, self._square(slide), at)]
-        if joint.kind == "cam":
-            cam = next(c for c in self.scene.cams if c.link == first)
-            turn = self.motion.poses[first]
-            touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
-            return [PairForce(name, first, second, touching.normal, touching.contact)]
-        if joint.kind in ("contact", "rolling", "gear"):
-            ways, at = self._touching(joint)
-            return [PairForce(name, first, second, way, at) for way in ways]
-        slide = self.structure.slide(f"{second}/{first}")
-        at = self.place(slide.a, self._foot(slide))
-        return [
-            PairForce(name, first, second, self._square(slide), at),
-            PairForce(f"M_{joint.name}", first, second, None, at),
-        ]
-
-    def _touching(self, joint: ForceJoint) -> tuple[tuple[complex | Array, ...], Array]:
-        """Along what forces act where two links touch, and there: the normal of what slides, the tangent of pitch
-        circles, whose centres another link holds apart, both components of what rolls otherwise."""
-        contact = next((c for c in self.scene.contacts if c.name == joint.point), None)
-        if contact is None:
-            gear = next(g for g in self.scene.gears if g.name == joint.point)
-            at, _ = pitch_point(self.motion, gear)
-            way = at - self.motion.position(gear.axes[0], gear.carrier)
-            return (np.asarray(1j * way / np.abs(way)),), at
-        touching = contact_motion(self.motion, contact)
-        if joint.kind == "rolling":
-            return (1 + 0j, 1j), touching.place
-        return (touching.normal * (1j if joint.kind == "gear" else 1.0),), touching.place
-
-    def balances(self) -> list[PairForce]:
-        if self.scene.loading.balance is not None:
-            return [self._said_balance(self.scene.loading.balance)]
-        frame, found = self.scene.frame.name, []
-        for driver in self.scene.drivers:
-            if driver.turns:
-                at = np.asarray(self.motion.poses[driver.link].z)
-                found.append(PairForce(f"M_{driver.link}", driver.relative_to, driver.link, None, at))
-                continue
-            slide = self.structure.slide(driver.key)
-            pin = next((p for p in self.scene.pins if p.key == driver.key), None)
-            link = pin.of if pin else slide.a
-            at = np.asarray(self.motion.point(pin.point, link).z) if pin else self.place(slide.a, self._foot(slide))
-            found.append(PairForce(f"F_{link}", slide.b or frame, link, -1j * self._square(slide), at))
-        return found
-
-    def _said_balance(self, balance: BalanceAt) -> PairForce:
-        frame, link = self.scene.frame.name, balance.link
-        at = self.place(link, balance.at)
-        if balance.kind == "moment":
-            return PairForce(f"M_{link}", frame, link, None, at)
-        along = 1j * np.asarray(self.motion.poses[link].u) if balance.square else balance.turn
-        return PairForce(f"F_{link}", frame, link, along, at)
-
-    def _foot(self, slide: Pair) -> complex:
-        return self.structure.links[slide.a].points[slide.pin] if slide.pin else 0j
-
-    def _square(self, slide: Pair) -> complex | Array:
-        """Direction square to a guide, to its left."""
-        if slide.b == self.scene.frame.name:
-            return 1j * slide.guide.direction
-        return np.asarray(1j * slide.guide.direction * self.motion.poses[slide.b].u)
+def _square(motion: Motion, slide: Pair) -> complex | Array:
+    """Direction square to a guide, to its left."""
+    if slide.b == motion.scene.frame.name:
+        return 1j * slide.guide.direction
+    return np.asarray(1j * slide.guide.direction * motion.poses[slide.b].u)
 
 
 EPS = float(np.finfo(float).eps)
@@ -198,15 +171,18 @@ class Forces:
     def power(self) -> tuple[Array, Array]:
         """The sum of the powers of all that acts from outside and of the balances, which is 0 but for rounding, and the
         greatest of them (W), shape (n,) each."""
-        own = [one.power(self.motion) for one in actions(self.motion)]
-        for one in balances(self.motion):
-            value = self.moments[one.key] if one.along is None else self.forces[one.key]
-            place = None if one.along is None else one.at
-            own += [
-                Action("", link, place, sign * value).power(self.motion)
-                for link, sign in ((one.second, 1.0), (one.first, -1.0))
-            ]
+        both = (*actions(self.motion), *self.balancing)
+        own = [one.power(self.motion) for one in both]
         return np.sum(own, axis=0), np.max(np.abs(own), axis=0)
+
+    @property
+    def balancing(self) -> list[Action]:
+        """What balances, as it acts on both links of each balance."""
+        found = []
+        for one in balances(self.motion):
+            value, place = (self.moments, None) if one.along is None else (self.forces, one.at)
+            found += [Action("", one.second, place, value[one.key]), Action("", one.first, place, -value[one.key])]
+        return found
 
     def value(self, key: str) -> Array | None:
         """A force or a moment by its symbol, ``F_6/5`` being the opposite of ``F_5/6``, ``F_5/6+`` with the loads that
@@ -440,9 +416,7 @@ def actions(motion: Motion) -> Iterator[Action]:
         yield Action(f"Mi_{mass.link}", mass.link, None, np.asarray(-mass.inertia * centre.alpha))
         if loading.gravity:
             yield Action(f"G_{mass.link}", mass.link, at, np.full(len(motion), mass.mass * loading.gravity))
-    applied = _Loads(motion)
-    for load in loading.loads:
-        yield applied.action(load)
+    yield from (_load(motion, load) for load in loading.loads)
     for spring in loading.springs:
         yield from _spring(motion, spring)
 
@@ -475,86 +449,57 @@ def _has_line(motion: Motion, length: Array) -> Array:
     return np.asarray(length > EDGE * motion.scene.size)
 
 
-@dataclass(frozen=True)
-class _Loads:
-    """Loads in a motion."""
+def _load(motion: Motion, load: LoadOn) -> Action:
+    acts, edge = _acting(motion, load.phase)
+    at = np.asarray(motion.poses[load.link].fixed(load.at).z) if load.is_force else None
+    value = _force(motion, load) if load.is_force else np.full(len(motion), load.size)
+    beside = np.where(acts | edge, value, 0.0) if edge.any() else None
+    surely = acts & ~edge
+    return Action(f"P_{load.name}", load.link, at, value if surely.all() else np.where(surely, value, 0.0), beside)
 
-    motion: Motion
 
-    @property
-    def scene(self) -> Mechanism:
-        return self.motion.scene
+def _force(motion: Motion, load: LoadOn) -> Array:
+    """A force load as a vector, whether it acts or not."""
+    scene = motion.scene
+    if load.against:
+        slide, growing = next(s for s in motion.slides if s.key == load.against), motion.growing
+        moving = [growing.poses[link.name] for link in scene.links if not link.redundant]
+        speeds = [np.abs(pose.v) for pose in moving] + [np.abs(pose.omega) * scene.size for pose in moving]
+        most = np.max(np.nan_to_num(speeds), axis=0) + np.abs(growing.poses[slide.b].omega) * scene.size
+        speed = growing.slide(slide.key).velocity
+        sign = np.where(np.abs(speed) > 1e-12 * most, np.sign(speed), 0.0)
+        return np.asarray(-load.size * sign * motion.poses[slide.b].u * slide.guide.direction)
+    if load.follows:
+        return np.asarray(load.size * load.turn * motion.poses[load.follows].u)
+    return np.full(len(motion), load.size * load.turn)
 
-    def action(self, load: LoadOn) -> Action:
-        acts, edge = self._acts(load.phase)
-        key = f"P_{load.name}"
-        if load.is_force:
-            pose = self.motion.poses[load.link]
-            at, value, none = np.asarray(pose.z + pose.u * load.at), self._force(load), 0j
-        else:
-            at, value, none = None, np.full(len(self.motion), load.size), 0.0
-        beside = np.where(acts | edge, value, none) if edge.any() else None
-        surely = acts & ~edge
-        return Action(key, load.link, at, value if surely.all() else np.where(surely, value, none), beside)
 
-    def _force(self, load: LoadOn) -> Array:
-        """A force load as a vector, whether it acts or not."""
-        if load.against:
-            slide = next(s for s in self.motion.slides if s.key == load.against)
-            speed = self._growing.slide(slide.key).velocity
-            most = np.abs(self._growing.poses[slide.b].omega) * self.scene.size + self._scale_of_speed
-            sign = np.where(np.abs(speed) > 1e-12 * most, np.sign(speed), 0.0)
-            return np.asarray(-load.size * sign * self.motion.poses[slide.b].u * slide.guide.direction)
-        if load.follows:
-            return np.asarray(load.size * load.turn * self.motion.poses[load.follows].u)
-        return np.full(len(self.motion), load.size * load.turn)
+def _acting(motion: Motion, phase: Phase | None) -> tuple[Array, Array]:
+    """Where a load acts, and where it begins or ends exactly; shape (n,) each."""
+    n, turn = len(motion), 2 * np.pi
+    if phase is not None and phase.stroke:
+        return _on_stroke(motion, phase)
+    turns = motion.scene.drivers[0].turns
+    if phase is None or (turns and phase.end - phase.start >= turn * (1 - EDGE)):
+        return np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
+    value, span = motion.values[:, 0], phase.end - phase.start
+    if not turns:
+        near = (np.abs(value - phase.start) < EDGE * span) | (np.abs(value - phase.end) < EDGE * span)
+        return np.asarray((phase.start < value) & (value < phase.end)), np.asarray(near)
+    since = np.remainder(value - phase.start, turn)
+    near = (np.minimum(since, turn - since) < EDGE * turn) | (np.abs(since - span) < EDGE * turn)
+    return np.asarray(since < span), np.asarray(near)
 
-    @cached_property
-    def _growing(self) -> Motion:
-        """The motion itself or, at rest, that in which the first driver's value grows."""
-        if any(driver.values[1] for driver in self.scene.drivers):
-            return self.motion
-        return self.motion.growing
 
-    @cached_property
-    def _scale_of_speed(self) -> Array:
-        """The largest speed of any link at each position (m/s)."""
-        moving = [self._growing.poses[link.name] for link in self.scene.links if not link.redundant]
-        speeds = [np.abs(pose.v) for pose in moving] + [np.abs(pose.omega) * self.scene.size for pose in moving]
-        return np.asarray(np.max(np.nan_to_num(speeds), axis=0))
-
-    def _acts(self, phase: Phase | None) -> tuple[Array, Array]:
-        """Where a load acts, and where it begins or ends exactly; shape (n,) each."""
-        n = len(self.motion)
-        always = np.ones(n, dtype=bool), np.zeros(n, dtype=bool)
-        if phase is None:
-            return always
-        if phase.stroke:
-            return self._on_stroke(phase)
-        value = self.motion.values[:, 0]
-        if not self.scene.drivers[0].turns:
-            edge = EDGE * (phase.end - phase.start)
-            near = (np.abs(value - phase.start) < edge) | (np.abs(value - phase.end) < edge)
-            return np.asarray((phase.start < value) & (value < phase.end)), np.asarray(near)
-        turn, span = 2 * np.pi, phase.end - phase.start
-        if span >= turn * (1 - EDGE):
-            return always
-        since = np.remainder(value - phase.start, turn)
-        near = np.minimum(since, turn - since) < EDGE * turn
-        near |= np.abs(since - span) < EDGE * turn
-        return np.asarray(since < span), np.asarray(near)
-
-    def _on_stroke(self, phase: Phase) -> tuple[Array, Array]:
-        low, high = self.motion.reach().stroke(phase.stroke)
-        travel = self.motion.slide(phase.stroke).travel
-        speed = self._growing.slide(phase.stroke).velocity
-        part = (travel - low) / (high - low) if high > low else np.zeros(len(self.motion))
-        if phase.sense < 0:
-            part = 1.0 - part
-        running = np.sign(speed) == phase.sense
-        near = np.zeros(len(self.motion), dtype=bool)
-        for edge in (phase.start, phase.end):
-            # where the slide turns back both senses meet
-            turns = edge < EDGE or edge > 1.0 - EDGE
-            near |= (np.abs(part - edge) < EDGE) & (running | turns)
-        return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)
+def _on_stroke(motion: Motion, phase: Phase) -> tuple[Array, Array]:
+    """The same of a load on a part of a stroke.  Raises Unsolvable where the driver makes no whole turn."""
+    low, high = motion.reach().stroke(phase.stroke)
+    travel, speed = motion.slide(phase.stroke).travel, motion.growing.slide(phase.stroke).velocity
+    part = (travel - low) / (high - low) if high > low else np.zeros(len(motion))
+    part = part if phase.sense > 0 else 1.0 - part
+    running, near = np.sign(speed) == phase.sense, np.zeros(len(motion), dtype=bool)
+    for edge in (phase.start, phase.end):
+        # where the slide turns back both senses meet
+        turns = edge < EDGE or edge > 1.0 - EDGE
+        near |= (np.abs(part - edge) < EDGE) & (running | turns)
+    return np.asarray(running & (phase.start < part) & (part < phase.end)), np.asarray(near)

@@ -109,9 +109,11 @@ class Motion:
         """For each group, in the order of ``structure.groups``, which assembly was taken."""
         return self.assembled()
 
-    @property
+    @cached_property
     def growing(self) -> Motion:
-        """The same positions with the value of the first driver growing at a unit rate."""
+        """The same positions in motion: at rest, with the value of the first driver growing at a unit rate."""
+        if any(driver.values[1] for driver in self.scene.drivers):
+            return self
         reach = self.reach()
         return reach.motion(reach.offsets(self.values[:, 0]), unit=True)
 

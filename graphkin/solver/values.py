@@ -20,7 +20,6 @@ import numpy as np
 from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.files import Json
 from graphkin.files import json_text as one_line
-from graphkin.plane import dot
 from graphkin.scene.cams import SwingingFollower
 from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Mechanism, Phase
@@ -28,10 +27,10 @@ from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
 from graphkin.solver.cams import contact_of
 from graphkin.solver.driver_range import DriverRange, extremes, range_of
-from graphkin.solver.forces import Action, Forces, balances, forces_of, without_line
+from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
 from graphkin.solver.motion import Motion, contact_motion, listed_points, own_slides, pitch_point
-from graphkin.solver.pose import Array, Pose
+from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, LargerGroup
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording, say
@@ -56,10 +55,8 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
     if problem is not None:
         raise CallError(problem)
     if symbol.scope == "cycle":
-
         wheel = flywheel_of(range_of(structure_of(motion.structure)))
         return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
-
     found = forces_of(motion).value(str(symbol.here))
     if found is None:
         raise CallError(Problem(str(symbol), Phrase("is read off the drawing alone"), Phrase("ask check for it")))
@@ -98,7 +95,6 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
 
     @cache
     def of_forces() -> Callable[[Symbol], Value]:
-
         return force_values(motion)[0]
 
     def value(symbol: Symbol) -> Value:
@@ -115,7 +111,6 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
 
 
 def _of_turn(reach: DriverRange, symbol: Symbol) -> float:
-
     found = extremes(reach, symbol)
     return {"K": found.ratio, "theta_lag": found.lag}.get(symbol.kind, found.stroke)
 
@@ -158,13 +153,11 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
 
     def value(symbol: Symbol) -> Value:
         if symbol.kind == "h":
-            return _shift(forces, symbol.link)
+            force, moment = abs(_number(forces.forces[f"Fi_{symbol.link}"])), forces.moments[f"Mi_{symbol.link}"]
+            return float(moment[0]) / force if force else 0.0
         if symbol.kind == "arm":
             return _arm(moving, forces, symbol.name)
-        bare = replace(symbol, plus=False, at="")
-        if symbol.plus and (found := _beside(forces, bare)) is not None:
-            return found
-        known = forces.value(str(bare))
+        known = forces.value(str(symbol.here))
         return float("nan") if known is None else _number(known)
 
     return value, float(forces.bound[0][0])
@@ -183,52 +176,17 @@ def _number(value: np.ndarray) -> Value:
     return complex(value[0]) if np.iscomplexobj(value) else float(value[0])
 
 
-def _beside(forces: Forces, symbol: Symbol) -> Value | None:
-    """A value with the loads that begin or end exactly here; None where they change nothing."""
-    for name, sign in ((symbol, 1.0), (replace(symbol, link=symbol.other, other=symbol.link), -1.0)):
-        found = forces.beside.get(str(name))
-        if found is not None and not np.isnan(found[0]):
-            return _number(np.asarray(sign * found))
-    return None
-
-
-def _shift(forces: Forces, link: str) -> float:
-    force, moment = abs(_number(forces.forces[f"Fi_{link}"])), forces.moments[f"Mi_{link}"]
-    return float(moment[0]) / force if force else 0.0
-
-
 def _arm(moving: Motion, forces: Forces, name: str) -> float:
-    kind, _, rest = name.partition("_")
-    loading = moving.scene.loading
-    pose: Pose
-    if kind == "P":
-        acting = [(one.name, (one.link, one.at)) for one in loading.loads]
-        acting += [(one.name, one.ends[0]) for one in loading.springs]
-        link, at = next(place for named, place in acting if named == rest)
-        pose = moving.poses[link].fixed(at)
-    elif kind == "F":
-        return _of_balance(moving, forces, name)
-    else:
-        mass = next(one for one in loading.masses if one.link == rest)
-        pose = moving.poses[mass.link].fixed(mass.at)
-    force = _number(forces.forces[name])
-    if not force:
-        force = _number(forces.beside.get(name, forces.forces[name]))
-    return _along(complex(np.ravel(pose.v)[0]), complex(force))
-
-
-def _along(velocity: complex, force: complex) -> float:
-    return dot(velocity, force / abs(force)) if force else 0.0
-
-
-def _of_balance(moving: Motion, forces: Forces, name: str) -> float:
-    """Of a balancing force: the part of its point's velocity along its line, positive in the line's own sense."""
-    scene, said = moving.scene, moving.scene.loading.balance
-    if said is not None:
-        pose = moving.poses[said.link]
-        along = 1j * complex(np.ravel(pose.u)[0]) if said.square else said.turn
-        return dot(complex(np.ravel(pose.fixed(said.at).v)[0]), along)
-    return float(moving.slide(scene.drivers[0].key).velocity[0])
+    """Of a force the part of its point's velocity along it; of a balancing force along its line, positive in the line's
+    own sense."""
+    for one in balances(moving):
+        if one.key == name:
+            line = np.asarray(one.along)
+            return float(sum(sign * Action("", link, one.at, line).power(moving)[0]
+                             for link, sign in ((one.second, 1.0), (one.first, -1.0))))  # fmt: skip
+    force = forces.forces[name] if forces.forces[name][0] else forces.beside.get(name, forces.forces[name])
+    acting = next(one for one in actions(moving) if one.key == name)
+    return float(replace(acting, value=force).power(moving)[0] / abs(force[0])) if force[0] else 0.0
 
 
 PANEL = np.radians(10.0)
@@ -276,13 +234,7 @@ def needed_moment(reach: DriverRange, offset: Array) -> Array:
     """What the balance comes to as a moment on the driver, in its sense positive (N m), shape (n,)."""
     motion, moved = reach.motion(offset), reach.motion(offset, unit=True, fine=False)
     forces = forces_of(motion)
-    made = np.zeros(len(motion))
-    for one in balances(motion):
-        value = forces.moments[one.key] if one.along is None else forces.forces[one.key]
-        place = None if one.along is None else one.at
-        for link, sign in ((one.second, 1.0), (one.first, -1.0)):
-            made = made + Action("", link, place, sign * value).power(moved)
-    return np.asarray(made)
+    return np.asarray(np.sum([one.power(moved) for one in forces.balancing], axis=0))
 
 
 def flywheel_of(reach: DriverRange) -> FlywheelStudy:
