@@ -13,9 +13,10 @@ Extremes are found where a derivative in closed form goes through zero, and at b
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from operator import attrgetter
 
 import numpy as np
 
@@ -289,11 +290,11 @@ class CamStudy:
 def study_cam(cam: LawCam) -> CamStudy:
     """Look a cam over.  Raises Unsolvable where the follower does not come to the base circle."""
     most_rise, most_fall = _pressures(cam)
-    round_ = [a for p in cam.law.parts for a in _extremes(cam, p, _radius, _radius_rate)]
+    round_ = [a for p in cam.law.parts for a in _extremes(cam, p, "radius", "radius_rate")]
     convex = [a for a in round_ if a.value + cam.roller > 0.0 or cam.flat]
     return CamStudy(
         cam, most_rise, most_fall, _greatest(cam.law, 1), _greatest(cam.law, 2),
-        min(convex, key=_value, default=None), tuple(_undercut(cam)), tuple(_jumps(cam)),
+        min(convex, key=attrgetter("value"), default=None), tuple(_undercut(cam)), tuple(_jumps(cam)),
     )  # fmt: skip
 
 
@@ -301,8 +302,8 @@ def _pressures(cam: LawCam) -> tuple[AtDegree | None, AtDegree | None]:
     """The greatest pressure angles of rise and fall."""
 
     def most(parts: Sequence[LiftPiece]) -> AtDegree | None:
-        found = (a for p in parts for a in _extremes(cam, p, lambda at, lift: at.pressure, _leaning_rate))
-        return max(found, key=_value, default=None)
+        found = (a for p in parts for a in _extremes(cam, p, "pressure", "leaning_rate"))
+        return max(found, key=attrgetter("value"), default=None)
 
     return most([p for p in cam.law.parts if p.high > p.low]), most([p for p in cam.law.parts if p.high < p.low])
 
@@ -342,10 +343,6 @@ def least_base(cam: LawCam) -> float | None:
     return last_true(lambda radii: np.array([good(float(r)) for r in radii]), high, low, 2, NEAREST * cam.base)
 
 
-def _value(at: AtDegree) -> float:
-    return at.value
-
-
 def _greatest(law: FollowerLaw, order: int) -> AtDegree:
     """The first or second derivative where it is greatest in size: the first place of several as great."""
     found = [AtDegree(*extreme) for part in law.parts for extreme in part.extremes(order)]
@@ -353,44 +350,23 @@ def _greatest(law: FollowerLaw, order: int) -> AtDegree:
     return next(at for at in found if abs(at.value) >= most * (1 - SAME))
 
 
-Of = Callable[[CamAt, Lift], Array]
-
-
-def _radius(at: CamAt, lift: Lift) -> Array:
-    """Radius of curvature of the profile; infinite where it is straight."""
-    return np.asarray(at.radius)
-
-
-def _leaning_rate(at: CamAt, lift: Lift) -> Array:
-    """How the angle between normal and the follower's way changes: both turn."""
-    return np.asarray(at.leaning_rate)
-
-
-def _radius_rate(at: CamAt, lift: Lift) -> Array:
-    return np.asarray(at.radius_rate)
-
-
-def _at(cam: LawCam, part: LiftPiece, degree: Array) -> tuple[CamAt, Lift]:
-    lift = part.at(degree, np)
-    return cam_with(cam, degree, lift), lift
-
-
-def _extremes(cam: LawCam, part: LiftPiece, of: Of, rate: Of) -> Iterator[AtDegree]:
-    """A quantity at the ends of a part and where its rate goes through zero."""
-    def rate_at(degree: Array) -> Array:
-        return np.asarray(np.nan_to_num(np.broadcast_to(rate(*_at(cam, part, degree)), degree.shape)))
+def _extremes(cam: LawCam, part: LiftPiece, of: str, rate: str) -> Iterator[AtDegree]:
+    """A field of the cam at the ends of a part and where its rate, another field, goes through zero."""
+    def at(field: str, degree: Array) -> Array:
+        found = getattr(cam_with(cam, degree, part.at(degree, np)), field)
+        return np.asarray(np.broadcast_to(found, degree.shape))
 
     def same_sign(rising: bool, degree: Array) -> Array:
-        return np.asarray(rate_at(degree) > 0.0 if rising else rate_at(degree) < 0.0)
+        rates = np.nan_to_num(at(rate, degree))
+        return np.asarray(rates > 0.0 if rising else rates < 0.0)
 
     nodes = np.linspace(part.start, part.end, NODES)
-    rates = rate_at(nodes)
+    rates = np.nan_to_num(at(rate, nodes))
     spots = [part.start, part.end]
     for k in np.flatnonzero(rates[:-1] * rates[1:] < 0.0):
-        rising = bool(rates[k] > 0.0)
-        spots.append(last_true(partial(same_sign, rising), float(nodes[k]), float(nodes[k + 1])))
+        spots.append(last_true(partial(same_sign, bool(rates[k] > 0.0)), float(nodes[k]), float(nodes[k + 1])))
     spots += nodes[rates == 0.0].tolist()
-    values = np.broadcast_to(of(*_at(cam, part, np.array(spots))), (len(spots),))
+    values = at(of, np.array(spots))
     yield from (AtDegree(float(v), d) for v, d in zip(values, spots, strict=True) if not math.isnan(v))
 
 
@@ -410,7 +386,7 @@ def _undercut(cam: LawCam) -> Iterator[tuple[float, float]]:
 def _too_sharp(cam: LawCam, part: LiftPiece, degree: Array) -> Array:
     """Where the profile turns back on itself: a flat face on a radius that is not positive, a roller larger than the
     convex pitch curve is round."""
-    at, _ = _at(cam, part, degree)
+    at = cam_with(cam, degree, part.at(degree, np))
     if cam.flat:
         return np.asarray(at.radius < 0.0)
     return np.asarray((at.radius < 0.0) & (at.radius + cam.roller > 0.0))

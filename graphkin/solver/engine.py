@@ -23,11 +23,11 @@ from graphkin.solver.dyads import DyadSolution
 from graphkin.solver.expressions import DECIMALS, Code, Name, Real, Vec
 from graphkin.solver.larger_groups import GroupSolved, solve_group
 from graphkin.solver.pose import FIELDS, GIVEN, Array, Drive, ErrorBound, Pose, rest, turned
-from graphkin.solver.program import DimensionedProgram, Program, program_of
+from graphkin.solver.program import DimensionedProgram, program_of
 from graphkin.structure import Driven, LargerGroup, Rolled, Structure
 
 __all__ = [
-    "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "extended_precision_of", "group_at",
+    "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "group_at",
     "known_exactly", "least_closes", "newton", "positions", "touch",
 ]  # fmt: skip
 
@@ -196,16 +196,6 @@ def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], whi
         run = _Run(structure, drive, forms, True)
         run.follow(which + 1)
         return run.clusters[which]
-
-
-def extended_precision_of(
-    structure: Structure, forms: Mapping[int, Array], choose: Callable[[Program], Real], drive: Drive | None = None
-) -> ExtendedPrecision:
-    """What computes a formula of a mechanism of dyads in fifty digits, at positions of its drivers (its own), or at
-    any values of them."""
-    own = np.array([[d.values[0] for d in structure.scene.drivers]])
-    run = _Run(structure, drive or Drive.at(structure, own), forms, False)
-    return run._extended(Code(run.dimensioned.program.graph, [choose(run.dimensioned.program)]))
 
 
 class _Run:
@@ -430,7 +420,10 @@ class Discriminant:
 
     def __init__(self, structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None) -> None:
         known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
-        self._extended = extended_precision_of(structure, known, lambda program: program.groups[i].discriminant, drive)
+        own = np.array([[d.values[0] for d in structure.scene.drivers]])
+        run = _Run(structure, drive or Drive.at(structure, own), known, False)
+        program = run.dimensioned.program
+        self._extended = run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
 
     def __call__(self, *values: Decimal) -> Decimal:
         """At values of the drivers.  Raises ArithmeticError where the groups before it have no place."""
