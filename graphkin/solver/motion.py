@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +26,6 @@ from graphkin.solver.quantities import Posed, all_slides, pole, value_of_symbol
 from graphkin.structure import Pair, Structure
 from graphkin.structure.assembly import ChangePoint
 from graphkin.words import Phrase, Wording
-
-if TYPE_CHECKING:
-    from graphkin.solver.driver_range import DriverRange
 
 __all__ = [
     "SLIGHT", "Centrode", "ContactMotion", "Motion", "Sliding", "centrode", "contact_motion", "instant_centre",
@@ -49,6 +46,19 @@ class Sliding(NamedTuple):
     velocity: Array
     acceleration: Array
     coriolis: Array
+
+
+class Reach(Protocol):
+    """The range of the driver that a motion is a part of, as far as its forces ask for it."""
+
+    def offsets(self, value: Array) -> Array:
+        """Where the first driver has these values (rad, m)."""
+
+    def motion(self, offset: Array, unit: bool = False) -> Motion:
+        """The motion there, with the rates of the scene or by the first driver's own value."""
+
+    def stroke(self, pair: str) -> tuple[float, float]:
+        """Least and greatest travel of a sliding pair (m)."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +85,7 @@ class Motion:
     poses: Mapping[str, Pose]
     assembled: Callable[[], tuple[Phrase, ...]]
     accuracy: Accuracy
-    reach: Callable[[], DriverRange]
+    reach: Callable[[], Reach]
     turned: Mapping[str, Array] = field(default_factory=dict)
     passed: tuple[ChangePoint, ...] = ()
     onward: Mapping[str, float] = field(default_factory=dict)
