@@ -181,9 +181,8 @@ def _arm(moving: Motion, forces: Forces, name: str) -> float:
     own sense."""
     for one in balances(moving):
         if one.key == name:
-            line = np.asarray(one.along)
-            return float(sum(sign * Action("", link, one.at, line).power(moving)[0]
-                             for link, sign in ((one.second, 1.0), (one.first, -1.0))))  # fmt: skip
+            on, back = (Action("", link, one.at, np.asarray(one.along)) for link in (one.second, one.first))
+            return float((on.power(moving) - back.power(moving))[0])
     force = forces.forces[name] if forces.forces[name][0] else forces.beside.get(name, forces.forces[name])
     acting = next(one for one in actions(moving) if one.key == name)
     return float(replace(acting, value=force).power(moving)[0] / abs(force[0])) if force[0] else 0.0
