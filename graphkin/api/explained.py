@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -82,32 +82,6 @@ class Explained(OfScene, Result):
         return f"<Explained {self.mechanism.name}: {len(self.sentences)} sentences>"
 
 
-def _loads(scene: Mechanism) -> Iterator[tuple[str, Phrase]]:
-    """Masses and loads, and what keeps them in balance."""
-    units, loading = scene.units, scene.loading
-    for mass in loading.masses:
-        heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")
-        x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
-        told = (mass.link, heavy, f"{inertia.of(mass.inertia):.6g} {inertia.text}", x, y)
-        yield "explained loads", Phrase("explained mass", told)
-    if loading.gravity:
-        angle = math.degrees(cmath.phase(loading.gravity))
-        yield "explained loads", Phrase("explained gravity", (f"{abs(loading.gravity):.6g}", f"{angle:.6g}"))
-    for load in loading.loads:
-        size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
-        key = "explained force" if load.is_force else "explained moment"
-        yield "explained loads", Phrase(key, (load.name, size, load.link))
-    for spring in loading.springs:
-        ends = [text for pair in zip(spring.points, spring.links, strict=True) for text in pair]
-        rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
-        free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
-        said = (spring.name, *ends, rate, free, f"{preload:.6g} {units.force}")
-        yield "explained loads", Phrase("explained spring", said)
-    for name, kind in force_names(scene).items():
-        if name[:2] in ("F_", "M_") and "/" not in name:
-            yield "explained loads", Phrase(f"explained balancing {kind}", (name, name[2:]))
-
-
 def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     """Say in words what was understood of a scene.
 
@@ -129,37 +103,40 @@ def explain(scene: SceneLike, *, language: str | None = None) -> Explained:
     """
     known_words(language=language)
     given = as_scene(scene)
-    sentences = [*_units(given), *_links(given), *_joints(given), *_mobility(given), *_drivers(given)]
     why: Wording = ""
     exit_code = 0
+    groups: list[Phrase] = []
     try:
         from graphkin.solver import structure_of
 
-        structure = structure_of(given)
-        sentences += _groups(structure)
-        pointed = [p for p in structure.scene.sketch if p not in given.sketch]
-        if pointed:
-            sentences.append(("explained groups", Phrase("explained pointed", (", ".join(pointed),))))
+        groups = [*_groups(structure_of(given), given)]
     except Unsolvable as error:
         why, exit_code = error.reason, error.exit_code
-    sentences += _loads(given)
-    sentences += [("explained asked", Phrase("explained asked all"))] if not given.question.find else [
-        ("explained asked", Phrase("explained asked for", (", ".join(map(str, given.question.find)),)))
-    ]  # fmt: skip
-    return Explained(given, tuple(sentences), why, language or given.question.sheet.language, exit_code)
+    find = ", ".join(map(str, given.question.find))
+    told: dict[str, Iterable[Phrase]] = {
+        "units": _units(given), "links": _links(given), "joints": _joints(given), "mobility": [_mobility(given)],
+        "drivers": [_driver(given, driver) for driver in given.drivers], "groups": groups, "loads": _loads(given),
+        "asked": [Phrase("explained asked for", (find,)) if find else Phrase("explained asked all")],
+    }  # fmt: skip
+    sentences = tuple((f"explained {about}", phrase) for about, phrases in told.items() for phrase in phrases)
+    return Explained(given, sentences, why, language or given.question.sheet.language, exit_code)
 
 
-def _units(scene: Mechanism) -> Iterator[Sentence]:
-    yield "explained units", Phrase("explained unit", (scene.units.length, scene.units.of("velocity").text))
-    if scene.question.background is not None:
-        step = scene.question.background.step
-        turned = _number(math.degrees(cmath.phase(step)))
-        told = scene.question.background.name, _number(abs(step) / scene.units.metres), scene.units.length, turned
-        yield "explained units", Phrase("explained background", told)
+def _units(scene: Mechanism) -> Iterator[Phrase]:
+    yield Phrase("explained unit", (scene.units.length, scene.units.of("velocity").text))
+    background = scene.question.background
+    if background is not None:
+        turned = _degrees(background.step)
+        step = _number(abs(background.step) / scene.units.metres)
+        yield Phrase("explained background", (background.name, step, scene.units.length, turned))
 
 
 def _number(value: float) -> str:
     return f"{value + 0.0:.6g}"
+
+
+def _degrees(direction: complex) -> str:
+    return _number(math.degrees(cmath.phase(direction)))
 
 
 def _place(z: complex, scene: Mechanism) -> str:
@@ -167,72 +144,66 @@ def _place(z: complex, scene: Mechanism) -> str:
     return f"({_number(z.real / unit)}, {_number(z.imag / unit)})"
 
 
-def _links(scene: Mechanism) -> Iterator[Sentence]:
-    about = "explained links"
+def _links(scene: Mechanism) -> Iterator[Phrase]:
     fixed = ", ".join(f"{p} {_place(z, scene)}" for p, z in scene.frame.points.items()) or "-"
-    yield about, Phrase("explained frame", (scene.frame.name, fixed))
-    yield from ((about, phrase) for phrase in (*_outlines(scene.frame, scene), *_guides(scene.frame, scene)))
+    yield Phrase("explained frame", (scene.frame.name, fixed))
+    yield from _outlines(scene.frame, scene)
     for link in scene.links:
         own = link.bar
         if len(own) == 2:
             length = _number((link.length or 0.0) / scene.units.metres)
-            yield about, Phrase("explained bar", (link.name, "".join(own), length, scene.units.length))
+            yield Phrase("explained bar", (link.name, "".join(own), length, scene.units.length))
         elif any(s.link == link.name for s in scene.slidings):
-            yield about, Phrase("explained block", (link.name, own[0] if own else "-"))
+            yield Phrase("explained block", (link.name, own[0] if own else "-"))
         elif own and any(cam.link == link.name for cam in scene.cams):
-            yield about, Phrase("explained cam link", (link.name, own[0]))
+            yield Phrase("explained cam link", (link.name, own[0]))
         elif own and any(link.name in gear.wheels for gear in scene.gears):
-            yield about, Phrase("explained wheel", (link.name, own[0]))
+            yield Phrase("explained wheel", (link.name, own[0]))
         else:
-            yield about, Phrase("explained ray", (link.name, own[0] if own else "-"))
+            yield Phrase("explained ray", (link.name, own[0] if own else "-"))
         further = [f"{p} {_place(z, scene)}" for p, z in link.points.items() if p not in own]
         if further:
-            yield about, Phrase("explained further", (link.name, ", ".join(further)))
-        yield from ((about, phrase) for phrase in _outlines(link, scene))
-        yield from ((about, phrase) for phrase in _guides(link, scene))
+            yield Phrase("explained further", (link.name, ", ".join(further)))
+        yield from _outlines(link, scene)
         if link.redundant:
-            yield about, Phrase("explained redundant", (link.name,))
+            yield Phrase("explained redundant", (link.name,))
 
 
 def _outlines(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
+    """The discs and the guides of a link."""
     for disc in link.discs:
-        place = disc.name, disc.centre, _number(disc.radius / scene.units.metres), scene.units.length
-        yield Phrase("explained disc", place)
-
-
-def _guides(link: PlacedLink, scene: Mechanism) -> Iterator[Phrase]:
+        radius = _number(disc.radius / scene.units.metres)
+        yield Phrase("explained disc", (disc.name, disc.centre, radius, scene.units.length))
     for name, guide in link.guides.items():
         if name:
-            angle = _number(math.degrees(cmath.phase(guide.direction)))
-            yield Phrase("explained guide", (f"{link.name}.{name}", _place(guide.through, scene), angle))
+            place = f"{link.name}.{name}", _place(guide.through, scene), _degrees(guide.direction)
+            yield Phrase("explained guide", place)
 
 
-def _joints(scene: Mechanism) -> Iterator[Sentence]:
-    about = "explained joints"
+def _joints(scene: Mechanism) -> Iterator[Phrase]:
     counted = {scene.frame.name, *(link.name for link in scene.links if not link.redundant)}
     for point, holders in scene.holders.items():
         own = [name for name in holders if name in counted]
         if len(own) > 1:
             many = (len(own) - 1,) if len(own) > 2 else ()
-            yield about, Phrase("explained turnings" if many else "explained turning", (point, ", ".join(own), *many))
+            yield Phrase("explained turnings" if many else "explained turning", (point, ", ".join(own), *many))
     for pair in scene.slidings:
         guide = _guide_name(scene, pair.on, pair.guide)
-        angle = _number(math.degrees(cmath.phase(pair.turn)))
-        yield about, Phrase("explained sliding", (pair.link, guide, pair.pin or "-", angle))
+        yield Phrase("explained sliding", (pair.link, guide, pair.pin or "-", _degrees(pair.turn)))
     for pin in scene.pins:
-        yield about, Phrase("explained slot", (pin.point, pin.of, _guide_name(scene, pin.on, pin.guide)))
+        yield Phrase("explained slot", (pin.point, pin.of, _guide_name(scene, pin.on, pin.guide)))
     for contact in scene.contacts:
         sides = [f"{d.link}.{d.name}" if d else _guide_name(scene, contact.face, contact.guide) for d in contact.discs]
         held = (contact.carrier,) if contact.carrier else ()
         key = "explained contact" if not contact.rolling else "explained held rolling" if held else "explained rolling"
-        yield about, Phrase(key, (contact.name, *sides, *held))
+        yield Phrase(key, (contact.name, *sides, *held))
     for cam in scene.cams:
         kind = "flat" if cam.flat else "roller" if cam.roller else "edge"
-        yield about, Phrase("explained cam", (cam.link, cam.follower, Phrase(f"cam {kind}"), str(len(cam.law.pieces))))
+        yield Phrase("explained cam", (cam.link, cam.follower, Phrase(f"cam {kind}"), str(len(cam.law.pieces))))
     for gear in scene.gears:
         teeth = [_number(z) for z in gear.teeth if z is not None]
-        yield about, Phrase("explained rack" if gear.is_rack else "explained gear",
-                            (gear.name, *gear.wheels, *teeth, gear.carrier))  # fmt: skip
+        key = "explained rack" if gear.is_rack else "explained gear"
+        yield Phrase(key, (gear.name, *gear.wheels, *teeth, gear.carrier))
 
 
 def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
@@ -240,17 +211,11 @@ def _guide_name(scene: Mechanism, link: str, guide: str) -> str:
     return f"{link}.{found.name}" if found.name else link
 
 
-def _mobility(scene: Mechanism) -> Iterator[Sentence]:
+def _mobility(scene: Mechanism) -> Phrase:
     count = mobility_of(scene)
-    numbers = count.links, count.lower, count.higher, count.value, len(scene.drivers)
     left = count.value - len(scene.drivers)
     key = "explained count" if left == 0 else "explained undetermined" if left > 0 else "explained miscount"
-    yield "explained mobility", Phrase(key, numbers)
-
-
-def _drivers(scene: Mechanism) -> Iterator[Sentence]:
-    for driver in scene.drivers:
-        yield "explained drivers", _driver(scene, driver)
+    return Phrase(key, (count.links, count.lower, count.higher, count.value, len(scene.drivers)))
 
 
 def _driver(scene: Mechanism, driver: Driver) -> Phrase:
@@ -268,8 +233,9 @@ def _driver(scene: Mechanism, driver: Driver) -> Phrase:
     return Phrase("explained slides", (driver.key, at, said))
 
 
-def _groups(structure: Structure) -> Iterator[Sentence]:
-    """The groups in the order of solution, and in which assembly each lies, as far as it can be drawn."""
+def _groups(structure: Structure, scene: Mechanism) -> Iterator[Phrase]:
+    """The groups in the order of solution, and in which assembly each lies, as far as it can be drawn; the points that
+    were sketched for it."""
     assembly: dict[str, Phrase] = {}
     with suppress(GraphkinError):  # the position cannot be had: solve says why
         assembly = dict(execute(plan(structure, None, ()), EXACT).assembly)
@@ -277,7 +243,32 @@ def _groups(structure: Structure) -> Iterator[Sentence]:
         links = ", ".join(group.links)
         larger = Phrase("explained group kind" if group.order > 2 else "explained rolling kind")
         kind = larger if isinstance(group, LargerGroup) else group.kind
-        yield "explained groups", Phrase("explained group", (links, kind, class_of(group.order)))
-        taken = assembly.get(links)
-        if taken is not None:
-            yield "explained groups", Phrase("explained assembly", (taken,))
+        yield Phrase("explained group", (links, kind, class_of(group.order)))
+        if links in assembly:
+            yield Phrase("explained assembly", (assembly[links],))
+    pointed = [p for p in structure.scene.sketch if p not in scene.sketch]
+    if pointed:
+        yield Phrase("explained pointed", (", ".join(pointed),))
+
+
+def _loads(scene: Mechanism) -> Iterator[Phrase]:
+    """Masses and loads, and what keeps them in balance."""
+    units, loading = scene.units, scene.loading
+    for mass in loading.masses:
+        heavy, inertia = f"{mass.mass / units.kilograms:.6g} {units.mass}", units.of("inertia")
+        x, y = (f"{part / units.metres:.6g}" for part in (mass.at.real, mass.at.imag))
+        yield Phrase("explained mass", (mass.link, heavy, f"{inertia.of(mass.inertia):.6g} {inertia.text}", x, y))
+    if loading.gravity:
+        angle = math.degrees(cmath.phase(loading.gravity))
+        yield Phrase("explained gravity", (f"{abs(loading.gravity):.6g}", f"{angle:.6g}"))
+    for load in loading.loads:
+        size = f"{load.size / units.newtons:.6g} {units.force}" + ("" if load.is_force else " m")
+        yield Phrase("explained force" if load.is_force else "explained moment", (load.name, size, load.link))
+    for spring in loading.springs:
+        ends = [text for pair in zip(spring.points, spring.links, strict=True) for text in pair]
+        rate = f"{spring.rate * units.metres / units.newtons:.6g} {units.force}/{units.length}"
+        free, preload = f"{spring.free / units.metres:.6g} {units.length}", spring.preload / units.newtons
+        yield Phrase("explained spring", (spring.name, *ends, rate, free, f"{preload:.6g} {units.force}"))
+    for name, kind in force_names(scene).items():
+        if name[:2] in ("F_", "M_") and "/" not in name:
+            yield Phrase(f"explained balancing {kind}", (name, name[2:]))
