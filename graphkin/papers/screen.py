@@ -187,7 +187,9 @@ def positions_data(views: Sequence[Lesson], progress: Progress | None = None) ->
     positions = []
     for done, (view, (piece, _)) in enumerate(zip(views, pieces, strict=True), 1):
         position, own = _position(view, piece, frames, cams)
-        stages += [stage for stage in own if stage not in stages]
+        for stage in own:
+            if stage not in stages:
+                stages.append(stage)
         positions.append(position | {"stages": [stages.index(stage) for stage in own]})
         if progress is not None:
             progress(done, len(views))
