@@ -14,8 +14,7 @@ from pathlib import Path
 import pytest
 
 import graphkin
-from graphkin.words import LANGUAGES, Phrase
-from graphkin.words.rich_text import Markup, as_markup, as_plain, rich_text
+from graphkin.words import LANGUAGES, Markup, Phrase, as_markup, as_plain, rich_text
 from tests.command import start
 
 MARK = "¤"

@@ -18,8 +18,7 @@ from graphkin.scene.drivers import asked_time, moves_by_law
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.version import __version__
-from graphkin.words import Phrase, languages, listed, say, word
-from graphkin.words.rich_text import as_plain, rich_text
+from graphkin.words import Phrase, as_plain, languages, listed, rich_text, say, word
 from graphkin.words.written import amount, in_markup, on_paper, product, true_minus
 
 __all__ = [

@@ -28,8 +28,7 @@ from graphkin.construction.steps import (
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair
-from graphkin.words import Neutral, Phrase, languages, listed
-from graphkin.words.rich_text import Markup
+from graphkin.words import Markup, Neutral, Phrase, languages, listed
 from graphkin.words.written import in_markup, on_paper, true_minus
 
 __all__ = ["LINES", "SENTENCES", "numeral"]

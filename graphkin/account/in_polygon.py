@@ -43,8 +43,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, languages, listed
-from graphkin.words.rich_text import Markup
+from graphkin.words import Markup, Neutral, Phrase, languages, listed
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 __all__ = ["LINES", "SENTENCES", "SUMS", "alike", "measured", "rate_name"]

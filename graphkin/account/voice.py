@@ -17,8 +17,7 @@ from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import GIVEN, Aid, Bar, DiagramName, Direction, Mark, Size, Step, Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Neutral, Phrase, word
-from graphkin.words.rich_text import Markup, as_markup, rich_text
+from graphkin.words import Markup, Neutral, Phrase, as_markup, rich_text, word
 from graphkin.words.written import in_markup
 
 __all__ = [

@@ -41,8 +41,7 @@ from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.structure import Structure
-from graphkin.words import Phrase, languages, say, word
-from graphkin.words.rich_text import as_plain, rich_text
+from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
 
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing

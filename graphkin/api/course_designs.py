@@ -37,7 +37,6 @@ from graphkin.drawing.write.drawing import Drawing
 from graphkin.errors import CallError, Problem, Unsolvable, did_you_mean
 from graphkin.files import Json, path_of
 from graphkin.jobs import Progress
-from graphkin.papers.answer_key import key_rows, way
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -53,14 +52,13 @@ from graphkin.papers.blocks import (
     said,
 )
 from graphkin.papers.data_rows import table_of
+from graphkin.papers.documents import given as given_words
+from graphkin.papers.documents import key_rows, paper_title, scene_title, solution_blocks, way
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import Paper, paper_of, paper_plan
 from graphkin.papers.pdf import can_join, can_typeset, one_after_another, papers_as
 from graphkin.papers.pictures import bare_picture, mechanism_picture
 from graphkin.papers.prepare import FORMATS, compared, lesson_of, positions
-from graphkin.papers.problem import given as given_words
-from graphkin.papers.problem import paper_title, scene_title
-from graphkin.papers.solution import solution_blocks
 from graphkin.papers.variants import asked_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import safe_name

@@ -25,7 +25,7 @@ from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, Problem, as_list
 from graphkin.files import Json, path_of
-from graphkin.papers.answer_key import KeyRow, key_rows
+from graphkin.papers.documents import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
@@ -129,7 +129,7 @@ class Handout(OfScene, Result):
         return f"<Handout {self.mechanism.name}: {', '.join(self.formats)}>"
 
     def _repr_html_(self) -> str:
-        from graphkin.papers.answer_key import answer_key
+        from graphkin.papers.documents import answer_key
         from graphkin.papers.html import blocks_html
 
         return blocks_html(answer_key(self.lesson).blocks)

@@ -29,8 +29,8 @@ from graphkin.api.results import OfScene, Result, named
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
 from graphkin.files import Json, OwnTables, Tables, folder_alone, path_of
 from graphkin.jobs import Progress, Workers
-from graphkin.papers.answer_key import answers_template
 from graphkin.papers.data_rows import Columns, Rows, columns_of, replaced, table_of, with_points
+from graphkin.papers.documents import answers_template
 from graphkin.papers.exports import BANKED, bank
 from graphkin.papers.fresh_numbers import Spread, rules_checked, varied_keys
 from graphkin.papers.pdf import can_join, one_after_another

@@ -16,8 +16,7 @@ from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import Term, plain_in
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Mechanism
-from graphkin.words import Phrase, about, say, word
-from graphkin.words.rich_text import as_plain, rich_text
+from graphkin.words import Phrase, about, as_plain, rich_text, say, word
 from graphkin.words.written import MOST, amount
 
 if TYPE_CHECKING:

@@ -33,11 +33,11 @@ from graphkin.papers.blocks import (
     numbered,
     said,
 )
+from graphkin.papers.documents import labelled
 from graphkin.papers.lesson import plain_words
 from graphkin.papers.paper import Paper
 from graphkin.papers.pdf import papers_as
 from graphkin.papers.pictures import bare_picture
-from graphkin.papers.problem import labelled
 from graphkin.scene.cams import SwingingFollower
 from graphkin.words import languages, say, word
 from graphkin.words.written import in_markup

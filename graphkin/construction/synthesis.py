@@ -26,8 +26,7 @@ from graphkin.scene.designs import (
     LimitsTask,
     SliderCrankTask,
 )
-from graphkin.words import Phrase
-from graphkin.words.rich_text import Markup
+from graphkin.words import Markup, Phrase
 
 __all__ = [
     "DesignAngle", "DesignCircle", "DesignLine", "DesignPoint", "DesignSheet", "DesignStep", "DesignStroke", "LineKind",

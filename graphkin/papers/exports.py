@@ -20,12 +20,11 @@ from markupsafe import Markup
 from graphkin.account.headings import structure_words
 from graphkin.checking.slips import Evidence
 from graphkin.errors import GraphkinError
-from graphkin.papers.answer_key import key_rows
 from graphkin.papers.blocks import clean, in_each
+from graphkin.papers.documents import given, key_rows, scene_title
 from graphkin.papers.html import rendered, said_html, words_html
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import mechanism_picture
-from graphkin.papers.problem import given, scene_title
 from graphkin.scene.symbol import Symbol
 from graphkin.words import languages, say, word
 

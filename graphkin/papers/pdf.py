@@ -1,8 +1,11 @@
-"""Documents as typeset PDF, with the extra ``pdf`` (Typst): figures at true scale, page numbers, the same bytes every
-time.
+"""Documents as typeset PDF, with the extra ``pdf`` (Typst): pages filled, figures at true scale, page numbers, the same
+bytes every time.
 
 Typst stays behind this module.  The template is fixed; the document is handed to it as data, so that no word of a
-scene is ever read as a command.
+scene is ever read as a command.  Typst measures each piece of a document once.  Words are never parted from what they
+lead to; a figure that a page has no more room for may stand at the head of the next one, while the words behind it go
+on.  Among all ways the one with the least white is taken, as Knuth and Plass take lines of a paragraph (Software:
+Practice and Experience 11, 1981).
 """
 
 from __future__ import annotations
@@ -12,26 +15,47 @@ import json
 import math
 import re
 import warnings
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
-from functools import lru_cache
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from graphkin.drawing.font import FAMILY, FOLDER
 from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Scan, Text, walk
 from graphkin.drawing.text import Atom, is_italic, parsed, start_runs
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.papers.blocks import Beside, Document, Leaf, Picture, Plate, Said, clean
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Leaf,
+    Paragraph,
+    Picture,
+    Plate,
+    Said,
+    StepItem,
+    Steps,
+    TableBlock,
+    Together,
+    clean,
+)
 from graphkin.papers.html import document_page
-from graphkin.papers.layout import COLUMN_GAP, HALVES_GAP, MANY_ROWS, Row, lines_of, pages_of
+from graphkin.papers.paper import BOTTOM, SIDE, TOP
+from graphkin.plane import added_up
 from graphkin.words import word
 
 if TYPE_CHECKING:
     import typst
 
-__all__ = ["can_join", "can_typeset", "one_after_another", "papers_as", "pdf"]
+__all__ = [
+    "COLUMN_GAP", "HALVES_GAP", "KEPT", "MANY_ROWS", "Measure", "Page", "Piece", "Row", "balanced", "can_join",
+    "can_typeset", "fill_pages", "lines_of", "one_after_another", "pages_of", "papers_as", "pdf",
+]  # fmt: skip
 
 Data: TypeAlias = dict[str, object]
 """What the template reads, as JSON holds it."""
@@ -222,3 +246,367 @@ FORMS: Mapping[str, Callable[[Any], object]] = {
     "rows": lambda rows: [[*map(_words, row)] for row in rows], "bold": sorted, "seen": clean,
 }  # fmt: skip
 """The fields of blocks that are not handed to the template as they are, and what it reads instead."""
+
+
+# -- pieces on pages --------------------------------------------------------------------------------------------------
+
+
+COLUMN_GAP = 4.0  # mm between two columns of steps
+HALVES_GAP = 12.0  # mm between the halves of a large page
+FIGURE_GAP = 5.0  # mm between words and the figure beside them
+HALVED = 12  # rows that are set in two halves side by side where these have room
+MANY_ROWS = 30  # rows of a table that is parted where a page ends
+MANY_STEPS = 2  # that leave the side of a figure for two columns below it
+LEEWAY = 0.5  # mm of a page that stay free, for rounding
+LEAST_ROOM = 25.0  # mm to write in
+LEAST_FLOW = 40.0  # mm of what is parted over pages, on the first of them
+MOST_MORE = 8.0  # mm by which a gap grows where a page has white left
+ITEMS = 2.0  # mm between steps
+WHITE = 0.28  # of a page, above which it is seen
+SHORT = 0.25  # of a last page that is worth a page
+
+# costs, where 1 is that of a page all but empty
+KEPT = 50.0  # of parting what belongs together: only where a page does not hold it
+INSIDE = 0.08  # of a page break between steps
+BEFORE = 0.04  # of one between steps and their figure
+DEFERRED = 0.15  # of a figure overleaf, some of what follows it before it
+WORTH = 0.5  # that a figure below its words instead of beside them must save
+
+Question: TypeAlias = tuple[Leaf, float | None]
+"""A leaf, and the width (mm) at which its size is wanted, None where it is as wide as it is by itself."""
+Measure: TypeAlias = Callable[[Sequence[Question]], Sequence[tuple[float, float]]]
+"""Widths and heights (mm) of leaves."""
+Sizes: TypeAlias = dict[Question, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Something that is not parted: what it shows, its height and the gap above it (mm), and what a page break before
+    it costs; with ``half`` it stands in one of two columns, with its neighbours that do."""
+
+    block: Leaf
+    height: float = 0.0
+    gap: float = 0.0
+    tie: float = 0.0
+    half: bool = False
+
+    @property
+    def floats(self) -> bool:
+        """Whether it is a figure that what follows may overtake."""
+        return isinstance(self.block, Picture) and self.block.floats
+
+    @property
+    def fills(self) -> bool:
+        """Whether it takes what is left of its page."""
+        return isinstance(self.block, Paragraph) and self.block.fills
+
+    @property
+    def fresh(self) -> bool:
+        """Whether it begins a page."""
+        return isinstance(self.block, Heading) and self.block.fresh
+
+
+@dataclass(frozen=True)
+class Row:
+    """A part of a page: a piece, or those of two columns side by side; the gap above them, and the ``height`` of a
+    piece that takes what a page has left (mm)."""
+
+    left: tuple[Piece, ...]
+    right: tuple[Piece, ...] = ()
+    gap: float = 0.0
+    height: float = 0.0
+
+
+Page: TypeAlias = tuple[Row, ...]
+
+
+def pages_of(document: Document, measure: Measure) -> list[tuple[Page, ...]]:
+    """The pages of a document; what stands before its first fresh heading in two halves where it is ``folded``."""
+    wide, high = document.paper.width - 2 * SIDE, document.paper.height - TOP - BOTTOM - LEEWAY
+    pieces = list(_pieces(document.blocks))
+    half = (wide - HALVES_GAP) / 2
+    end = next((i for i, piece in enumerate(pieces) if piece.fresh), len(pieces)) if document.folded else 0
+    folded, whole = pieces[:end], pieces[end:]
+    asked = tuple(dict.fromkeys(
+        question for some, width in ((folded, half), (whole, wide)) for piece in some
+        for question in _questions(piece, width)
+    ))  # fmt: skip
+    sizes = dict(zip(asked, measure(asked), strict=True))
+    halves = _filled(folded, half, high, sizes)
+    return [tuple(halves[i : i + 2]) for i in range(0, len(halves), 2)] + [
+        (page,) for page in _filled(whole, wide, high, sizes)
+    ]
+
+
+# -- from blocks to pieces of known height -----------------------------------------------------------------------------
+
+
+def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
+    """Leaf by leaf, and what it costs to part it from the one before."""
+    leads = False  # whether words or an equation lead to what follows them
+    for block in blocks:
+        for i, piece in enumerate(_leaves(block)):
+            tie = piece.tie
+            if leads:
+                tie = KEPT
+            elif i and not tie and isinstance(block, Together):
+                tie = BEFORE if piece.floats else KEPT
+            leads = isinstance(piece.block, Heading) or (isinstance(piece.block, Picture) and piece.block.joined)
+            yield replace(piece, tie=tie)
+
+
+def _leaves(block: Block) -> Iterator[Piece]:
+    for one in block.blocks if isinstance(block, Together) else (block,):
+        if isinstance(one, Steps):
+            yield from (Piece(step, tie=INSIDE if k else 0.0, half=one.parted) for k, step in enumerate(one.items))
+        else:
+            assert not isinstance(one, Together)
+            yield Piece(one)
+
+
+def lines_of(beside: Beside) -> list[tuple[float, Heading | Paragraph | StepItem]]:
+    """The words beside a figure, step by step, each with the gap above it (mm)."""
+    lines = [line for one in beside.blocks for line in (one.items if isinstance(one, Steps) else (one,))]
+    gaps = [0.0, *(_gap(one, other) for one, other in pairwise(lines))]
+    return list(zip(gaps, lines, strict=True))
+
+
+def _narrow(picture: Picture, wide: float) -> float:
+    """What a figure leaves of a width for the words at its left."""
+    return wide - picture.drawing.width - FIGURE_GAP
+
+
+def _questions(piece: Piece, wide: float) -> Iterator[Question]:
+    """Every leaf and width of which the size may be wanted."""
+    block, half = piece.block, (wide - COLUMN_GAP) / 2
+    if isinstance(block, Beside):
+        yield block.picture, block.picture.drawing.width
+        yield replace(block.picture, floats=True), wide
+        for _, line in lines_of(block):
+            yield line, _narrow(block.picture, wide)
+            yield line, half if isinstance(line, StepItem) else wide
+        return
+    yield block, half if piece.half else wide
+    if isinstance(block, TableBlock) and (halved := _in_halves(block, wide)):
+        yield halved
+
+
+def _in_halves(table: TableBlock, wide: float) -> Question | None:
+    """A table in two halves side by side, and how wide it is; None where it has few rows."""
+    few = len(table.rows) < HALVED * (1 + table.roomy)
+    return None if few else (replace(table, halved=True), wide if table.roomy else None)
+
+
+def _filled(pieces: Sequence[Piece], wide: float, high: float, sizes: Sizes) -> list[Page]:
+    """Pages of some pieces.  A figure beside its words keeps much together: where pages gape, some go below them."""
+
+    def filled(below: frozenset[int]) -> tuple[list[Page], float, bool]:
+        ready = [one for i, piece in enumerate(pieces) for one in _fitted(piece, wide, sizes, i in below)]
+        gaps = [0.0, *(_gap(one.block, other.block) for one, other in pairwise(ready))]
+        placed = zip(ready, gaps, strict=True)
+        return fill_pages([replace(p, gap=gap, height=_height(p, wide, sizes)) for p, gap in placed], high)
+
+    if not pieces:
+        return []
+    below: frozenset[int] = frozenset()
+    best, cost, gaping = filled(below)
+    for i, piece in enumerate(pieces):
+        if gaping and isinstance(piece.block, Beside):
+            other = filled(below | {i})
+            if other[1] < cost - WORTH:
+                (best, cost, gaping), below = other, below | {i}
+    return best
+
+
+def _fitted(piece: Piece, wide: float, sizes: Sizes, below: bool) -> Iterator[Piece]:
+    """A table in two halves where they have room; words beside a figure as far as it reaches and the rest below, or
+    with ``below`` the figure below them all."""
+    block = piece.block
+    if isinstance(block, TableBlock):
+        halved = _in_halves(block, wide)
+        yield replace(piece, block=halved[0]) if halved and (block.roomy or sizes[halved][0] <= wide) else piece
+    elif not isinstance(block, Beside):
+        yield piece
+    elif below:
+        for i, (_, line) in enumerate(lines_of(block)):
+            half = isinstance(line, StepItem)
+            yield Piece(line, tie=piece.tie if not i else INSIDE if half else 0.0, half=half)
+        yield Piece(replace(block.picture, floats=True), tie=BEFORE)
+    else:
+        lines, picture = lines_of(block), block.picture
+        taken, count = 0.0, 0
+        for i, (gap, line) in enumerate(lines):
+            taken += gap + sizes[line, _narrow(picture, wide)][1]
+            steps = all(isinstance(each, StepItem) for _, each in lines[max(i - 1, 0) :])
+            # nothing but steps goes below the figure
+            if taken > sizes[picture, picture.drawing.width][1] and len(lines) - i >= MANY_STEPS and steps:
+                break
+            count = i + 1
+        near = tuple(Steps((line,)) if isinstance(line, StepItem) else line for _, line in lines[:count])
+        yield replace(piece, block=replace(block, blocks=near))
+        yield from (Piece(line, tie=INSIDE, half=True) for _, line in lines[count:])
+
+
+def _height(piece: Piece, wide: float, sizes: Sizes) -> float:
+    """The height of a piece (mm)."""
+    block = piece.block
+    if isinstance(block, Beside):
+        picture = block.picture
+        words = added_up(gap + sizes[line, _narrow(picture, wide)][1] for gap, line in lines_of(block))
+        return max(words, sizes[picture, picture.drawing.width][1])
+    if piece.fills:
+        return 0.0
+    own = isinstance(block, TableBlock) and block.halved and not block.roomy
+    return sizes[block, None if own else (wide - COLUMN_GAP) / 2 if piece.half else wide][1]
+
+
+def _gap(above: Leaf, below: Leaf) -> float:
+    """The gap between two leaves (mm): what the one asks for below it, or the other above."""
+    return max(_around(above)[1], _around(below)[0])
+
+
+def _around(block: Leaf) -> tuple[float, float]:
+    """What a leaf asks for above and below it (mm)."""
+    if isinstance(block, Heading):
+        return {1: (5.8, 3.2), 2: (5.2, 2.5)}.get(block.level, (4.1, 2.2))
+    if isinstance(block, StepItem):
+        return 2.0, 2.0
+    if isinstance(block, Fields):
+        return 3.7, 4.4
+    roomy = isinstance(block, Picture | Plate | Beside) or (isinstance(block, Paragraph) and block.fills)
+    return (3.3, 3.3) if roomy else (2.6, 2.6)
+
+
+# -- pages with the least white ----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Begun:
+    """A page as far as it is filled: the numbers of its pieces, the height (mm) up to the steps in two columns that end
+    it, these, and what a piece takes that fills the page (mm)."""
+
+    numbers: tuple[int, ...]
+    base: float
+    columns: tuple[int, ...] = ()
+    room: float = 0.0
+
+
+def balanced(heights: Sequence[float]) -> tuple[int, float]:
+    """How many of some steps stand in the left one of two columns, and the height of both.
+
+    >>> balanced([10.0, 10.0, 10.0])
+    (2, 22.0)
+    """
+    whole = added_up(heights) + ITEMS * (len(heights) - 1)
+    best, left = (len(heights), whole), -ITEMS
+    for k, height in enumerate(heights, 1):
+        left += height + ITEMS
+        higher = max(left, whole - left - ITEMS)
+        if higher <= best[1] + 1e-9:
+            best = (k, higher)
+    return best
+
+
+def fill_pages(pieces: Sequence[Piece], height: float) -> tuple[list[Page], float, bool]:
+    """Pages of a height (mm), each with what stands on it from its head on; what their white costs, and whether some of
+    it is seen."""
+
+    @cache
+    def onwards(at: int, waiting: int | None) -> tuple[float, tuple[_Begun, ...]]:
+        """The cheapest pages from a piece on, behind a figure that waits."""
+        if at == len(pieces) and waiting is None:
+            return 0.0, ()
+        best: tuple[float, tuple[_Begun, ...]] | None = None
+        for page, end, left in _begun(pieces, height, at, waiting):
+            filled = _used(page, pieces) / height
+            white = max(0.0, 1.0 - filled)
+            cost = 0.5 + 4.0 * white**2 + 12.0 * max(0.0, white - WHITE)  # every page costs something
+            if end == len(pieces) and left is None:
+                cost = 0.5 + 4.0 * max(0.0, SHORT - filled) + (0.0 if page.numbers[1:] else 0.3)
+            cost += pieces[end].tie if end < len(pieces) else 0.0
+            cost += DEFERRED if left is not None else 0.0
+            if best is not None and cost >= best[0]:
+                continue
+            rest, others = onwards(end, left)
+            if best is None or cost + rest < best[0]:
+                best = cost + rest, (page, *others)
+        assert best is not None  # a page holds one piece at least
+        return best
+
+    cost, pages = onwards(0, None)
+    rows = [tuple(_rows(page, pieces, height, page is pages[-1])) for page in pages]
+    return rows, cost, any(_used(page, pieces) < (1.0 - WHITE) * height for page in pages[:-1])
+
+
+def _begun(
+    pieces: Sequence[Piece], height: float, at: int, waiting: int | None
+) -> Iterator[tuple[_Begun, int, int | None]]:
+    """Every page that may begin with a piece, behind a figure that waits; the piece after it, and the figure that
+    waits then."""
+    empty = _Begun((), 0.0) if waiting is None else _Begun((waiting,), pieces[waiting].height)
+    stack: list[tuple[_Begun, int, int | None]] = [(empty, at, None)]
+    while stack:
+        page, i, left = stack.pop()
+        while True:
+            if page.numbers and (left is None or page.numbers[-1] > left):
+                yield page, i, left
+            if i == len(pieces):
+                break
+            piece = pieces[i]
+            if page.numbers and (piece.fresh or page.room or (left is not None and piece.floats)):
+                break
+            if piece.floats and piece.tie < KEPT and left is None and page.numbers:
+                stack.append((page, i + 1, i))
+            more = _with(page, i, pieces, height)
+            if more is None:
+                break
+            page, i = more, i + 1
+
+
+def _used(page: _Begun, pieces: Sequence[Piece]) -> float:
+    """The height that a page has taken (mm)."""
+    if not page.columns:
+        return page.base
+    gap = pieces[page.columns[0]].gap if page.base else 0.0
+    return page.base + gap + balanced([pieces[n].height for n in page.columns])[1]
+
+
+def _with(page: _Begun, i: int, pieces: Sequence[Piece], height: float) -> _Begun | None:
+    """A page with one more piece; None where it has no room."""
+    piece, used = pieces[i], _used(page, pieces)
+    numbers = (*page.numbers, i)
+    if piece.half:
+        more = _Begun(numbers, page.base if page.columns else used, (*page.columns, i))
+        return more if _used(more, pieces) <= height or not page.numbers else None
+    gap = piece.gap if page.numbers else 0.0
+    left = height - used - gap
+    if piece.fills:
+        return _Begun(numbers, used) if left < LEAST_ROOM else _Begun(numbers, height, room=left)
+    end = used + gap + piece.height
+    flows = isinstance(piece.block, TableBlock) and len(piece.block.rows) > MANY_ROWS and not piece.block.halved
+    if end > height and flows and left > LEAST_FLOW:
+        end = end % height + 10.0  # its heads stand on every page
+    elif end > height and page.numbers:
+        return None
+    return _Begun(numbers, end)
+
+
+def _rows(page: _Begun, pieces: Sequence[Piece], height: float, last: bool) -> list[Row]:
+    """The pieces of a page with their gaps, a little wider where that fills it."""
+    rows: list[Row] = []
+    for half, some in groupby((pieces[n] for n in page.numbers), key=lambda piece: piece.half):
+        columns = tuple(some)
+        if half:
+            k, _ = balanced([piece.height for piece in columns])
+            rows.append(Row(columns[:k], columns[k:], columns[0].gap))
+        else:
+            shown = (one for one in columns if page.room or not one.fills)
+            rows += [Row((one,), (), one.gap, page.room if one.fills else 0.0) for one in shown]
+    if rows:
+        rows[0] = replace(rows[0], gap=0.0)
+    heads = [row.left[0] for row in rows]
+    wider = [i > 0 and head.tie < KEPT and head.gap > ITEMS + 1.0 for i, head in enumerate(heads)]
+    if not last and any(wider) and not any(pieces[n].fills for n in page.numbers):
+        more = max(0.0, min(MOST_MORE, (height - _used(page, pieces)) / sum(wider)))
+        rows = [replace(row, gap=row.gap + more * grows) for row, grows in zip(rows, wider, strict=True)]
+    return rows

@@ -24,15 +24,21 @@ from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.drawing.figures.diagrams import diagram_figures
 from graphkin.errors import Unsolvable
-from graphkin.papers.answer_key import answer_key, answers_template, key_table
 from graphkin.papers.blocks import Block, Document
+from graphkin.papers.documents import (
+    answer_key,
+    answers_template,
+    beginning,
+    key_table,
+    problem,
+    solution,
+    solution_blocks,
+)
 from graphkin.papers.exports import files_for, question_of
 from graphkin.papers.lesson import Lesson
 from graphkin.papers.paper import paper_plan
 from graphkin.papers.pdf import can_typeset, papers_as
-from graphkin.papers.problem import problem
 from graphkin.papers.screen import POSITIONS, Progress, common_scales, handout_page, motion_data, rows_in_order
-from graphkin.papers.solution import beginning, solution, solution_blocks
 from graphkin.papers.variants import Variant, asked_of
 from graphkin.scene.drivers import moves_by_law
 from graphkin.scene.model import Mechanism

@@ -42,13 +42,20 @@ from graphkin.drawing.stepwise import stepped
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.drawing.write.svg import svg_element
 from graphkin.files import Json
-from graphkin.papers.answer_key import way
 from graphkin.papers.blocks import Block, Heading, Said, StepItem, said
+from graphkin.papers.documents import (
+    given,
+    results_blocks,
+    scene_title,
+    solution,
+    solution_blocks,
+    stage_title,
+    step_items,
+    way,
+)
 from graphkin.papers.html import blocks_html, rendered, said_html, spoken_words, whole_page, words_html
 from graphkin.papers.lesson import Lesson, plain_words
 from graphkin.papers.pictures import POLYGONS, ROOM, bare_picture, equation_picture
-from graphkin.papers.problem import given, scene_title
-from graphkin.papers.solution import results_blocks, solution, solution_blocks, stage_title, step_items
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion, solve
 from graphkin.solver.motion import instant_centre

@@ -19,7 +19,7 @@ from graphkin.plane import direction
 from graphkin.scene.designs import design_of, designs
 from graphkin.scene.scene_tables import Tools
 from graphkin.solver.synthesis import synthesise
-from graphkin.words.rich_text import as_plain, rich_text
+from graphkin.words import as_plain, rich_text
 from tests.command import run
 
 SLIDER = {"kind": "slider-crank", "stroke": 50, "offset": 16, "K": 1.2}

@@ -9,7 +9,7 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
-from graphkin.papers.answer_key import answers_template
+from graphkin.papers.documents import answers_template
 from graphkin.scene import mechanism_of
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.scene import written
@@ -151,8 +151,8 @@ def test_a_direction_turned_back_is_called_so():
 
 
 def test_the_words_of_the_key_are_right(tmp_path):
-    from graphkin.papers.answer_key import answer_key
     from graphkin.papers.blocks import TableBlock
+    from graphkin.papers.documents import answer_key
     from graphkin.papers.lesson import plain_words
 
     for language in ("en", "zh"):

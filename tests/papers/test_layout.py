@@ -5,7 +5,7 @@ import random
 import pytest
 
 from graphkin.papers.blocks import Heading, Paragraph, Picture
-from graphkin.papers.layout import KEPT, Page, Piece, balanced, fill_pages
+from graphkin.papers.pdf import KEPT, Page, Piece, balanced, fill_pages
 
 HEIGHT = 260.0
 WORDS, ROOM, FRESH = Paragraph(()), Paragraph((), fills=True), Heading((), fresh=True)

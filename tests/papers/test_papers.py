@@ -13,12 +13,10 @@ from graphkin.api.checked import check
 from graphkin.api.handouts import handout
 from graphkin.drawing.ink.primitives import Line, Text, walk
 from graphkin.papers import prepare as papers
-from graphkin.papers.answer_key import answer_key, key_rows
 from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
+from graphkin.papers.documents import answer_key, key_rows, problem, solution
 from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
-from graphkin.papers.problem import problem
-from graphkin.papers.solution import solution
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.scene import written
 from tests import EVERYTHING

@@ -8,8 +8,8 @@ import pytest
 
 import graphkin
 from graphkin.errors import CallError
+from graphkin.papers.documents import problem
 from graphkin.papers.fresh_numbers import LEVELS, Spread, candidate, level_of
-from graphkin.papers.problem import problem
 from graphkin.papers.variants import Unfit, examined
 from graphkin.scene.scene import written
 

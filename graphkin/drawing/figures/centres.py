@@ -52,8 +52,7 @@ from graphkin.drawing.text import plain, text_box
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.plane import cross
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, languages, word
-from graphkin.words.rich_text import Markup, RichText, as_markup, as_plain, rich_text
+from graphkin.words import Markup, Phrase, RichText, as_markup, as_plain, languages, rich_text, word
 
 __all__ = ["FIGURES", "background", "centres_figure", "circle_diagram", "stroke_of"]
 

@@ -34,8 +34,7 @@ from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.scene.designs import BarPositionsTask, Design
 from graphkin.version import __version__
-from graphkin.words import Phrase, languages, say, word
-from graphkin.words.rich_text import as_markup, as_plain, rich_text
+from graphkin.words import Phrase, as_markup, as_plain, languages, rich_text, say, word
 from graphkin.words.written import amount, on_paper, product
 
 if TYPE_CHECKING:

@@ -1,0 +1,653 @@
+"""The papers of a lesson: the problem sheet with room to solve it with ruler and compass; the worked solution, step by
+step with reasons, equations and figures as far as drawn; the answer key with what to accept from a pencil drawing, as
+CSV too, and the table for a class.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+from graphkin import table
+from graphkin.account.forces import given_loads
+from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles, written
+from graphkin.account.notation import pole, scale_statement
+from graphkin.account.voice import whole_sentence
+from graphkin.checking.report import Compared, exact, measured, paper
+from graphkin.checking.uncertainty import COVERAGE
+from graphkin.construction.steps import DiagramName
+from graphkin.drawing.box import Box
+from graphkin.drawing.figures.forces import group_equation, group_picture
+from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.figures.train import moving_plans, train_figure
+from graphkin.drawing.force_stages import ForceStage, force_stages
+from graphkin.drawing.parts.given_shapes import given_shapes
+from graphkin.drawing.tables import given_lengths, given_teeth
+from graphkin.drawing.write.drawing import Drawing
+from graphkin.papers.blocks import (
+    Beside,
+    Block,
+    Document,
+    Fields,
+    Heading,
+    Paragraph,
+    Picture,
+    Said,
+    StepItem,
+    Steps,
+    TableBlock,
+    Together,
+    in_each,
+    numbered,
+    said,
+    sentences,
+    spoken,
+)
+from graphkin.papers.lesson import Lesson, Stage, plain_words
+from graphkin.papers.paper import A4, Paper, paper_of
+from graphkin.papers.pictures import (
+    LEAST_FRAME,
+    POLYGONS,
+    Layers,
+    bare_picture,
+    blank_equations,
+    blank_sums,
+    draw_frame,
+    equation_picture,
+    force_space,
+    mechanism_picture,
+    parts,
+    stage_picture,
+    workspace,
+)
+from graphkin.plane import added_up
+from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
+from graphkin.scene.tables import Units
+from graphkin.words import Phrase, about, languages, say, word
+from graphkin.words.written import LEAST, amount, in_markup, true_minus
+
+__all__ = [
+    "KeyRow", "answer_key", "answers_template", "beginning", "given", "key_rows", "key_table", "labelled",
+    "length_on_paper", "paper_title", "problem", "reach", "results_blocks", "scene_title", "solution",
+    "solution_blocks", "stage_title", "step_items", "unsigned", "way",
+]  # fmt: skip
+
+BOUND = "\u00a0"  # between a number and its unit no line ends
+RPM = 30.0 / math.pi
+HEAD = 22.0  # mm for a heading and the lines under it
+LINE, ROW = 6.0, 7.0  # mm of a line of words, and of a row to fill in
+ROOM_BETWEEN = 8.0  # mm around what stands on a page
+
+
+def problem(lesson: Lesson) -> Document:
+    """The problem sheet of a lesson."""
+    language, paper = lesson.language, paper_of(lesson.sheet.scene)
+    bare = mechanism_picture(lesson)
+    how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
+    words = (*given(lesson), Paragraph(how, small=True))
+    moving = [d for d in POLYGONS if lesson.sheet.vectors(d)]
+    shown = all(_space(lesson, bare, [d], paper) for d in moving)
+    wide = not shown
+    if wide:
+        paper = paper.facing  # two facing pages of the smaller paper; the mechanism stands on each with a pole
+        shown = all(_space(lesson, bare, [d], paper) for d in moving)
+    tall = HEAD + LINE * (len(words) + 1) + bare.height + ROW * (len(lesson.questions) + 2)
+    on_polygons = shown and bool(moving) and bare.width > paper.narrow and tall > paper.body.height
+    first: tuple[Block, ...] = (*words, Picture(bare))
+    if wide or on_polygons:
+        first = words  # the mechanism stands on the pages of the polygons
+    elif bare.width <= paper.narrow:
+        first = (Beside(words, Picture(bare)),)
+    heads = tuple(said(key, language) for key in ("quantity", "on paper", "value", "unit", "sense"))
+    rows = tuple(
+        (f"${lesson.letters.vector(s)}$", "" if s.is_vector or s.measure == "length" else "–", "", lesson.unit(s), "")
+        for s in lesson.questions
+    )
+    both = _space(lesson, bare, POLYGONS, paper) if wide and len(moving) == len(POLYGONS) else None
+    before, after = _polygon_pages(lesson, bare, paper, both)
+    whole: tuple[Block, ...] = (
+        Heading(scene_title(lesson), 1),
+        Fields(tuple(said(key, language) for key in ("name of student", "class of student", "date"))),
+        *first,
+        Together((Heading(said("your results", language)), TableBlock(heads, rows, "lcclc", roomy=True))),
+        *before,
+        Paragraph(said("your sums", language), small=True, fills=True),
+        *after,
+        *_forces(lesson, bare, paper),
+    )
+    return Document(paper_title(lesson, "problem sheet"), languages(language), whole, paper, paper.folded)
+
+
+def _space(
+    lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], paper: Paper, above: float = 0.0
+) -> Drawing | None:
+    """Mechanism and poles together below the heading of a page, and so many mm of equations above them."""
+    return workspace(lesson, bare, diagrams, Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - above))
+
+
+def _polygon_pages(
+    lesson: Lesson, bare: Drawing, paper: Paper, both: Drawing | None
+) -> tuple[list[Block], list[Block]]:
+    """The equations that stand before the sums, and a page for each polygon, or one for both."""
+    drawn = [d for d in POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
+    names = {d: said(FIGURE_WORDS[d], lesson.language) for d in drawn}
+    room = paper.body.width / 2 - ROOM_BETWEEN if paper.folded else paper.body.width
+    asked = {d: _equations(lesson, d, min(room, A4.body.width)) for d in drawn}
+    frames = {d: _space(lesson, bare, [d], paper, _height(asked[d]) + ROOM_BETWEEN) for d in drawn if both is None}
+    beside = both is None and all(frames.values())
+    before: list[Block] = [Together((Heading(names[d]), *asked[d])) for d in drawn if asked[d] and not beside]
+    if both is not None:
+        told = in_each(
+            lesson.language, lambda each: word("list comma", each).join(dict(name)[each] for name in names.values())
+        )
+        return before, [Heading(told, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
+    after: list[Block] = []
+    for d in drawn:
+        frame = (frames[d] if beside else _space(lesson, bare, [d], paper)) or draw_frame(lesson, d)
+        equations = asked[d] if beside else ()
+        after += [Heading(names[d], fresh=True), *equations, Together((_poles(lesson, [d]), Picture(frame)))]
+    return before, after
+
+
+def _poles(lesson: Lesson, diagrams: Sequence[DiagramName]) -> Paragraph:
+    """From which poles polygons are to be drawn."""
+    poles = [f"${pole(lesson.letters.convention, diagram)}$" for diagram in diagrams]
+    names = word("list comma", languages(lesson.language)[0]).join(poles)
+    return Paragraph(said("your polygon", lesson.language, names), small=True)
+
+
+def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Paragraph | Picture, ...]:
+    """What a sheet gives of the equations: blanks; at the level "easy" the equations, at "hard" nothing."""
+    equations = [e for e in lesson.sheet.equations if e.diagram == diagram]
+    if lesson.level == "hard":
+        return ()
+    if lesson.level == "easy":
+        return tuple(Picture(equation_picture(lesson, e)) for e in equations)
+    blank = blank_equations(lesson, equations, width)
+    return Paragraph(said("your equations", lesson.language), small=True), Picture(blank)
+
+
+def _height(asked: Sequence[Paragraph | Picture]) -> float:
+    """The height of what a sheet gives of equations (mm)."""
+    return added_up(block.drawing.height + 3.0 for block in asked if isinstance(block, Picture))
+
+
+def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
+    """The equations of the groups cut free, and room for their polygons beside the mechanism, from which directions and
+    arms are taken; the equations go before where a page does not hold both."""
+    forces, language = lesson.forces, lesson.language
+    if forces is None:
+        return
+    heading = said("forces", language)
+    counts = [len(g.polygon) for g in forces.states[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
+    asked: tuple[Paragraph | Picture, ...] = ()
+    if counts and lesson.level != "hard":
+        blank = blank_sums(lesson, counts, min(paper.body.width, A4.body.width))
+        asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
+    page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
+    beside = page.height - _height(asked) >= LEAST_FRAME
+    if not beside:
+        yield Together((Heading(heading), *asked))
+    room = Box(0.0, 0.0, page.width, page.height - (_height(asked) if beside else 0.0))
+    yield Heading(heading, fresh=True)
+    yield from asked if beside else ()
+    drawn = force_space(lesson, bare, room)
+    yield Together((Paragraph(said("your forces", language), small=True), Picture(drawn)))
+
+
+def paper_title(lesson: Lesson, key: str) -> str:
+    """The title of one of the papers, in the first language: that of the scene, and which paper it is."""
+    first = languages(lesson.language)[0]
+    return plain_words(scene_title(lesson)[0][1]) + word("colon", first) + word(key, first)
+
+
+def scene_title(lesson: Lesson) -> Said:
+    """The title of the scene in each language of the handout."""
+    found = titles(lesson.sheet, lesson.language)
+    both = tuple(zip(languages(lesson.language), found, strict=False))
+    return both if len(found) > 1 else spoken(found[0], lesson.language)
+
+
+# -- what is given -----------------------------------------------------------------------------------------------------
+
+
+def given(lesson: Lesson) -> Iterator[Paragraph]:
+    """What is given, in sentences: lengths, fixed points, guides, drivers; then what is asked, and the source."""
+    scene, letters, language = lesson.sheet.scene, lesson.letters, lesson.language
+    unit, metres = scene.units.length, scene.units.metres
+    lengths = [f"${name}$ = {value}{BOUND}{unit}" for name, value in given_lengths(scene, letters)]
+    fixed = [
+        f"${letters.point(p)}$ ({number(z.real / metres)}, {number(z.imag / metres)}){BOUND}{unit}"
+        for p, z in scene.frame.points.items()
+    ]
+    yield from _formulas(lesson, "lengths given", [*lengths, *given_teeth(scene, language)])
+    yield from _formulas(lesson, "fixed points", fixed)
+    yield from _clauses(lesson, "guides", {each: _guides(lesson, each) for each in languages(language)})
+    shapes = {each: given_shapes(scene, letters, each) for each in languages(language)}
+    yield from _clauses(lesson, "links given", shapes)
+    yield from _formulas(lesson, "driver", [*drivers(lesson.sheet, letters).split(",  "), *_speeds(scene)])
+    for sense in _senses(scene):
+        yield Paragraph(lesson.sentence(sense))
+    yield from _formulas(lesson, "rolling starts", rolling_starts(lesson.sheet))
+    for load in given_loads(lesson.sheet, letters) if scene.loading else ():
+        yield Paragraph(tuple((each, whole_sentence(say(load, each), each)) for each in languages(language)))
+    yield from _formulas(lesson, "find", [f"${letters.vector(s)}$" for s in lesson.questions], "symbol comma")
+    yield from reach(lesson)
+    names = languages(language)
+    own = {each: in_markup(scene.question.source_in(each)) for each in names}
+    if len(set(own.values())) > 1:
+        told = ((each, word("source", each) + word("colon", each) + text) for each, text in own.items() if text)
+        yield Paragraph(tuple(told), small=True)
+    elif own[names[0]]:
+        label = " ".join(word("source", each) for each in names) + word("colon", names[-1])
+        yield Paragraph(spoken(label + own[names[0]], language), small=True)
+
+
+def _guides(lesson: Lesson, language: str) -> list[str]:
+    """Each guide of the frame that has a name, by a point of it and its direction."""
+    scene, told = lesson.sheet.scene, []
+    for guide in scene.frame.guides.values():
+        name = f"${lesson.letters.guide(guide.name, scene.frame.name)}$"
+        x, y = (number(part / scene.units.metres) for part in (guide.through.real, guide.through.imag))
+        angle = number(math.degrees(math.atan2(guide.direction.imag, guide.direction.real)))
+        key = {"0": "guide level", "90": "guide upright"}.get(angle, "guide at")
+        if guide.name:
+            told.append(say(Phrase(key, (name, x, y, scene.units.length, angle)), language))
+    return told
+
+
+def reach(lesson: Lesson) -> Iterator[Paragraph]:
+    """That only a part of the mechanism is on the paper, where nothing asked for needs the rest."""
+    return (Paragraph(lesson.sentence(phrase)) for phrase in lesson.sheet.left_out)
+
+
+def _speeds(scene: Mechanism) -> Iterator[str]:
+    """Speeds of drivers in r/min, where these are the round ones."""
+    for driver in scene.drivers:
+        if driver.turns and driver.rate and driver.rpm is None:  # a given one stands there already
+            rpm = float(f"{driver.rate * RPM:.9g}")
+            if len(number(rpm)) < len(number(driver.rate)):
+                yield f"$n_{{{driver.link}}}$ = {number(rpm)}{BOUND}r/min"
+
+
+def _senses(scene: Mechanism) -> Iterator[Phrase]:
+    """Which way drivers turn, and whether that is ever faster."""
+    for driver in scene.drivers:
+        if driver.turns and driver.rate:
+            sense = "clockwise" if driver.rate < 0 else "counter-clockwise"
+            on = "" if driver.relative_to == scene.frame.name else Phrase("seen from link", (driver.relative_to,))
+            even = "" if driver.law is not None else Phrase("at constant speed")
+            faster = Phrase("ever faster" if driver.second * driver.rate > 0 else "ever slower")
+            yield Phrase(f"driver turns {sense}", (driver.link, on, faster if driver.second else even))
+
+
+def _formulas(lesson: Lesson, key: str, items: Sequence[str], between: str = "list comma") -> Iterator[Paragraph]:
+    """Formulas, where there are some, with their label; on papers of two languages once, with both labels."""
+    first, *others = languages(lesson.language)
+    text = word(between, first).join(items)
+    if items and not others:
+        yield Paragraph(((first, labelled(key, text, first)),))
+    elif items:
+        label = " ".join(word(key, each) for each in (first, *others)) + word("colon", first)
+        whole = label + " " * (not label.endswith(" ")) + text + word("full stop", first)
+        yield Paragraph(spoken(whole, lesson.language))
+
+
+def _clauses(lesson: Lesson, key: str, told: dict[str, list[str]]) -> Iterator[Paragraph]:
+    """Clauses in each language, where there are some, with their label."""
+    if any(told.values()):
+        yield Paragraph(in_each(lesson.language, lambda each: labelled(key, "; ".join(told[each]), each)))
+
+
+def labelled(key: str, text: str, language: str) -> str:
+    """A text behind a word of the table and a colon, as a sentence."""
+    return word(key, language) + word("colon", language) + text + word("full stop", language)
+
+
+# -- the answer key ---------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class KeyRow:
+    """One line of the key, in scene units: the size of a vector, a rate with its sign.
+
+    ``tolerance`` is three predicted standard deviations of a pencil drawing, None where nothing can be promised.
+    """
+
+    symbol: str
+    unit: str
+    asked: bool
+    on_paper: float | None
+    exact: float
+    tolerance: float | None
+    direction: float | None
+
+
+def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
+    """The lines of the key."""
+    return tuple(_row(lesson, row) for row in lesson.results)
+
+
+def _row(lesson: Lesson, row: Compared) -> KeyRow:
+    symbol = row.symbol
+    spread = lesson.tolerance.get(symbol)
+    bound = (
+        None
+        if spread is None or not math.isfinite(spread.deviation)
+        else lesson.in_unit(symbol, COVERAGE * spread.deviation)
+    )
+    size = abs(row.true) if symbol.is_vector else float(row.true.real)
+    angle = round(math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)), 3) + 0.0
+    mm = row.reading.on_paper
+    if mm is not None and row.measured == 0.0:  # what a residue has on paper is no length
+        mm = 0.0
+    has_way = symbol.is_vector and size > 0.0
+    return KeyRow(
+        symbol=str(symbol),
+        unit=lesson.unit(symbol),
+        asked=symbol in lesson.questions,
+        on_paper=None if mm is None else float(amount(mm, 3)) if mm < LEAST else round(mm, 3),
+        exact=lesson.in_unit(symbol, size),
+        tolerance=bound,
+        direction=angle if has_way else None,
+    )
+
+
+def answer_key(lesson: Lesson) -> Document:
+    """The answer key of a lesson."""
+    language = lesson.language
+    heads = tuple(said(k, language) for k in ("quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"))
+    rows, bold = [], set()
+    for i, (line, row) in enumerate(zip(key_rows(lesson), lesson.results, strict=True)):
+        if line.asked:
+            bold.add(i)
+        size = abs(line.exact)
+        within = ("–", "–")
+        if line.tolerance:  # what is nought whatever the hand does has none
+            low, high = max(0.0, size - line.tolerance), size + line.tolerance
+            places = _places(line.tolerance)
+            if row.symbol.scope == "position":
+                low, high = line.exact - line.tolerance, line.exact + line.tolerance
+            within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
+        name = f"${lesson.letters.vector(row.symbol)}$"
+        shown = number(line.exact if row.symbol.scope == "position" else size, 5)
+        rows.append((name, length_on_paper(row), shown, *within, line.unit, way(row, language)))
+    tools = lesson.sheet.scene.question.sheet.tools
+    words = said(
+        "key words", language, *(f"{x:g}" for x in (tools.line_width / 2, tools.ruler, tools.compass, tools.set_square))
+    )
+    blocks: tuple[Block, ...] = (
+        Heading(scene_title(lesson), 1),
+        Heading(said("answer key", language)),
+        *reach(lesson),
+        TableBlock(heads, tuple(rows), "lrrrrll", frozenset(bold)),
+        Paragraph(sentences(words, said("sense words", language)), small=True),
+    )
+    return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
+
+
+def _places(tolerance: float) -> int:
+    """Decimal places that show two digits of a tolerance; negative for tens and hundreds."""
+    return 1 - math.floor(math.log10(tolerance)) if tolerance > 0.0 else 4
+
+
+def _fixed(value: float, places: int) -> str:
+    return f"{round(value, places):.{max(0, places)}f}"
+
+
+def key_table(lesson: Lesson) -> table.Table:
+    """The key as a table, in scene units."""
+    heads = ("symbol", "unit", "asked", "on_paper_mm", "exact", "tolerance", "direction_deg")
+    rows = ((r.symbol, r.unit, r.asked, r.on_paper, r.exact, r.tolerance, r.direction) for r in key_rows(lesson))
+    return table.Table.of(heads, rows, ("", "", "", "", ".9g", ".3g", ".3f"))
+
+
+def answers_template(asked: Sequence[Symbol], units: Units, language: str, variants: Iterable[str] = ()) -> table.Table:
+    """A table for a class to fill in, as ``audit`` reads it: a column for each quantity asked for, and for a vector its
+    direction; with ``variants`` a row for each of them."""
+    names = tuple(variants)
+    columns = [f"{s} ({s.unit(units).text})" if s.unit(units).text else str(s) for s in asked]
+    heads = [word(key, language) for key in ("name in a class", "id in a class", *(["variant"] if names else []))]
+    for symbol, column in zip(asked, columns, strict=True):
+        heads += [column, f"{symbol} {word('direction of', language)}"] if symbol.is_vector else [column]
+    blank = [""] * (len(heads) - 2 - bool(names))
+    return table.Table.of(heads, [["", "", name, *blank] for name in names] or [["", "", *blank]])
+
+
+def length_on_paper(row: Compared) -> str:
+    """The length on paper of what is a length there; a rate has none of its own."""
+    own = row.symbol.is_vector or row.symbol.measure == "length"
+    return written(paper(row.reading, row)) if own else "–"
+
+
+def unsigned(row: Compared, text: str) -> str:
+    """A value whose sense is said in words; the sign of a place says where it lies."""
+    placed = row.symbol.scope == "position" or row.symbol.kind in ("h", "arm")
+    return text if placed else text.removeprefix("−")
+
+
+def way(row: Compared, language: str) -> str:
+    """Direction of a vector in degrees, or the sense of a rate in words; "" where it is zero."""
+    value = row.true
+    if value == 0.0 or row.symbol.scope not in ("motion", "force") or row.symbol.kind in ("h", "arm"):
+        return ""
+    if row.symbol.is_vector:
+        angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
+        return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}°")
+    key = "counter-clockwise" if value.real > 0 else "clockwise"
+    return " ".join(word(key, each) for each in languages(language))
+
+
+# -- the worked solution ----------------------------------------------------------------------------------------------
+
+
+MANY = 6  # steps that stand in two columns above their figure
+
+
+def solution(lesson: Lesson, worked: Iterable[Block] | None = None) -> Document:
+    """The worked solution of a lesson; ``worked`` are its stages, where they are there already."""
+    stages = solution_blocks(lesson, beginning(lesson)) if worked is None else worked
+    blocks = (Heading(scene_title(lesson), 1), *stages, *results_blocks(lesson))
+    title = paper_title(lesson, "worked solution")
+    return Document(title, languages(lesson.language), blocks, paper_of(lesson.sheet.scene))
+
+
+def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
+    """What is given, and how the numbers of the steps are to be read."""
+    return (*given(lesson), Paragraph(said("bracket words", lesson.language), small=True))
+
+
+def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
+    """Stage by stage; ``lead`` stands before the first."""
+    layers: dict[str, Layers] = {}
+    first: int | None = None  # of steps that the next figure of their diagram shows too
+    figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
+    orders: list[str] = [plan.order for plan in moving_plans(lesson.sheet)] if figure is not None else []
+    # velocity plans of what rolls, and those of the tangential accelerations, each a figure
+    plans = dict(zip(orders, map(bare_picture, (figure, *figure.further) if figure else ()), strict=True))
+    count = 0  # of the figures
+    for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
+        if stage.diagram not in layers:
+            layers[stage.diagram] = parts(lesson, stage.diagram)
+        opening = lead if stage is lesson.stages[0] else ()
+        if stage.equation is None and all(step.per_mm for step in stage.steps):  # drawn on the plan of a train alone
+            plan = plans.pop(stage.diagram, None)
+            count += plan is not None
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plan, count, stage)))
+        elif _leads_on(stage, after):
+            steps = Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
+            yield Together((*_told(lesson, stage, count + 1), steps))
+            first = stage.first
+        else:
+            count += 1
+            yield Together(tuple(_stage(lesson, stage, layers[stage.diagram], opening, first or stage.first, count)))
+            first = None
+        if stage.diagram in plans and any(step.per_mm for step in stage.steps):
+            count += 1
+            yield Together(tuple(_plan_blocks(lesson, stage.diagram, plans.pop(stage.diagram), count)))
+    for order, plan in plans.items():
+        count += 1
+        yield Together(tuple(_plan_blocks(lesson, order, plan, count)))
+    yield from _force_blocks(lesson, count)
+
+
+def _plan_blocks(
+    lesson: Lesson, order: str, figure: Drawing | None, count: int, stage: Stage | None = None
+) -> Iterator[Heading | Steps | Picture]:
+    """A velocity plan with its steps; without a figure where nothing of it moves."""
+    told = said("plan" if order == "velocity" else "plan accelerations", lesson.language)
+    yield Heading(told)
+    if stage is not None:
+        yield Steps(step_items(lesson, stage), parted=len(stage.steps) > 1)
+    if figure is not None:
+        yield Picture(figure, numbered(count, told), floats=True)
+
+
+def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
+    """Force polygons group by group, and Zhukovsky's lever; ``count`` figures stand before them."""
+    sheet, forces, language = lesson.sheet, lesson.forces, lesson.language
+    if forces is None:
+        return
+    statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
+    lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
+    lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
+    for turn, stage in enumerate(force_stages(lesson.scaled, forces, lesson.letters, language)):
+        steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
+        title = stage.title
+        if len(forces.states) > 1 and stage.group is not None:
+            load = said("force with load" if stage.again else "force without load", language)
+            title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
+        count += stage.group is not None
+        yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), steps))
+        lead = ()
+        if stage.figure == "lever" and lever is not None:
+            count += 1
+            yield Picture(bare_picture(lever), numbered(count, said("lever", language)))
+            lever = None
+
+
+def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
+    """The equation of a group over its rows, and the group cut free beside its polygon."""
+    forces, group, language = lesson.forces, stage.group, lesson.language
+    if forces is None or group is None:
+        return
+    width = paper_of(lesson.sheet.scene).body.width
+    equation = group_equation(lesson.scaled, group, lesson.letters, language, width)
+    if equation is not None:
+        yield Picture(equation, joined=True)
+    drawn = group_picture(lesson.scaled, forces, stage, group, lesson.letters, language, width, tag)
+    told = said(about("figure of forces", group.links), language, ", ".join(group.links))
+    yield Picture(drawn, numbered(count, told))
+
+
+def results_blocks(lesson: Lesson) -> Iterator[Block]:
+    """Remarks on the construction, results, and whether the readings of the table agree."""
+    language = lesson.language
+    if lesson.sheet.notes:
+        yield Heading(said("remarks", language), 3)
+    for note in lesson.sheet.notes:
+        yield Paragraph(lesson.sentence(note))
+    rows = [row for row in lesson.results if row.ok is not None]
+    wrong = [row for row in rows if row.ok is False]
+    agree = Phrase(about("all agree", rows), (len(rows),))
+    verdict = lesson.sentence(Phrase("not all agree", (len(wrong), len(rows))) if wrong else agree)
+    how = sentences(*(said(key, language) for key in ("check words", "sense words")))
+    yield Together((
+        Heading(said("results", language)),
+        Paragraph(spoken(drivers(lesson.sheet, lesson.letters), language)),
+        _results(lesson),
+        Paragraph(verdict),
+        Paragraph(how, small=True),
+    ))  # fmt: skip
+
+
+def stage_title(lesson: Lesson, stage: Stage) -> Said:
+    """What a stage is about: the position, an equation and its kind, or the vectors asked for besides."""
+    equation = stage.equation
+    if stage.diagram == "mechanism":
+        return said("the position", lesson.language)
+    if equation is None:
+        return said("further vectors", lesson.language)
+    numbered_one = Phrase("equation numbered", (equation.number,))
+    return in_each(
+        lesson.language,
+        lambda each: say(numbered_one, each) + word("colon", each) + word(f"for {stage.diagram}", each),
+    )
+
+
+def step_items(lesson: Lesson, stage: Stage) -> tuple[StepItem, ...]:
+    """The steps of a stage in words and numbers."""
+    account, names = lesson.account, languages(lesson.language)
+    return tuple(
+        StepItem(step.number, tuple((each, account.step(step, each)) for each in names), account.work(step))
+        for step in stage.steps
+    )
+
+
+def _leads_on(stage: Stage, after: Stage | None) -> bool:
+    """Whether the next figure shows the steps of a stage as well: a driver's few vectors, all known."""
+    if stage.equation is None or after is None or after.equation is None or after.diagram != stage.diagram:
+        return False
+    return not any(step.reason == "direction" for step in stage.steps)
+
+
+def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragraph | Picture]:
+    """What stands above the steps of an equation: the equation over its rows, and why it is so; ``count`` is the number
+    of the figure that shows them."""
+    equation = stage.equation
+    assert equation is not None
+    where = dict(said("see figure", lesson.language, count))
+    yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
+    yield Picture(equation_picture(lesson, equation), joined=True)
+    why = in_each(lesson.language, lambda each: lesson.account.why(equation, each))
+    if any(text for _, text in why):
+        yield Paragraph(why, small=True)
+
+
+def _stage(
+    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int, count: int
+) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
+    """A stage with its figure, on which what is new since step ``begun`` stands out."""
+    sheet = lesson.sheet
+    drawn = stage_picture(lesson, layers, stage.diagram, begun, stage.last)
+    start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
+    args: tuple[int, ...] = (stage.last,)
+    key = "figure whole" if begun == start else "figure with step"
+    if start != begun != stage.last:
+        key, args = "figure so far", (stage.last, begun)
+    named = FIGURE_WORDS[stage.diagram]
+    caption = in_each(lesson.language, lambda each: say(Phrase(key, (word(named, each), *args)), each))
+    figure = Picture(drawn, numbered(count, caption), floats=True)
+    narrow = drawn.width <= paper_of(sheet.scene).narrow
+    steps = Steps(step_items(lesson, stage), parted=not narrow and len(stage.steps) >= MANY)
+    beside: tuple[Heading | Paragraph | Steps, ...] = (steps,)
+    if stage.equation is not None:
+        yield from _told(lesson, stage, count)
+    else:
+        beside = (*lead, Heading(stage_title(lesson, stage)), steps)
+    if narrow:
+        yield Beside(beside, figure)
+    else:
+        yield from beside
+        yield figure
+
+
+def _results(lesson: Lesson) -> TableBlock:
+    heads = tuple(said(key, lesson.language) for key in ("quantity", "on paper", "measured", "exact", "unit", "sense"))
+    units = lesson.sheet.scene.units
+    rows = tuple(
+        (
+            f"${lesson.letters.vector(row.symbol)}$",
+            length_on_paper(row),
+            unsigned(row, written(measured(row.reading, lesson.report.scales, units, row))),
+            unsigned(row, written(exact(row, units))),
+            lesson.unit(row.symbol),
+            way(row, lesson.language),
+        )
+        for row in lesson.results
+    )
+    bold = frozenset(i for i, row in enumerate(lesson.results) if row.symbol in lesson.questions)
+    return TableBlock(heads, rows, "lrrrll", bold)
