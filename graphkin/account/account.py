@@ -6,7 +6,7 @@ What a step tells is a function of its reason, in the tables of `in_mechanism` a
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from graphkin.account import in_mechanism, in_polygon
@@ -147,8 +147,11 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
     of, to = symbol.of, symbol.to
     if of is None or (symbol.kind in ("ak", "ar") and to is None):
         return
+    coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
+    rolling = {c.name: c.links for c in sheet.scene.contacts if c.name in coupled}
+    rolling |= {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
     for ref in (of, to):
-        if ref is not None and (links := _rolling_at(sheet).get(ref.point)):
+        if ref is not None and (links := rolling.get(ref.point)):
             yield Phrase(f"why rolling {equation.diagram}", (ref.point, *links))
     step = _found_before(sheet, equation, term)
     if step:
@@ -172,19 +175,12 @@ def _why(sheet: Sheet, equation: Equation, term: Term) -> Iterator[Phrase]:
         yield Phrase(key, (of, to, link)) if link else Phrase("why centres", (of, to))
 
 
-def _rolling_at(sheet: Sheet) -> Mapping[str, tuple[str, str]]:
-    """The points at which links of a group roll on each other, with the links."""
-    scene = sheet.scene
-    coupled = {r.name for e in sheet.structure.elements for r in e.rolling}
-    found = {c.name: c.links for c in scene.contacts if c.name in coupled}
-    return found | {s.point: (s.links[0], s.links[1]) for s in sheet.steps if s.reason == "pitch point"}
-
-
 def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     """The step that found a term with which an equation begins; 0 for a term that is drawn in it."""
     of, to = term.symbol.of, term.symbol.to
-    apart = of is not None and to is not None and of.point == to.point and (
-        _is_special(sheet, of) or _is_seen(sheet, to.link)
+    apart = of is not None and to is not None and of.point == to.point and any(
+        (s.reason == "special point" and s.point == of.point) or (s.reason == "seen from" and s.held == to.link)
+        for s in sheet.steps
     )
     if term.size is not None or not (to is None or apart) or not (term.size_known and term.direction_known):
         return 0
@@ -195,15 +191,6 @@ def _found_before(sheet: Sheet, equation: Equation, term: Term) -> int:
     return next(
         (s.number for s in earlier for v in s.strokes if isinstance(v, Vector | Aid) and v.symbol == term.symbol), 0
     )
-
-
-def _is_special(sheet: Sheet, ref: PointRef) -> bool:
-    return any(s.reason == "special point" and s.point == ref.point for s in sheet.steps)
-
-
-def _is_seen(sheet: Sheet, held: str) -> bool:
-    """Whether a link is held still, and others are seen from it."""
-    return any(s.reason == "seen from" and s.held == held for s in sheet.steps)
 
 
 def _coincident(of: PointRef, to: PointRef, slide: Pair) -> Phrase:

@@ -133,7 +133,12 @@ def rate_sum(sheet: Sheet, step: Step, units: bool = True) -> str:
 def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     """The numbers of a measured rate as they are written: size, length and quotient; None where there are none."""
     diagram = step.diagram
-    mm, arm_mm, rate = _measured_rate(sheet, step)
+    if step.held:
+        drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
+        mm, arm_mm, rate = _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
+    else:
+        found = (sheet.omega if step.kind == "omega" else sheet.alpha)[step.link]
+        mm, arm_mm, rate = found.mm, sheet.readings.get(frozenset(step.points), found.arm_mm), found.value
     if mm == 0.0 or not arm_mm:
         return None
     carried = figures(on_paper(mm))
@@ -147,15 +152,6 @@ def _divided(sheet: Sheet, step: Step) -> tuple[str, str, str] | None:
     if sheet.instrument != EXACT.name:
         return size, arm, shown  # as it was written down: a tie is broken once
     return size, arm, quotient(size, arm, min(MOST - 1, carried))
-
-
-def _measured_rate(sheet: Sheet, step: Step) -> tuple[float, float | None, float]:
-    """The lengths (mm) of vector and bar from which a rate is measured, and the rate."""
-    if not step.held:
-        rate = (sheet.omega if step.kind == "omega" else sheet.alpha)[step.link]
-        return rate.mm, sheet.readings.get(frozenset(step.points), rate.arm_mm), rate.value
-    drawn = (abs(one.span) for one in sheet.vectors_seen(step.diagram) if one.symbol == step.symbol)
-    return _as_read(sheet, step.symbol, next(drawn, 0.0)), sheet.arm_mm(step.points), step.value
 
 
 def plan_sum(step: Step) -> str:
@@ -230,9 +226,15 @@ def factors_of(sheet: Sheet, rule: Size | None, most: int = MOST) -> tuple[str, 
     if rule.rule != "rate":
         return ()
     by = rule.factor
-    factor = _speed(sheet, by, most) if isinstance(by, Symbol) else _length(sheet, by, most)
-    if factor is None:
+    mm = _span(sheet, by) if isinstance(by, Symbol) else sheet.arm_mm(by)
+    if mm is None:
         return ()
+    if not isinstance(by, Symbol):
+        factor = arm_written(sheet, by, mm, most)
+    elif most == MOST and sheet.instrument != EXACT.name:
+        factor = product(on_paper(mm), amount(scale_of(sheet, "velocity"), 12))
+    else:
+        factor = amount(mm * scale_of(sheet, "velocity"), most)
     read = _rate_read(sheet, rule) if most == MOST else ""
     rate = read or amount(abs(_turning(sheet, rule.rate, rule.links)), most)
     return (*("2",) * rule.twice, *(rate,) * (1 + rule.square), factor)
@@ -285,18 +287,6 @@ def rule_sum(sheet: Sheet, rule: Size | None, diagram: DiagramName) -> str:
         return ""
     value = written(product(*factors, carried=carried_by(sheet, rule)))
     return f"{substituted(rule, factors)} = {value} {unit_of(sheet, diagram)}"
-
-
-def _length(sheet: Sheet, bar: tuple[str, str], most: int) -> str | None:
-    mm = sheet.arm_mm(bar)
-    return None if mm is None else arm_written(sheet, bar, mm, most)
-
-
-def _speed(sheet: Sheet, symbol: Symbol, most: int) -> str | None:
-    span = _span(sheet, symbol)
-    if span is not None and most == MOST and sheet.instrument != EXACT.name:
-        return product(on_paper(span), amount(scale_of(sheet, "velocity"), 12))
-    return None if span is None else amount(span * scale_of(sheet, "velocity"), most)
 
 
 def _span(sheet: Sheet, symbol: Symbol) -> float | None:

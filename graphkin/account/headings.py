@@ -245,7 +245,11 @@ def describe(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> 
 def _sentences(sheet: Sheet, diagrams: tuple[DiagramName, ...], language: str) -> list[str]:
     said = []
     if "mechanism" in diagrams:
-        said += _mechanism(sheet, language)
+        said += structure_words(sheet.scene, language)
+        unit, per_mm = sheet.scene.units.length, sheet.scales.length / sheet.scene.units.metres
+        for ref, z in sheet.points.items():
+            place = number(z.real * per_mm, 5), number(z.imag * per_mm, 5)
+            said.append(say(Phrase("point lies", (ref.point, *place, unit)), language))
     for diagram in diagrams:
         for step in sheet.steps:
             if step.diagram == diagram:
@@ -272,15 +276,6 @@ def remarks(sheet: Sheet, language: str, letters: Letters | None = None) -> list
 
     said = (say(n, language, written) for n in notes)
     return [_capital(text).rstrip("。.") + word("full stop", language) for text in said]
-
-
-def _mechanism(sheet: Sheet, language: str) -> list[str]:
-    said = structure_words(sheet.scene, language)
-    per_mm = sheet.scales.length / sheet.scene.units.metres
-    for ref, z in sheet.points.items():
-        place = (number(z.real * per_mm, 5), number(z.imag * per_mm, 5), sheet.scene.units.length)
-        said.append(say(Phrase("point lies", (ref.point, *place)), language))
-    return said
 
 
 def structure_words(scene: Mechanism, language: str) -> list[str]:

@@ -28,7 +28,7 @@ from graphkin.construction.steps import (
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef
 from graphkin.structure import Pair
-from graphkin.words import Markup, Neutral, Phrase, languages, listed
+from graphkin.words import Markup, Neutral, Phrase, in_turn, listed
 from graphkin.words.written import in_markup, on_paper, true_minus
 
 __all__ = ["LINES", "SENTENCES", "numeral"]
@@ -53,7 +53,7 @@ def _fixed(voice: Voice, step: Step) -> Phrase | None:
             through = guide.through / sheet.scales.length
             angle = math.degrees(cmath.phase(guide.direction))
             told.append(Phrase("place of a guide", (guide.name, *_coordinates(through), _degrees(angle))))
-    return Phrase("fixed on paper", (step.link, reduce(_listed, told))) if told else None
+    return Phrase("fixed on paper", (step.link, listed(told))) if told else None
 
 
 def _angle(voice: Voice, step: Step) -> Phrase:
@@ -80,7 +80,7 @@ def _link_points(voice: Voice, step: Step) -> Phrase | None:
             return None
         told.append(said)
         known.append(name)
-    return reduce(_in_turn, told) if told else None
+    return in_turn(told) if told else None
 
 
 def _marked(sheet: Sheet, step: Step, known: list[str], name: str) -> Phrase | None:
@@ -203,14 +203,6 @@ def _on_line(p: tuple[str, complex], q: tuple[str, complex], name: str, at: comp
     return Phrase("place beyond", (one + two, name, one + name, on_paper(abs(at - a)), one if along < 0.0 else two))
 
 
-def _listed(one: Phrase, other: Phrase) -> Phrase:
-    return Phrase("listed", (one, other))
-
-
-def _in_turn(one: Phrase, other: Phrase) -> Phrase:
-    return Phrase("in turn", (one, other))
-
-
 def _coordinates(z: complex) -> tuple[str, str]:
     return true_minus(on_paper(_clean(z.real))), true_minus(on_paper(_clean(z.imag)))
 
@@ -249,7 +241,7 @@ def _positions(voice: Voice, step: Step) -> Phrase | None:
     return Phrase("in turn", (step.phrase, told))
 
 
-def _positions_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+def _positions_lines(voice: Voice, step: Step, language: str) -> Iterator[Phrase]:
     """Trial positions: what is moved, how each point is found with it, what is missed, and where nothing is."""
     trial, sheet = step.data, voice.sheet
     assert isinstance(trial, TrialPositions)
@@ -275,8 +267,7 @@ def _positions_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
     route = [*_route(voice, step)]
     if route:
         parts.insert(2, Phrase("written route", (listed([*map(Neutral, route)]),)))
-    told = reduce(lambda one, other: Phrase("in turn", (one, other)), parts)
-    yield voice.say(told, languages(language)[0])
+    yield in_turn(parts)
 
 
 def _route(voice: Voice, trial: Step) -> Iterator[str]:
@@ -335,13 +326,12 @@ def _numbered(rows: Sequence[str]) -> str:
     return "; ".join(f"{numeral(i)} {row}" for i, row in enumerate(rows, 1))
 
 
-def _special_lines(voice: Voice, step: Step, language: str) -> Iterator[str]:
+def _special_lines(voice: Voice, step: Step, language: str) -> Iterator[Phrase]:
     """Where the special point lies."""
     joints = map(Markup, map(voice.letters.point, (step.point, *step.points)))
     key = "written relative special" if step.base and step.kind != "driven" else "written special"
     told = Phrase(key, (*joints, step.base, step.link))
-    told = Phrase("written sliding leg", (told,)) if voice.sheet.structure.slides else told
-    yield voice.say(told, languages(language)[0])
+    yield Phrase("written sliding leg", (told,)) if voice.sheet.structure.slides else told
 
 
 # -- trials in words ---------------------------------------------------------------------------------------------------
@@ -421,7 +411,7 @@ SENTENCES: Mapping[Reason, Callable[[Voice, Step], Phrase | None]] = {
     "arc on path": _arc_on_path, "tangent": _tangent, "positions": _positions,
 }  # fmt: skip
 """The step as it is said with the lengths and sides of the paper, by its reason."""
-LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str]]] = {
+LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[Phrase]]] = {
     "positions": _positions_lines, "special point": _special_lines,
 }  # fmt: skip
 """What is written of a step to repeat it, in a language."""

@@ -43,7 +43,7 @@ from graphkin.construction.steps import (
 )
 from graphkin.plane import dot
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, languages, listed
+from graphkin.words import Markup, Neutral, Phrase, in_turn, languages, listed
 from graphkin.words.written import MOST, amount, on_paper, pointing, quotient, true_minus
 
 __all__ = ["LINES", "SENTENCES", "SUMS", "alike", "measured", "rate_name"]
@@ -322,7 +322,7 @@ def _by_rates(voice: Voice, step: Step) -> Phrase | None:
         start = Phrase("the end of", (part.symbol,))
     if not laid:
         return None
-    told = reduce(lambda one, other: Phrase("in turn", (one, other)), laid)
+    told = in_turn(laid)
     return Phrase("ends seen", (told, step.symbol)) if step.held else Phrase("ends in", (told, letters[1]))
 
 

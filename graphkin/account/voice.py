@@ -70,10 +70,6 @@ class Foot:
     aid: bool = False
 
 
-def _everywhere(_: complex) -> bool:
-    return True
-
-
 @dataclass(frozen=True)
 class PolygonPoints:
     """End points, feet between components and the pole of a polygon, with their letters; ``seen`` tells of the place of
@@ -82,7 +78,7 @@ class PolygonPoints:
     sheet: Sheet
     diagram: DiagramName
     letters: Letters
-    seen: Callable[[complex], bool] = _everywhere
+    seen: Callable[[complex], bool] = lambda _: True
 
     @cached_property
     def _steps(self) -> tuple[Step, ...]:

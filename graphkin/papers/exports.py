@@ -176,7 +176,7 @@ def moodle_entries(question: Question) -> str:
         question=question,
         body=partial(_body, question, f"@@PLUGINFILE@@/{PICTURE}"),
         field=_cloze_field,
-        cdata=_cdata,
+        cdata=lambda html: Markup("<![CDATA[" + str(html).replace("]]>", "]]]]><![CDATA[>") + "]]>"),
         PICTURE=PICTURE,
         CUT=Markup(_CUT),
     )
@@ -193,21 +193,13 @@ def _body(
     return rendered("question.html", question=question, source=source, asked=asked, field=field)
 
 
-def _cdata(text: str) -> Markup:
-    """HTML inside XML."""
-    return Markup("<![CDATA[" + str(text).replace("]]>", "]]]]><![CDATA[>") + "]]>")
-
-
 def _cloze_field(one: AskedNumber) -> str:
     answers = (
-        f"%{share}%{value}:{tolerance}#{_cloze_words(words)}" if words else f"={value}:{tolerance}"
+        f"%{share}%{value}:{tolerance}#{said}" if said else f"={value}:{tolerance}"
         for share, value, tolerance, words in one.answers
+        for said in (re.sub(r"([}#~/\"\\])", r"\\\1", escape(words)),)
     )
     return "{1:NUMERICAL:" + "~".join(answers) + "}"
-
-
-def _cloze_words(words: str) -> str:
-    return re.sub(r"([}#~/\"\\])", r"\\\1", escape(words))
 
 
 # -- GIFT --------------------------------------------------------------------------------------------------------------

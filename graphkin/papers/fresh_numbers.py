@@ -148,26 +148,25 @@ def candidate(source: Tables, spread: Spread, seed: int, number: int, attempt: i
     """One try at a variant: every number that varies drawn afresh and rounded; not looked at yet."""
     dice = random.Random(f"{seed}/{number}/{attempt}")
     made = copy.deepcopy(dict(source))
-    tied = _ruled_keys(source)
-    free = [] if _vary(source).get("only") else [(path, kind) for path, kind in varied_keys(source) if path not in tied]
+    rules = _vary(source)
+    ratios = [key for keys in rules.get("ratios", ()) for key in keys[1:]]
+    tied = set(_paths(source, (*rules.get("ranges", {}), *ratios, *rules.get("keep", ()))))
+    free = [] if rules.get("only") else [(path, kind) for path, kind in varied_keys(source) if path not in tied]
     for path, kind in free:
         limited = spread.reach if path in (("driver", "angle"), ("driver", 0, "angle")) else None
         value = float(value_at(source, path))
         put_at(made, path, _drawn(dice, value, kind, spread) if limited is None else _within(dice, limited, spread))
     _draw_ruled(source, made, dice, {"angle": spread.angle_step})
     _fit(source, made, lambda path: path not in tied)
-    _said_once(made)
-    asked = _asked_now(source, dice)
-    return {**made, "find": asked} if asked else made
-
-
-def _said_once(made: OwnTables) -> None:
-    """What other numbers say is not said twice: a driven link begins to roll where its driver has it, and a cam's
-    offset is that of the guide."""
+    # what other numbers say is not said twice: where a driven link begins to roll, and a cam's offset
     for cam in made.get("cams", {}).values():
         cam.pop("offset", None)
     for _, driver in drivers_of(made):
         made["links"].get(driver.get("link"), {}).pop("start", None)
+    pool = list(rules.get("find", ()))
+    taken = set(dice.sample(range(len(pool)), min(rules.get("ask") or len(pool), len(pool))))
+    asked = [symbol for i, symbol in enumerate(pool) if i in taken]
+    return {**made, "find": asked} if asked else made
 
 
 def _drawn(dice: random.Random, value: float, kind: str, spread: Spread) -> float:
@@ -411,13 +410,6 @@ def rules_checked(source: Tables) -> None:
         raise CallError(*problems)
 
 
-def _ruled_keys(source: Tables) -> set[KeyPath]:
-    """The numbers that have a range, are tied to another, or are kept."""
-    table = _vary(source)
-    tied = [key for keys in table.get("ratios", ()) for key in keys[1:]]
-    return set(_paths(source, (*table.get("ranges", {}), *tied, *table.get("keep", ()))))
-
-
 def _paths(source: Tables, keys: Iterable[str]) -> list[KeyPath]:
     """The places of numbers that are there (`rules_checked`)."""
     return [path for key in keys if (path := _path_of_number(source, key)) is not None]
@@ -441,15 +433,6 @@ def _draw_ruled(source: Tables, made: OwnTables, dice: random.Random, step_of: M
         factor = value_at(made, lead) / value_at(source, lead) if value_at(source, lead) else 1.0
         for other in others:
             put_at(made, other, float(f"{value_at(source, other) * factor:.9g}"))
-
-
-def _asked_now(source: Tables, dice: random.Random) -> list[str]:
-    """Which quantities a variant asks for; none where the scene leaves it."""
-    table = _vary(source)
-    pool = list(table.get("find", ()))
-    count = table.get("ask") or len(pool)
-    taken = set(dice.sample(range(len(pool)), min(count, len(pool))))
-    return [symbol for i, symbol in enumerate(pool) if i in taken]
 
 
 def round_step(value: float) -> float:

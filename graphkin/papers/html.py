@@ -33,15 +33,15 @@ PIXEL = 25.4 / 96  # mm
 
 def words_html(markup: str, language: str = "en") -> str:
     """Words with symbols between dollar signs, which are read aloud in words of a language."""
-    return "".join(
-        escape(clean(part)) if isinstance(part, str) else _symbol(part, language) for part in parsed(markup)
-    )
-
-
-def _symbol(atoms: tuple[Atom, ...], language: str) -> str:
-    aloud = escape(clean(spoken_symbol(atoms, language)))
-    read = f' role="math" aria-label="{aloud}"' if aloud else ""
-    return f'<span class="sym"{read}>{_atoms(atoms)}</span>'
+    found = []
+    for part in parsed(markup):
+        if isinstance(part, str):
+            found.append(escape(clean(part)))
+        else:
+            aloud = escape(clean(spoken_symbol(part, language)))
+            read = f' role="math" aria-label="{aloud}"' if aloud else ""
+            found.append(f'<span class="sym"{read}>{_atoms(part)}</span>')
+    return "".join(found)
 
 
 def _atoms(atoms: tuple[Atom, ...]) -> str:
@@ -192,7 +192,7 @@ def spoken_symbol(atoms: Sequence[Atom], language: str) -> str:
 
 
 def _spoken(atom: Atom, language: str) -> str:
-    before, base = _parted(atom.text)
+    before, base = atom.text[:-1], atom.text[-1:]  # what stands before the letter that bears an index, and that
     sub, sup = _flat(atom.sub), _flat(atom.sup)
     named = _quantity(base, sub, sup, language)
     if not named:
@@ -218,11 +218,6 @@ def _quantity(base: str, sub: str, sup: str, language: str) -> str:
     else:
         return ""
     return f"{said} {_raised(power, language)}" if power else said
-
-
-def _parted(text: str) -> tuple[str, str]:
-    """What stands before the letter that bears an index, and that letter."""
-    return (text[:-1], text[-1]) if text else ("", "")
 
 
 def _flat(atoms: Sequence[Atom]) -> str:

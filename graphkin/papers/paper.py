@@ -125,18 +125,13 @@ def _sharing(own: Plan, paper: Paper, wished: Mapping[str, float | None]) -> Pla
     if _share(own, paper):
         return own
     for part in PARTS:
-        tried = replace(own, scales=_coarser(own.scales, own.scales_for(paper.part(part)), wished))
+        both = own.scales, own.scales_for(paper.part(part))
+        coarser = {name: max(getattr(one, name) for one in both[: 1 if wished[name] else 2]) for name in NAMES}
+        tried = replace(own, scales=Scales(*coarser.values()))
         if _share(tried, paper):
             enough = all(max(_size(tried, name)) >= min(LEAST_DRAWN, max(_size(own, name))) for name in NAMES)
             return tried if enough else own
     return own
-
-
-def _coarser(one: Scales, other: Scales, wished: Mapping[str, float | None]) -> Scales:
-    """The coarser scale of two for each figure, but for those that the scene wishes."""
-    return _scales(
-        lambda name: getattr(one, name) if wished[name] else max(getattr(one, name), getattr(other, name))
-    )
 
 
 def _size(own: Plan, name: str) -> tuple[float, float]:

@@ -315,16 +315,12 @@ def _unread(sheet: Sheet, asked: tuple[Symbol, ...]) -> Iterator[str]:
     for symbol in asked:
         if symbol not in readings:
             yield f"{symbol} is not drawn"
-        elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING and _measured(sheet, symbol):
-            yield f"{symbol} is {mm:.1f} mm on paper only"
-
-
-def _measured(sheet: Sheet, symbol: Symbol) -> bool:
-    """Whether a rate is read off a vector, not given or shared."""
-    if symbol.is_vector or symbol.scope != "motion":
-        return True
-    rate = (sheet.omega if symbol.kind == "omega" else sheet.alpha).get(symbol.link)
-    return rate is not None and rate.vector is not None
+        elif (mm := readings[symbol].on_paper) is not None and mm < LEAST_READING:
+            turning = not symbol.is_vector and symbol.scope == "motion"
+            rates = (sheet.omega if symbol.kind == "omega" else sheet.alpha) if turning else {}
+            # not of a rate that is given or shared
+            if not turning or (symbol.link in rates and rates[symbol.link].vector is not None):
+                yield f"{symbol} is {mm:.1f} mm on paper only"
 
 
 def _answers(
@@ -472,7 +468,10 @@ def make(
     A variant whose papers cannot be made or written is a failure, and the next call tries it again.
     """
     made: list[Variant] = []
-    points = Checkpoints.of(folder, "set", _key(jobs, render)) if folder is not None and jobs else None
+    papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")  # others are another set
+    # jobs drawn from one seed share their scene: only the first is written out
+    drawn = (asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number) for job in jobs)
+    points = Checkpoints.of(folder, "set", key_of(ATTEMPTS, papers, *drawn)) if folder is not None and jobs else None
     done = _finished(points)
     if points is not None:
         points.open(variants=len(jobs))
@@ -534,14 +533,6 @@ def accepted(jobs: Iterable[Job], done: Mapping[int, Variant], workers: Workers)
         if not variant.why:
             taken.append(variant.answers)
         yield job, variant
-
-
-def _key(jobs: Sequence[Job], render: Render | None) -> str:
-    """A key of the set: other papers are another set."""
-    papers = repr(render) if is_dataclass(render) else getattr(render, "__qualname__", "")
-    # jobs drawn from one seed share their scene: only the first is written out
-    drawn = (asdict(job) if job.spread is None or job.number == 1 else (job.name, job.number) for job in jobs)
-    return key_of(ATTEMPTS, papers, *drawn)
 
 
 def _finished(points: Checkpoints | None) -> dict[int, Variant]:

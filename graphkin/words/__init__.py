@@ -21,8 +21,8 @@ from typing import TypeAlias
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_markup", "as_plain", "class_of", "clauses", "from_others", "in_all", "languages", "listed", "parts",
-    "rich_text", "say", "word",
+    "as_markup", "as_plain", "class_of", "clauses", "from_others", "in_all", "in_turn", "languages", "listed",
+    "parts", "rich_text", "say", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -91,14 +91,7 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = s
     >>> say(Phrase("points", ("2", "B, C")))
     'mark B, C on link 2'
     """
-    if isinstance(phrase, str):
-        return phrase
-
-    def filled(gap: object) -> str:
-        return say(gap, language, show) if isinstance(gap, Phrase) else show(gap)
-
-    named = {name: filled(gap) for name, gap in phrase.gaps.items()}
-    return _table(language)[phrase.key].format(*map(filled, phrase.args), **named)
+    return "".join(parts(phrase, language, show))
 
 
 class Neutral(str):
@@ -158,10 +151,14 @@ def in_all(said: Wording, language: str) -> tuple[str, ...]:
     return ("".join(a + b for a, b in zip(around, (*shared, ""), strict=True)).strip(),)
 
 
+def _as_it_is(gap: object) -> str:
+    return gap if isinstance(gap, str) else str(gap)
+
+
 def _around_neutral(said: Wording, language: str) -> tuple[list[str], list[str]]:
     """The words around what is neutral, one more than that, and what is neutral."""
     words, neutral = [""], list[str]()
-    for part in parts(said, language, lambda gap: gap if isinstance(gap, str) else str(gap)):
+    for part in parts(said, language, _as_it_is):
         if isinstance(part, Neutral):
             neutral.append(part)
             words.append("")
@@ -185,6 +182,11 @@ def _both(one: str, other: str) -> str:
 def about(key: str, names: Sequence[object]) -> str:
     """The key of a sentence about several things, or of the one about a single one."""
     return key if len(names) > 1 else f"{key} one"
+
+
+def in_turn(sentences: Sequence[Phrase]) -> Phrase:
+    """What is done one after the other, one thing at least, as one sentence."""
+    return reduce(lambda one, other: Phrase("in turn", (one, other)), sentences)
 
 
 def listed(names: Sequence[object]) -> object:
@@ -279,10 +281,6 @@ class Markup(str):
 
 RichText = tuple[str, ...]
 """Words, and symbols as `Markup`, in turn."""
-
-
-def _as_it_is(gap: object) -> str:
-    return gap if isinstance(gap, str) else str(gap)
 
 
 def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_it_is) -> RichText:

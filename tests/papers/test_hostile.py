@@ -74,7 +74,9 @@ def test_a_title_is_typeset_as_words(title):
 
 def test_marks_that_hide_or_turn_what_stands_beside_them_are_dropped():
     # the reader of files refuses them; a scene built in a program may still hold them
-    scene = dataclasses.replace(mechanism_of("slotter-75-150"), title="safe\u202egpj.exe\u2066x\u2069\x00\x1b[31mend")
+    given = mechanism_of("slotter-75-150")
+    title = "safe\u202egpj.exe\u2066x\u2069\x00\x1b[31mend"
+    scene = dataclasses.replace(given, question=dataclasses.replace(given.question, title=title))
     made = handout(scene, positions=1).files
     for name in ("problem.html", "handout.html"):
         assert not re.findall("[\u202a-\u202e\u2066-\u2069\x00\x1b]", made[name].decode())
