@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphkin.account.notation import Letters, pole
@@ -21,7 +21,7 @@ from graphkin.words import Markup, Neutral, Phrase, as_markup, rich_text, word
 from graphkin.words.written import in_markup
 
 __all__ = [
-    "SAME", "ZERO", "Foot", "NamedPoint", "Place", "PolygonPoints", "Voice", "capital", "link_of_vector",
+    "SAME", "ZERO", "NamedPoint", "PolygonPoints", "Voice", "capital", "link_of_vector",
     "whole_sentence",
 ]  # fmt: skip
 
@@ -41,32 +41,20 @@ def names_in_letters(letters: Letters, text: str) -> list[str] | None:
 
 
 @dataclass(frozen=True)
-class Place:
-    """A place of the polygon (mm from the pole) with the end points that fall together in it."""
-
-    at: complex
-    refs: list[PointRef]
-
-
-@dataclass(frozen=True)
 class NamedPoint:
-    """A point of a polygon (mm from the pole) and its letter; ``ref`` is the point of the mechanism whose end it is,
-    None of the pole and of the feet between components."""
+    """A point of a polygon (mm from the pole) and its letter.
+
+    ref : the point of the mechanism whose end it is; None of the pole and of the feet between components
+    symbol, role : of a foot, the component that ends there, which the step of a number draws
+    aid : whether that leads to a special point or is laid off before its turn
+    """
 
     at: complex
-    letter: str
+    letter: str = ""
     ref: PointRef | None = None
-
-
-@dataclass(frozen=True)
-class Foot:
-    """The end of a component (mm from the pole) that the step of a number draws; ``aid`` of one that leads to a special
-    point or is laid off before its turn."""
-
-    symbol: Symbol
-    role: str
-    at: complex
-    step: int
+    symbol: Symbol | None = None
+    role: str = ""
+    step: int = 0
     aid: bool = False
 
 
@@ -91,48 +79,43 @@ class PolygonPoints:
     @cached_property
     def named(self) -> tuple[NamedPoint, ...]:
         """All that have letters, the pole first; where the convention names vectors, only that."""
-        ends = [NamedPoint(p.at, self.letters.end(self.diagram, ref), ref) for p in self.places for ref in p.refs]
-        feet = [NamedPoint(foot.at, letter) for foot, letter in self.feet]
-        return (NamedPoint(0j, pole(self.letters.convention, self.diagram)), *(p for p in (*ends, *feet) if p.letter))
+        origin = NamedPoint(0j, pole(self.letters.convention, self.diagram))
+        refs = ((at, ref) for at, refs in self.places.items() for ref in refs)
+        ends = (NamedPoint(at, self.letters.end(self.diagram, ref), ref) for at, ref in refs)
+        return (origin, *(point for point in (*ends, *self.feet) if point.letter))
 
     @cached_property
-    def places(self) -> tuple[Place, ...]:
-        """End points by place, in the order in which they were found; the pole first, with all points at rest."""
-        fixed = [PointRef(p) for p in self.sheet.scene.frame.points]
-        places = [Place(0j, list(fixed))]
-        known: set[PointRef] = set(fixed)
-        of_vectors = {symbol.of for symbol in self._vectors if symbol.to is None} | set(self._special())
-        for mark in self._marks():
-            if mark.ref in known or mark.ref not in of_vectors:
-                continue
-            known.add(mark.ref)
-            place = next((place for place in places if abs(place.at - mark.at) <= SAME), None)
-            if place:
-                place.refs.append(mark.ref)
-            else:
-                places.append(Place(mark.at, [mark.ref]))
-        return tuple(places)
-
-    def _marks(self) -> Iterator[Mark]:
-        return (stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark))
-
-    def _special(self) -> Iterator[PointRef]:
-        """End points of special points, those that are on the paper."""
-        points = {point for group in self.sheet.groups for point, _ in group.points}
-        return (mark.ref for mark in self._marks() if mark.ref.point in points and self.seen(mark.at))
+    def places(self) -> Mapping[complex, Sequence[PointRef]]:
+        """End points by their places (mm from the pole), in the order in which they were found; the pole first, with
+        all points at rest."""
+        places = {0j: [PointRef(p) for p in self.sheet.scene.frame.points]}
+        known = set(places[0j])
+        marks = [stroke for step in self._steps for stroke in step.strokes if isinstance(stroke, Mark)]
+        special = {point for group in self.sheet.groups for point, _ in group.points}  # shown where on the paper
+        ends = {symbol.of for symbol in self._vectors if symbol.to is None}
+        ends |= {mark.ref for mark in marks if mark.ref.point in special and self.seen(mark.at)}
+        for mark in marks:
+            if mark.ref in ends - known:
+                known.add(mark.ref)
+                at = next((at for at in places if abs(at - mark.at) <= SAME), mark.at)
+                places.setdefault(at, []).append(mark.ref)
+        return places
 
     @cached_property
-    def feet(self) -> tuple[tuple[Foot, str], ...]:
-        """Points between components, where one ends and no end point lies, with their letters."""
-        return tuple(self._lettered_feet())
-
-    def _lettered_feet(self) -> Iterator[tuple[Foot, str]]:
-        found = self._between()
+    def feet(self) -> tuple[NamedPoint, ...]:
+        """Points between components, where one ends and neither an end point lies nor another component has ended, with
+        their letters."""
+        taken, between = [*self.places], list[NamedPoint]()
+        for foot in self._components():
+            if all(abs(foot.at - z) > SAME for z in taken):
+                taken.append(foot.at)
+                between.append(foot)
         special = {s.point: s.link for s in self.sheet.steps if s.reason == "special point"}
-        per_role = Counter(foot.role for foot in found)
+        per_role = Counter(foot.role for foot in between)
         per_end: Counter[str] = Counter()
-        used: set[str] = set()
-        for foot in found:
+        feet: list[NamedPoint] = []
+        for foot in between:
+            assert foot.symbol is not None
             of, to = foot.symbol.of, foot.symbol.to
             assert of is not None
             # counted by the letter that is written: B and B@2 are one end point
@@ -140,43 +123,29 @@ class PolygonPoints:
             per_end[end] += 1
             link = next((special[r.point] for r in (of, to) if r and r.point in special), "")
             link = link or link_of_vector(self.sheet, foot.symbol)
-            alone = per_role[foot.role] == 1
-            markup = self.letters.foot(foot.role, of, per_end[end], link, alone)
-            if markup in used:
+            letter = self.letters.foot(foot.role, of, per_end[end], link, per_role[foot.role] == 1)
+            if any(letter == other.letter for other in feet):
                 index = self.letters.ref(of) + (self.letters.ref(to) if to else "")
-                markup = self.letters.foot(foot.role, of, per_end[end], index, alone=False)
-            used.add(markup)
-            yield foot, markup
+                letter = self.letters.foot(foot.role, of, per_end[end], index, alone=False)
+            feet.append(replace(foot, letter=letter))
+        return tuple(feet)
 
-    def _between(self) -> list[Foot]:
-        """Components that end where no end point lies and no other component has ended."""
-        taken = [place.at for place in self.places]
-        found = []
-        for foot in (*self._components(), *self._aids()):
-            if all(abs(foot.at - z) > SAME for z in taken):
-                taken.append(foot.at)
-                found.append(foot)
-        return found
-
-    def _components(self) -> Iterator[Foot]:
+    def _components(self) -> Iterator[NamedPoint]:
+        """The ends of components, then of known ones that lead to a special point or are laid off before their turn."""
         for step, vector in self._vectors.values():
             if vector.role not in ("resultant", "relative") and abs(vector.span) >= ZERO:
-                yield Foot(vector.symbol, vector.role, vector.tip, step)
-
-    def _aids(self) -> Iterator[Foot]:
-        """Known components that lead to a special point, or are laid off before their turn."""
+                yield NamedPoint(vector.tip, symbol=vector.symbol, role=vector.role, step=step)
         known = set(self._vectors)
-        for step in self._steps:
-            for stroke in step.strokes:
-                if isinstance(stroke, Aid) and not stroke.trial:
-                    symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
-                elif isinstance(stroke, Bar) and step.reason == "before its turn":
-                    symbol, tail, tip = step.symbol, stroke.a, stroke.b
-                else:
-                    continue
-                if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:
-                    known.add(symbol)
-                    yield Foot(symbol, KNOWN[symbol.kind], tip, step.number, aid=True)
+        for one, stroke in ((step, stroke) for step in self._steps for stroke in step.strokes):
+            if isinstance(stroke, Aid) and not stroke.trial:
+                symbol, tail, tip = stroke.symbol, stroke.tail, stroke.tip
+            elif isinstance(stroke, Bar) and one.reason == "before its turn":
+                symbol, tail, tip = one.symbol, stroke.a, stroke.b
+            else:
+                continue
+            if symbol.kind in KNOWN and symbol not in known and abs(tip - tail) >= ZERO:
+                known.add(symbol)
+                yield NamedPoint(tip, symbol=symbol, role=KNOWN[symbol.kind], step=one.number, aid=True)
 
 
 def link_of_vector(sheet: Sheet, symbol: Symbol) -> str:

@@ -19,7 +19,7 @@ import numpy as np
 from graphkin.account.headings import spoken_ref, spoken_vector
 from graphkin.account.in_mechanism import numeral
 from graphkin.account.notation import Letters, pole
-from graphkin.account.voice import SAME, Foot, Place, PolygonPoints
+from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Aid, Bar, DiagramName, Image, Mark, Ray, Step, Vector
@@ -275,21 +275,21 @@ MOST_AT_POLE = 24.0  # mm of names of points at rest beside the letter of the po
 def points(here: PolygonOnPage) -> Piece:
     """All points with what they are called."""
     places = here.lettered.places
-    return joined((*_ends(here, places), *_feet(here, here.lettered.feet), _pole(here, places[0])))
+    return joined((*_ends(here, places), *_feet(here, here.lettered.feet), _pole(here, places[0j])))
 
 
-def _ends(here: PolygonOnPage, places: Sequence[Place]) -> Iterator[Piece]:
+def _ends(here: PolygonOnPage, places: Mapping[complex, Sequence[PointRef]]) -> Iterator[Piece]:
     fixed = set(here.sheet.scene.frame.points)
-    for number, place in enumerate(places):
-        moving = [ref for ref in place.refs if ref.link or ref.point not in fixed]
+    for number, (at, refs) in enumerate(places.items()):
+        moving = [ref for ref in refs if ref.link or ref.point not in fixed]
         for i, ref in enumerate(moving):
             id = f"{here.diagram}-{ref}".replace("@", "")
-            dot = _dot(here.at(place.at), i + (number == 0))
+            dot = _dot(here.at(at), i + (number == 0))
             group = Group((dot,), id=id, classes=("end",), title=spoken_ref(ref, here.language))
-            yield dated(Piece({here.diagram: (group,)}, (), (here.at(place.at),)), here.ends_since[ref])
+            yield dated(Piece({here.diagram: (group,)}, (), (here.at(at),)), here.ends_since[ref])
         if number and moving:
             markup = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in moving)))
-            names = _named(here, markup, place.at, f"label-{here.diagram}-{moving[0]}", 0, place.at)
+            names = _named(here, markup, at, f"label-{here.diagram}-{moving[0]}", 0, at)
             yield dated(Piece(labels=names), here.ends_since[moving[0]])
 
 
@@ -300,19 +300,20 @@ def _dot(at: complex, ring: int) -> Circle:
     return Circle(at, END_RADIUS + ring * DOT_RING, stroke=Stroke(0.18))
 
 
-def _feet(here: PolygonOnPage, feet: Sequence[tuple[Foot, str]]) -> Iterator[Piece]:
+def _feet(here: PolygonOnPage, feet: Sequence[NamedPoint]) -> Iterator[Piece]:
     """Points between components: where one ends and no end point lies."""
-    for foot, markup in feet:
+    for foot in feet:
+        assert foot.symbol is not None
         at, id = here.at(foot.at), f"foot-{foot.symbol.id}"
         if foot.aid and here.panel.distance(at) > 0.0:
             continue
         dot = Group((Circle(at, FOOT_RADIUS, fill=strokes.BLACK),), id=id, classes=("foot",))
-        names = _named(here, markup, foot.at, f"label-{id}", 1, foot.at)
+        names = _named(here, foot.letter, foot.at, f"label-{id}", 1, foot.at)
         yield dated(Piece({here.diagram: (dot,)}, names, (at,)), foot.step)
 
 
-def _pole(here: PolygonOnPage, place: Place) -> Piece:
-    shown = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in place.refs)))
+def _pole(here: PolygonOnPage, refs: Sequence[PointRef]) -> Piece:
+    shown = ", ".join(filter(None, (here.letters.end(here.diagram, ref) for ref in refs)))
     letter = pole(here.letters.convention, here.diagram)
     markup = f"{letter} ({shown})" if shown and runs_width(symbol(shown)) < MOST_AT_POLE else letter
     away = -added_up((v.span for _, v in here.vectors.values() if abs(v.tail) < SAME), 0j)
