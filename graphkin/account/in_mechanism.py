@@ -68,7 +68,9 @@ def _link_points(voice: Voice, step: Step) -> Phrase | None:
     """Each new point of a link from those that stand there already."""
     sheet, link = voice.sheet, step.link
     own = sheet.structure.links[link].points if link in sheet.structure.links else {}
-    standing, found = _points_before(sheet, step)
+    before = [one for one in sheet.before(step) if one.diagram == "mechanism"]
+    standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
+    found = {one.point for one in before if one.reason in FINDS_A_POINT} - standing  # on no link yet
     known = [p for p in own if p in standing]
     told: list[Phrase] = []
     for name in sorted(step.points, key=lambda p: p not in found):
@@ -96,7 +98,10 @@ def _marked(sheet: Sheet, step: Step, known: list[str], name: str) -> Phrase | N
     bars = [(p, q) for p in places for q in places if abs(places[p] - places[q]) > SAME]
     if bars:
         p, q = max(bars, key=lambda b: abs(places[b[0]] - places[b[1]]))
-        return _from_two((p, places[p]), (q, places[q]), name, at)
+        a, b = places[p], places[q]
+        if abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) ** 2:
+            return _on_line((p, a), (q, b), name, at)
+        return _from_arcs((p, q), (abs(at - a), abs(at - b)), name, cross(b - a, at - a))
     (pivot, start), *_ = places.items()
     through = _guide_through(sheet, step, pivot)
     if through is not None:
@@ -121,14 +126,6 @@ def _guide_through(sheet: Sheet, step: Step, pivot: str) -> tuple[str, complex] 
     return None
 
 
-def _points_before(sheet: Sheet, step: Step) -> tuple[frozenset[str], frozenset[str]]:
-    """Points that stand on the paper before a step, and those of them that were found but are on no link yet."""
-    before = [one for one in sheet.before(step) if one.diagram == "mechanism"]
-    standing = {s.ref.point for one in before for s in one.strokes if isinstance(s, Mark)}
-    found = {one.point for one in before if one.reason in FINDS_A_POINT}
-    return frozenset(standing), frozenset(found - standing)
-
-
 # -- points that are found ---------------------------------------------------------------------------------------------
 
 
@@ -142,7 +139,11 @@ def _arcs(voice: Voice, step: Step) -> Phrase | None:
 def _arc_on_path(voice: Voice, step: Step) -> Phrase | None:
     """Which of the crossings of an arc with a straight path is meant, as it is seen on the paper."""
     centre, at = (_at(voice.sheet, p) for p in (*step.points, step.point))
-    path = next(_path(voice.sheet, step), None)
+    bars = (
+        s.b - s.a for one in voice.sheet.steps if one.reason == "path" and one.point == step.point
+        for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME
+    )  # fmt: skip
+    path = next(map(unit, bars), None)  # the direction of its straight path
     if centre is None or at is None or path is None:
         return None
     half = dot(at - centre, path) * path  # from the middle between the crossings
@@ -153,13 +154,6 @@ def _arc_on_path(voice: Voice, step: Step) -> Phrase | None:
     return Phrase(f"crossing {side}", (step.phrase,))
 
 
-def _path(sheet: Sheet, step: Step) -> Iterator[complex]:
-    """The direction of the straight path of the point of a step."""
-    for one in sheet.steps:
-        if one.reason == "path" and one.point == step.point:
-            yield from (unit(s.b - s.a) for s in one.strokes if isinstance(s, Bar) and abs(s.b - s.a) > SAME)
-
-
 def _tangent(voice: Voice, step: Step) -> Phrase | None:
     """Which of the two tangents: the side of the crossing of its circles."""
     arcs = [s for s in step.strokes if isinstance(s, CompassArc)]
@@ -168,14 +162,6 @@ def _tangent(voice: Voice, step: Step) -> Phrase | None:
         return None
     side = "left" if cross(other - one, arcs[0].at - one) > 0 else "right"
     return Phrase(f"tangent {side}", (step.phrase, *step.points))
-
-
-def _from_two(p: tuple[str, complex], q: tuple[str, complex], name: str, at: complex) -> Phrase:
-    """A point from two others: on their line, or by arcs about both."""
-    (one, a), (two, b) = p, q
-    if abs(cross(b - a, at - a)) < STRAIGHT * abs(b - a) ** 2:
-        return _on_line(p, q, name, at)
-    return _from_arcs((one, two), (abs(at - a), abs(at - b)), name, cross(b - a, at - a))
 
 
 def _from_arcs(about: Sequence[str], radii: Sequence[float], name: str, side: float) -> Phrase:
@@ -368,7 +354,9 @@ def _moved(sheet: Sheet, moved: Moved) -> Phrase:
     if not moved.turned:
         return Phrase("trial travel", (moved.name,))
     if not moved.base:
-        bar = _along_axis(sheet.structure.links[moved.name].points)
+        points = sheet.structure.links[moved.name].points.items()
+        spans = ((p + q, w - z) for p, z in points for q, w in points if z != w)
+        bar = next((bar for bar, span in spans if abs(cmath.phase(span)) < IN_LINE), "")  # along the axis of the link
         return Phrase("trial angle of bar", (moved.name, bar)) if bar else Phrase("trial angle", (moved.name,))
     one, other = (sheet.structure.links[name] for name in (moved.base, moved.name))
     hinge = next((p for p in one.points if p in other.points), "")
@@ -377,23 +365,14 @@ def _moved(sheet: Sheet, moved: Moved) -> Phrase:
     return Phrase("trial turn of bars", (moved.name, "".join(other.bar[:2]), "".join(one.bar[:2]), hinge))
 
 
-def _along_axis(points: Mapping[str, complex]) -> str:
-    """A bar of a link that lies along its axis, in its sense; "" where none does."""
-    pairs = ((p, q, w - z) for p, z in points.items() for q, w in points.items() if z != w)
-    return next((p + q for p, q, span in pairs if abs(cmath.phase(span)) < IN_LINE), "")
-
-
 def _told_in(table: TrialTable, row: TrialRow) -> tuple[str, str]:
     """The values of a trial, and what it misses, each with its unit."""
-    values = (_value(v, "°" if one.turned else " mm") for v, one in zip(row[0], table.moved, strict=True))
+    values = (  # angles from -180 to 180
+        f"{_two_digits(180.0 - (180.0 - v) % 360.0)}°" if one.turned else f"{_two_digits(v)} mm"
+        for v, one in zip(row[0], table.moved, strict=True)
+    )
     misses = (_two_digits(m) + ("°" if one.angle else " mm") for m, one in zip(row[1], table.missed, strict=True))
     return ", ".join(values), ", ".join(misses)
-
-
-def _value(value: float, unit: str) -> str:
-    if unit == "°":
-        value = 180.0 - (180.0 - value) % 360.0  # from -180 to 180
-    return _two_digits(value) + unit
 
 
 def _two_digits(value: float) -> str:

@@ -328,47 +328,41 @@ class KeyRow:
 
 def key_rows(lesson: Lesson) -> tuple[KeyRow, ...]:
     """The lines of the key."""
-    return tuple(_row(lesson, row) for row in lesson.results)
+    rows = []
+    for row in lesson.results:
+        symbol, spread, mm = row.symbol, lesson.tolerance.get(row.symbol), row.reading.on_paper
+        bounded = spread is not None and math.isfinite(spread.deviation)
+        size = abs(row.true) if symbol.is_vector else float(row.true.real)
+        if mm is not None:  # what a residue has on paper is no length
+            mm = 0.0 if row.measured == 0.0 else float(amount(mm, 3)) if mm < LEAST else round(mm, 3)
+        rows.append(KeyRow(
+            symbol=str(symbol),
+            unit=lesson.unit(symbol),
+            asked=symbol in lesson.questions,
+            on_paper=mm,
+            exact=lesson.in_unit(symbol, size),
+            tolerance=lesson.in_unit(symbol, COVERAGE * spread.deviation) if spread is not None and bounded else None,
+            direction=round(_degrees(row.exact), 3) + 0.0 if symbol.is_vector and size > 0.0 else None,
+        ))  # fmt: skip
+    return tuple(rows)
 
 
-def _row(lesson: Lesson, row: Compared) -> KeyRow:
-    symbol = row.symbol
-    spread = lesson.tolerance.get(symbol)
-    bound = (
-        None
-        if spread is None or not math.isfinite(spread.deviation)
-        else lesson.in_unit(symbol, COVERAGE * spread.deviation)
-    )
-    size = abs(row.true) if symbol.is_vector else float(row.true.real)
-    angle = round(math.degrees(math.atan2(complex(row.exact).imag, complex(row.exact).real)), 3) + 0.0
-    mm = row.reading.on_paper
-    if mm is not None and row.measured == 0.0:  # what a residue has on paper is no length
-        mm = 0.0
-    has_way = symbol.is_vector and size > 0.0
-    return KeyRow(
-        symbol=str(symbol),
-        unit=lesson.unit(symbol),
-        asked=symbol in lesson.questions,
-        on_paper=None if mm is None else float(amount(mm, 3)) if mm < LEAST else round(mm, 3),
-        exact=lesson.in_unit(symbol, size),
-        tolerance=bound,
-        direction=angle if has_way else None,
-    )
+def _degrees(value: complex | float) -> float:
+    return math.degrees(cmath.phase(complex(value)))
 
 
 def answer_key(lesson: Lesson) -> Document:
     """The answer key of a lesson."""
     language = lesson.language
     heads = tuple(said(k, language) for k in ("quantity", "on paper", "value", "tolerance", "accept", "unit", "sense"))
-    rows, bold = [], set()
-    for i, (line, row) in enumerate(zip(key_rows(lesson), lesson.results, strict=True)):
-        if line.asked:
-            bold.add(i)
+    rows = []
+    lines = key_rows(lesson)
+    for line, row in zip(lines, lesson.results, strict=True):
         size = abs(line.exact)
         within = ("–", "–")
         if line.tolerance:  # what is nought whatever the hand does has none
             low, high = max(0.0, size - line.tolerance), size + line.tolerance
-            places = _places(line.tolerance)
+            places = 1 - math.floor(math.log10(line.tolerance))  # two digits of it; negative for tens and hundreds
             if row.symbol.scope == "position":
                 low, high = line.exact - line.tolerance, line.exact + line.tolerance
             within = (f"± {_fixed(line.tolerance, places)}", f"{_fixed(low, places)} … {_fixed(high, places)}")
@@ -383,15 +377,10 @@ def answer_key(lesson: Lesson) -> Document:
         Heading(scene_title(lesson), 1),
         Heading(said("answer key", language)),
         *reach(lesson),
-        TableBlock(heads, tuple(rows), "lrrrrll", frozenset(bold)),
+        TableBlock(heads, tuple(rows), "lrrrrll", frozenset(i for i, line in enumerate(lines) if line.asked)),
         Paragraph(sentences(words, said("sense words", language)), small=True),
     )
     return Document(paper_title(lesson, "answer key"), languages(language), blocks, paper_of(lesson.sheet.scene))
-
-
-def _places(tolerance: float) -> int:
-    """Decimal places that show two digits of a tolerance; negative for tens and hundreds."""
-    return 1 - math.floor(math.log10(tolerance)) if tolerance > 0.0 else 4
 
 
 def _fixed(value: float, places: int) -> str:
@@ -435,7 +424,7 @@ def way(row: Compared, language: str) -> str:
     if value == 0.0 or row.symbol.scope not in ("motion", "force") or row.symbol.kind in ("h", "arm"):
         return ""
     if row.symbol.is_vector:
-        angle = round(math.degrees(cmath.phase(complex(value))), 1) + 0.0
+        angle = round(_degrees(value), 1) + 0.0
         return true_minus(f"{180.0 if angle == -180.0 else angle:.1f}°")
     key = "counter-clockwise" if value.real > 0 else "clockwise"
     return " ".join(word(key, each) for each in languages(language))
