@@ -65,7 +65,8 @@ def unit_of(number: str) -> float:
 
 def test_the_speed_of_a_translating_link_is_that_of_the_crank_at_their_centre() -> None:
     # the ram has no finite centre: its speed is that of the crank where both have one velocity
-    scene = replace(mechanism_of("shaper-scheme-2"), find=(Symbol.parse("v_C@6"),))
+    given = mechanism_of("shaper-scheme-2")
+    scene = replace(given, question=replace(given.question, find=(Symbol.parse("v_C@6"),)))
     centres = find_centres(scene)
     (told,) = [p for p in velocity_sentences(centres, speeds(centres)) if p.key == "centre speed"]
     _, link, _, end, rate, arm, scale, said = told.args
