@@ -23,7 +23,6 @@ from graphkin.words import Phrase, listed, say
 
 if TYPE_CHECKING:
     from graphkin.checking.uncertainty import Advice
-    from graphkin.construction.centre_speeds import Turning
     from graphkin.construction.centres import Centres
     from graphkin.construction.forces import ForceSheet
     from graphkin.solver import Motion
@@ -70,7 +69,7 @@ class Checked(OfScene, Result):
     def ok(self) -> bool:
         """Whether the drawing is whole and every reading lies within its tolerance; readings that are not determined
         at this position count for nothing, and a drawing of such alone agrees with nothing."""
-        return self.report.ok and self.complete and (self.at_contacts is None or self.at_contacts.ok)
+        return self.complete and self.report.ok and (self.at_contacts is None or self.at_contacts.ok)
 
     @property
     def complete(self) -> bool:
@@ -107,20 +106,23 @@ class Checked(OfScene, Result):
     @cached_property
     def data(self) -> dict[str, Json]:
         """The object that ``graphkin check --json`` prints: scene units, readings with sign."""
-        scene = self.mechanism
+        scene, construction, rows = self.mechanism, self._construction, []
+        others, ok, scales = self._by_other_ways, self.ok, self.scales
+        for row in self.report.rows:
+            unit = row.symbol.unit(scene.units, radians=True)
+            ways = {way: float(unit.of(values[row.symbol])) for way, values in others.items() if row.symbol in values}
+            rows.append({**reading_row(scene, row), **ways})
         return {
             "instrument": self.report.instrument,
-            "ok": self.ok,
-            "scales": self.scales,
-            "readings": [
-                {**reading_row(scene, row), **self._by_other_ways(scene, row)} for row in self.report.rows
-            ],
+            "ok": ok,
+            "scales": scales,
+            "readings": rows,
             **({"not_drawn": [str(symbol) for symbol in self.report.missing]} if self.report.missing else {}),
             **({"computed_over_turn": {
                 str(s): float(s.unit(scene.units, radians=True).of(v)) for s, v in self.over_turn.items()
             }} if self.over_turn else {}),
             **({"advice": say(self.advice.phrase())} if self.advice else {}),
-            **self._construction,
+            **construction,
         }
 
     @property
@@ -140,12 +142,13 @@ class Checked(OfScene, Result):
     def scales(self) -> dict[str, float]:
         """What one mm on paper is: mm, and scene units per second and second squared."""
         scales, unit = self.report.scales, self.mechanism.units.rates.metres
-        return {
-            "length": _plain(scales.length * 1e3),
-            "velocity": _plain(scales.velocity / unit),
-            "acceleration": _plain(scales.acceleration / unit),
-            **({"force": _plain(scales.force / self.mechanism.units.newtons)} if scales.force else {}),
+        of = {
+            "length": scales.length * 1e3,
+            "velocity": scales.velocity / unit,
+            "acceleration": scales.acceleration / unit,
+            **({"force": scales.force / self.mechanism.units.newtons} if scales.force else {}),
         }
+        return {name: float(f"{scale:.12g}") for name, scale in of.items()}  # without the noise of units
 
     @cached_property
     def centres(self) -> Centres:
@@ -154,38 +157,34 @@ class Checked(OfScene, Result):
 
         return centres_on(self.sheet, self.asked)
 
-    @cached_property
-    def _turning(self) -> Mapping[str, Turning]:
-        from graphkin.construction.centre_speeds import speeds
+    @property
+    def _by_other_ways(self) -> Mapping[str, Mapping[Symbol, float]]:
+        """What was read, found in other ways: by instant centres (velocities), by Zhukovsky's lever (what balances),
+        and on the drawing at the contacts, which is this one where pins slide in straight slots; sizes of vectors, SI.
+        """
+        from graphkin.construction.centre_speeds import by_centres, speeds
 
-        return speeds(self.centres)
-
-    def _by_other_ways(self, scene: Mechanism, row: Compared) -> dict[str, Json]:
-        """A reading by instant centres (velocities), by Zhukovsky's lever (what balances), and of the drawing at the
-        contacts; in scene units.  Of pins in straight slots that is this drawing."""
-        from graphkin.construction.centre_speeds import by_centres
-
-        symbol, ways = row.symbol, dict[str, Json]()
-        unit = symbol.unit(scene.units, radians=True)
-        if symbol.kind in ("v", "omega") and not symbol.at:
-            value = by_centres(self.centres, self._turning, symbol)
-            if value is not None:
-                ways["by_centres"] = float(unit.of(abs(value) if symbol.is_vector else float(value.real) + 0.0))
-        if self.forces is not None and symbol.scope == "force":
+        symbols = [row.symbol for row in self.report.rows]
+        turning = speeds(self.centres)
+        velocities = {
+            s: by_centres(self.centres, turning, s) for s in symbols if s.kind in ("v", "omega") and not s.at
+        }
+        found = {"by_centres": {s: abs(v) if s.kind == "v" else v.real + 0.0
+                                for s, v in velocities.items() if v is not None}}  # fmt: skip
+        balances = [s for s in symbols if s.scope == "force"] if self.forces is not None else []
+        for symbol in balances:
+            assert self.forces is not None
             balance = replace(symbol, plus=False, at="")
             for lever in self.forces.states[-1 if symbol.plus else 0].levers:
                 if lever.unknown.symbol == balance:
-                    ways["by_lever"] = float(unit.of(0.0 + (lever.value if balance.kind == "M" else abs(lever.vector))))
-                    break
-        other = self if self.at_contacts is None and scene.pins else self.at_contacts
-        if other is not None and (there := next((r for r in other.report.rows if r.symbol == symbol), None)):
-            ways["at_contact"] = reading_row(scene, there)["measured"]
-        return ways
-
-
-def _plain(value: float) -> float:
-    """A scale factor without the noise of unit conversion."""
-    return float(f"{value:.12g}")
+                    size = lever.value if balance.kind == "M" else abs(lever.vector)
+                    found.setdefault("by_lever", {}).setdefault(symbol, 0.0 + size)
+        other = self if self.at_contacts is None and self.mechanism.pins else self.at_contacts
+        if other is not None:
+            found["at_contact"] = {
+                r.symbol: abs(r.measured) if r.symbol.is_vector else r.measured.real for r in other.report.rows
+            }
+        return found
 
 
 def check(
@@ -222,34 +221,27 @@ def check(
     given = as_scene(scene)
     asked = drawn_symbols(given, find)
     given, values = placed(given, at)
-    hand = hand_of(given, instrument, seed)
+    hand, here = hand_of(given, instrument, seed), asked_here(asked)
     structure = solver.structure_of(given)
-    motion = solved_here(structure, values, asked_here(asked))
-    made = checked(plan(structure, values, asked_here(asked)), motion, hand)
-    return with_elsewhere(made, asked, seed)
+    motion = solved_here(structure, values, here)
+    return with_elsewhere(checked(plan(structure, values, here), motion, hand), asked, seed)
 
 
-def checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
+def checked(what: Plan, motion: Motion, hand: Instrument, at_contacts: bool = True) -> Checked:
     """Draw a plan and hold everything on it against the solver at the same position; sliding contacts at the contact
     itself too, by the same hands on another sheet."""
-    other, again = what.at_contacts(), hand if hand is EXACT else deepcopy(hand)
-    made = _checked(what, motion, hand)
-    return made if other is None else replace(made, at_contacts=_checked(other, motion, again))
+    from graphkin.solver.solve import as_drawn
+    from graphkin.solver.values import exact_values, force_values
 
-
-def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
-    from graphkin.solver import as_drawn, exact_values
-
-    passed, motion = motion.passed, as_drawn(motion, what.structure)
-    value = exact_values(motion, what.asked)
+    other, again = what.at_contacts() if at_contacts else None, hand if hand is EXACT else deepcopy(hand)
+    exact = as_drawn(motion, what.structure)
+    value = of_motion = exact_values(exact, what.asked)
     sheet = execute(what, hand)
     scale, lost, forces = 0.0, 0.0, None
     if sheet.has_forces:
         from graphkin.construction.forces import forces_on
-        from graphkin.solver.values import force_values
 
-        of_motion = value
-        of_force, lost = force_values(motion)
+        of_force, lost = force_values(exact)
         forces = forces_on(sheet, hand)
         scale = forces.per_mm
 
@@ -258,17 +250,16 @@ def _checked(what: Plan, motion: Motion, hand: Instrument) -> Checked:
 
     turning = {s: float(value(s).real) for s in what.asked if s.scope == "cycle"}
     readings = read_off(sheet, (), hand, forces)
-    rounding = rounding_of(motion, lost)
-    if hand is EXACT:
-        report = compare(sheet, readings, value, what.asked, rounding=rounding, force_scale=scale)
-        return Checked(sheet, report, None, what.asked, passed, turning, forces)
-    from graphkin.checking.uncertainty import advise, predict
+    predicted = advice = None
+    if hand is not EXACT:
+        from graphkin.checking.uncertainty import advise, predict
 
-    tools = what.structure.scene.question.sheet.tools
-    predicted = predict(what, hand.name, tools)
-    advice = advise(what, hand.name, tools, readings, predicted)
-    report = compare(sheet, readings, value, what.asked, predicted, rounding, scale)
-    return Checked(sheet, report, advice, what.asked, passed, turning, forces)
+        tools = what.structure.scene.question.sheet.tools
+        predicted = predict(what, hand.name, tools)
+        advice = advise(what, hand.name, tools, readings, predicted)
+    report = compare(sheet, readings, value, what.asked, predicted, rounding_of(exact, lost), scale)
+    there = None if other is None else checked(other, motion, again, at_contacts=False)
+    return Checked(sheet, report, advice, what.asked, motion.passed, turning, forces, there)
 
 
 def with_elsewhere(made: Checked, asked: Sequence[Symbol], seed: int = 0) -> Checked:
