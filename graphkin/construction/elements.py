@@ -8,8 +8,8 @@ Artobolevsky, Theory of mechanisms).
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import chain, product
 
@@ -176,8 +176,12 @@ def drawn_group(plot: Polygons, group: LargerGroup, kept: Sequence[str]) -> Draw
     """How a group was drawn, said."""
     plan = plot.plans[group]
     points = tuple((m.letter, m.link) for m in plan.moves if isinstance(m, Special))
-    closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
-    return DrawnGroup(group, plan.way, tuple(kept), tuple(unknown.name for unknown in plan.tried), closing, points)
+    return DrawnGroup(group, plan.way, tuple(kept), tuple(t.name for t in plan.tried), closing_names(plan), points)
+
+
+def closing_names(plan: GroupPlan) -> tuple[str, ...]:
+    """What has to fit in the trial polygons of a plan: links, or sliding pairs."""
+    return tuple(edge.link or (edge.slide.key if edge.slide else "") for edge, _ in plan.open_ends)
 
 
 def _draw_first(plot: Polygons, order: Order, group: LargerGroup) -> None:
@@ -204,7 +208,7 @@ def _take(plot: Polygons, order: Order, group: LargerGroup, plans: Iterable[Grou
         if not found.tried:
             best = 1.0, found
             break
-        quality, made = _judged(plot, order, group, found)
+        quality, made = Trials(plot, order, group, found).judged()
         if best is None or quality > MUCH_BETTER * best[0]:
             best = quality, made
         if MUCH_BETTER * best[0] >= len(found.tried) ** 0.5:
@@ -221,8 +225,9 @@ def _draw_by(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) 
         for _, one, two in plan.parallel:
             plot.board.notice("mechanism", "parallel legs", one, two)
     if plan.tried:
-        plan = plot.plans[group] = _with_assumptions(plot, order, group, plan)
-        _assume(plot, order, group, plan, _true_rates(plot, order, group, plan))
+        trials = Trials(plot, order, group, plan).with_assumptions()
+        plot.plans[group] = trials.plan
+        trials.assume(plot, trials.true_rates())
     _complete(plot, order, group)
     for move in plan.moves:
         _draw_move(plot, order, group, move)
@@ -507,235 +512,211 @@ def _against(plan: GroupPlan) -> bool:
 # -- trial polygons ----------------------------------------------------------------------------------------------------
 
 
-def _assume(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan, rates: Sequence[float]) -> None:
-    """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
-    for unknown, value in zip(plan.tried, rates, strict=True):
-        if unknown.kind == "turning":
-            plot.rates[order][unknown.name] = Rate(unknown.name, value)
-            spread(plot, order, unknown.name, group)
-        else:
-            plot.tried[order, unknown.name] = value
+@dataclass(frozen=True)
+class Trials:
+    """The trial polygons of a group by a plan that assumes rates.
 
+    An open end is an edge whose ends should meet, and whether it is measured ``across`` it or along.
+    """
 
-def _trial_polygon(
-    plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan, number: int, rates: Sequence[float]
-) -> Polygons:
-    trial = plot.fork(number)
-    _assume(trial, order, group, plan, rates)
-    _complete(trial, order, group)
-    for move in plan.moves:
-        _draw_move(trial, order, group, move)
-    return trial
+    plot: Polygons
+    order: Order
+    group: LargerGroup
+    plan: GroupPlan
 
+    def assume(self, plot: Polygons, rates: Sequence[float]) -> None:
+        """Let links turn, or pairs slide, at assumed rates (rad/s, m/s; per second)."""
+        for unknown, value in zip(self.plan.tried, rates, strict=True):
+            if unknown.kind == "turning":
+                plot.rates[self.order][unknown.name] = Rate(unknown.name, value)
+                spread(plot, self.order, unknown.name, self.group)
+            else:
+                plot.tried[self.order, unknown.name] = value
 
-def _trial_rates(plot: Polygons, order: Order, plan: GroupPlan) -> list[list[float]]:
-    """The assumptions of each trial polygon: none moves in the first, then each in turn."""
-    drivers = plot.structure.scene.drivers
-    fastest = max((abs(d.values[1]) for d in drivers if d.turns), default=0.0)
-    if not fastest:
-        travel = max((abs(d.values[1]) for d in drivers), default=0.0)
-        fastest = travel / plot.structure.scene.size or 1.0
-    base = fastest if order == "velocity" else fastest**2
-    once = [base * (1.0 if t.kind == "turning" else plot.structure.scene.size) for t in plan.tried]
-    return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
+    def polygon(self, number: int, rates: Sequence[float]) -> Polygons:
+        """What follows from some rates."""
+        trial = self.plot.fork(number)
+        self.assume(trial, rates)
+        _complete(trial, self.order, self.group)
+        for move in self.plan.moves:
+            _draw_move(trial, self.order, self.group, move)
+        return trial
 
+    def rates(self) -> list[list[float]]:
+        """First assumptions of each trial polygon: none moves in the first, then each in turn."""
+        scene = self.plot.structure.scene
+        fastest = max((abs(d.values[1]) for d in scene.drivers if d.turns), default=0.0)
+        if not fastest:
+            fastest = max((abs(d.values[1]) for d in scene.drivers), default=0.0) / scene.size or 1.0
+        base = fastest if self.order == "velocity" else fastest**2
+        once = [base * (1.0 if t.kind == "turning" else scene.size) for t in self.plan.tried]
+        return [[0.0] * len(once), *([x if i == j else 0.0 for j, x in enumerate(once)] for i in range(len(once)))]
 
-def _ends_apart(plot: Polygons, order: Order, plan: GroupPlan) -> dict[tuple[Edge, bool], float]:
-    """How far ends that should meet lie apart (mm) after a trial: along each edge, and square to it."""
-    found: dict[tuple[Edge, bool], float] = {}
-    for ref in plan.net.nodes:
-        for edge in plan.net.edges[ref]:
-            bare = edge.slide is not None and edge.slide.pin is None  # no point of it is a joint
-            if edge.forward and (bare or plan.net.natural >= {edge.start, edge.end}):
-                for across in (False, True):
-                    value = _gap(plot, order, edge, across)
-                    if value is not None:
-                        found[edge, across] = value
-    return found
+    def along(self, edge: Edge, across: bool) -> complex:
+        """Direction in which what an edge leaves open is measured: along it, or square to it."""
+        way = _direction(self.plot, edge, self.plot.places)
+        way = way if edge.slide is not None or edge.contact else -1j * way
+        return 1j * way if across else way
 
+    def gap(self, trial: Polygons, edge: Edge, across: bool) -> float | None:
+        """How far ends that should meet lie apart (mm) after a trial; None where that is not known."""
+        parts = parts_of(trial, self.order, replace(edge, unknown=None))
+        missing = trial.end(self.order, edge.end) - trial.end(self.order, edge.start)
+        missing -= added_up((p.span for p in parts if p.span is not None), 0j)
+        if not across and any(p.span is None for p in parts):
+            return None
+        return dot(missing, self.along(edge, across))
 
-def _gap(plot: Polygons, order: Order, edge: Edge, across: bool) -> float | None:
-    whole = replace(edge, unknown=None)
-    parts = parts_of(plot, order, whole)
-    missing = plot.end(order, edge.end) - plot.end(order, edge.start)
-    missing -= added_up((p.span for p in parts if p.span is not None), 0j)
-    if not across and any(p.span is None for p in parts):
-        return None
-    return dot(missing, _measured_along(plot, edge, across))
+    def gaps(self, trial: Polygons) -> list[float]:
+        """What a trial leaves open at the open ends of the plan (mm, or as read)."""
+        return [self.gap(trial, *end) or 0.0 for end in self.plan.open_ends]
 
-
-def _measured_along(plot: Polygons, edge: Edge, across: bool) -> complex:
-    """Direction in which what an edge leaves open is measured: along it, or square to it."""
-    way = _direction(plot, edge, plot.places)
-    way = way if edge.slide is not None or edge.contact else -1j * way
-    return 1j * way if across else way
-
-
-def _taken_off(plot: Polygons, order: Order, edge: Edge, across: bool) -> Iterator[TakenOff]:
-    """What is known of an edge and has a part in the direction in which it is left open."""
-    way = _measured_along(plot, edge, across)
-    parts = parts_of(plot, order, replace(edge, unknown=None))
-    for p in parts:
-        if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
-            yield TakenOff(p.symbol, p.size, dot(p.span, way))
-
-
-def _judged(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> tuple[float, GroupPlan]:
-    """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
-    the ends by which the true rates are known."""
-    try:
-        trials = [
-            _trial_polygon(plot, order, group, plan, i + 1, rates)
-            for i, rates in enumerate(_trial_rates(plot, order, plan))
-        ]
-        rows = [_ends_apart(trial, order, plan) for trial in trials]
-    except Unsolvable:
-        return 0.0, plan
-    keys = [k for k in rows[0] if all(k in row for row in rows)]
-    slopes = np.array([[row[k] - rows[0][k] for row in rows[1:]] for k in keys])
-    scale = max((abs(v) for trial in trials for v in trial.ends[order].values()), default=0.0)
-    scale = max(scale, float(np.abs(slopes).max(initial=0.0)))
-    chosen: list[int] = []
-    left = slopes.copy()
-    quality = 1.0
-    for _ in plan.tried:
-        sizes = np.hypot.reduce(left, axis=1) if len(left) else np.zeros(1)
-        best = int(np.argmax(sizes))
-        if not len(left) or sizes[best] <= NAUGHT * scale:
+    def judged(self) -> tuple[float, GroupPlan]:
+        """How well a group is found by some trials (0: not at all; at most the root of how many rates are assumed), and
+        the plan with the ends by which the true rates are known."""
+        plan, order = self.plan, self.order
+        # no point of a sliding pair without a pin is a joint
+        edges = [edge for ref in plan.net.nodes for edge in plan.net.edges[ref] if edge.forward and (
+            (edge.slide is not None and edge.slide.pin is None) or plan.net.natural >= {edge.start, edge.end})]
+        keys = [(edge, across) for edge in edges for across in (False, True)]
+        try:
+            trials = [self.polygon(number, rates) for number, rates in enumerate(self.rates(), 1)]
+            rows = [[self.gap(trial, *key) for key in keys] for trial in trials]
+        except Unsolvable:
             return 0.0, plan
-        quality = min(quality, float(sizes[best]) / scale)
-        chosen.append(best)
-        e = left[best] / sizes[best]
-        left = left - np.outer(left @ e, e)
-    return quality, replace(plan, open_ends=tuple(keys[i] for i in chosen))
+        known = [k for k in range(len(keys)) if all(row[k] is not None for row in rows)]
+        gaps = np.array([[row[k] for row in rows] for k in known], dtype=float).reshape(len(known), len(rows))
+        left = gaps[:, 1:] - gaps[:, :1]
+        scale = max((abs(v) for trial in trials for v in trial.ends[order].values()), default=0.0)
+        scale = max(scale, float(np.abs(left).max(initial=0.0)))
+        chosen: list[int] = []
+        quality = 1.0
+        for _ in plan.tried:
+            sizes = np.hypot.reduce(left, axis=1) if len(left) else np.zeros(1)
+            best = int(np.argmax(sizes))
+            if not len(left) or sizes[best] <= NAUGHT * scale:
+                return 0.0, plan
+            quality = min(quality, float(sizes[best]) / scale)
+            chosen.append(known[best])
+            e = left[best] / sizes[best]
+            left = left - np.outer(left @ e, e)
+        return quality, replace(plan, open_ends=tuple(keys[k] for k in chosen))
+
+    def with_assumptions(self) -> Trials:
+        """Rates to assume that make the trial polygons about as large as the true one: round ones on either side of it,
+        all on the one side in the first trial, each in its turn on the other in those that follow; the nearer to the
+        true ones, the further a trial polygon would reach beyond the true one."""
+        plan, order = self.plan, self.order
+        if order in plan.assumed:
+            return self
+        once = self.rates()
+        trials = [self.polygon(1, assumed) for assumed in once]
+        true = [float(rate) for rate in divide(once, [self.gaps(trial) for trial in trials])]
+        reach = _reach([trial.drawn[order] for trial in trials], once)
+        right, up, left, down = reach(true)
+        most = reach(true) + BEYOND * max(right + left, up + down)
+        # what hardly moves is tried by a part of the driver's rate
+        bases = (rates[i] for i, rates in enumerate(once[1:]))
+        ways = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
+
+        def fitting(choices: Iterable[list[float]]) -> list[float]:
+            for row in choices:
+                if (reach(row) <= most).all():
+                    break
+            return row
+
+        low = fitting([_round(x, -share * way) for x, way in zip(true, ways, strict=True)] for share in NEARER)
+        fair = [low]
+        for i, (x, way) in enumerate(zip(true, ways, strict=True)):
+            fair.append(fitting([*low[:i], _round(x, share * way), *low[i + 1 :]] for share in NEARER))
+        return replace(self, plan=replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))}))
+
+    def true_rates(self) -> list[float]:
+        """The true rates by proportional division of what trial polygons leave open."""
+        plot, order, plan = self.plot, self.order, self.plan
+        rates, far = plan.assumed[order], plan.far and replace(plan.far, away=plan.far.away * plot.scales.length)
+        apart: list[list[float]] = []
+        ends: list[dict[PointRef, complex]] = []
+        for number, assumed in enumerate(rates, 1):
+            trial = self.polygon(number, assumed)
+            apart.append([plot.board.instrument.read(mm) for mm in self.gaps(trial)])
+            ends.append(trial.ends[order])
+            plot.links.update(trial.links)
+            plot.places.update(trial.places)
+            plot.special |= trial.special
+            for step in trial.board.steps:
+                if step.diagram == "mechanism":  # special points met with first
+                    plot.do(step)
+            steps = [step for step in trial.board.steps if step.diagram == order]
+            strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
+            told = RateTrial(number, self.as_symbols(assumed), far)
+            plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
+        shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
+        places = [[end[ref] for ref in shared] for end in ends]
+        plot.board.notice(order, "magnified", ", ".join(self.group.links), size=magnified(places, apart))
+        found = self._as_noted(rates, apart)
+        edges = [edge for edge, _ in plan.open_ends]
+        divided = Superposed(
+            self.as_symbols(found), closing_names(plan), tuple(map(tuple, apart)),
+            tuple(Direction("square" if across else "along", e.bar if e.link else e.direction.names)
+                  for e, across in plan.open_ends),
+            tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e in edges),
+            tuple(tuple(self._taken_off(trial, *end)) for end in plan.open_ends),
+        )  # fmt: skip
+        plot.do(Step("divide", "open ends", order, data=divided))
+        return found
+
+    def _taken_off(self, trial: Polygons, edge: Edge, across: bool) -> Iterator[TakenOff]:
+        """What is known of an edge and has a part in the direction in which it is left open."""
+        way = self.along(edge, across)
+        for p in parts_of(trial, self.order, replace(edge, unknown=None)):
+            if p.span and abs(dot(p.span, way)) > NAUGHT * abs(p.span):
+                yield TakenOff(p.symbol, p.size, dot(p.span, way))
+
+    def _as_noted(self, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]) -> list[float]:
+        """The divided rates as they are written down: the way from the first that was assumed with the figures of the
+        lengths that are divided, of several parts with as many as such have."""
+        noted, made = self.plot.board.instrument.noted, []
+        for i, (unknown, rate) in enumerate(zip(self.plan.tried, map(float, divide(rates, apart)), strict=True)):
+            unit = 1.0 if unknown.kind == "turning" else self.plot.structure.scene.units.rates.metres
+            low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
+            if len(self.plan.tried) == 1:
+                lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
+                added = noted(rate / unit - low, figures(*lengths))
+            else:
+                added = noted((rate / unit - low) / more, MOST - 1) * more
+            made.append(noted(low + added, MOST) * unit)
+        return made
+
+    def as_symbols(self, values: Sequence[float]) -> tuple[tuple[Symbol, float], ...]:
+        """Rates by their symbols, in scene units."""
+        plot, named = self.plot, []
+        for unknown, value in zip(self.plan.tried, values, strict=True):
+            if unknown.kind == "turning":
+                named.append((Symbol(RATE[self.order], link=unknown.name), value))
+                continue
+            slide = plot.structure.slide(unknown.name)
+            point = slide.pin or next(iter(plot.links[slide.a].points), "")
+            of, to = plot.label(PointRef(point, slide.a)), plot.label(PointRef(point, slide.b))
+            kind = "v" if self.order == "velocity" else "ar"
+            named.append((Symbol(kind, of, to), value / plot.structure.scene.units.rates.metres))
+        return tuple(named)
 
 
-def _with_assumptions(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> GroupPlan:
-    """A plan with rates to assume that make the trial polygons about as large as the true one: round ones on either
-    side of it, all on the one side in the first trial, each in its turn on the other in those that follow; the
-    nearer to the true ones, the further a trial polygon would reach beyond the true one."""
-    if order in plan.assumed:
-        return plan
-    once = _trial_rates(plot, order, plan)
-    trials = [_trial_polygon(plot, order, group, plan, 1, assumed) for assumed in once]
-    true = [float(rate) for rate in divide(once, [_gaps(plot, order, plan, trial) for trial in trials])]
-    reach = _Reach([trial.drawn[order] for trial in trials], once)
-    most = reach.at(true) + BEYOND * reach.size(true)
-    # what hardly moves is tried by a part of the driver's rate
-    bases = (rates[i] for i, rates in enumerate(once[1:]))
-    ways = [SLOW * base if abs(x) <= 0.05 * abs(base) else x for x, base in zip(true, bases, strict=True)]
+def _reach(
+    drawn: Sequence[Mapping[Symbol, Vector]], rates: Sequence[Sequence[float]]
+) -> Callable[[Sequence[float]], NDArray[np.float64]]:
+    """How far a polygon reaches right, up, left and down of its pole (mm), whatever is assumed: every vector of it is
+    linear in that."""
+    shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
+    ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
+    slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
 
-    def fitting(choices: Iterable[list[float]]) -> list[float]:
-        for row in choices:
-            if (reach.at(row) <= most).all():
-                break
-        return row
+    def reach(assumed: Sequence[float]) -> NDArray[np.float64]:
+        places = ends[0] + np.array(assumed) @ slopes
+        return np.array([np.max((places * turn).real) for turn in (1, -1j, -1, 1j)])
 
-    low = fitting([_round(x, -share * way) for x, way in zip(true, ways, strict=True)] for share in NEARER)
-    fair = [low]
-    for i, (x, way) in enumerate(zip(true, ways, strict=True)):
-        fair.append(fitting([*low[:i], _round(x, share * way), *low[i + 1 :]] for share in NEARER))
-    return replace(plan, assumed={**plan.assumed, order: tuple(map(tuple, fair))})
-
-
-def _gaps(plot: Polygons, order: Order, plan: GroupPlan, trial: Polygons) -> list[float]:
-    """What a trial leaves open (mm, or as read)."""
-    return [_gap(trial, order, *one) or 0.0 for one in plan.open_ends]
-
-
-def _true_rates(plot: Polygons, order: Order, group: LargerGroup, plan: GroupPlan) -> list[float]:
-    """The true rates by proportional division of what trial polygons leave open."""
-    rates = plan.assumed[order]
-    apart: list[list[float]] = []
-    ends: list[dict[PointRef, complex]] = []
-    far = plan.far and replace(plan.far, away=plan.far.away * plot.scales.length)
-    for number, assumed in enumerate(rates, 1):
-        trial = _trial_polygon(plot, order, group, plan, number, assumed)
-        apart.append([plot.board.instrument.read(mm) for mm in _gaps(plot, order, plan, trial)])
-        ends.append(trial.ends[order])
-        plot.links.update(trial.links)
-        plot.places.update(trial.places)
-        plot.special |= trial.special
-        for step in trial.board.steps:
-            if step.diagram == "mechanism":  # special points met with first
-                plot.do(step)
-        steps = [step for step in trial.board.steps if step.diagram == order]
-        strokes = [replace(s, trial=number) for step in steps for s in step.strokes if isinstance(s, Aid)]
-        told = RateTrial(number, _as_symbols(plot, order, plan, assumed), far)
-        plot.do(Step("trial", "polygon", order, tuple(strokes), data=told))
-    shared = [ref for ref in ends[0] if all(ref in end for end in ends)]
-    places = [[end[ref] for ref in shared] for end in ends]
-    plot.board.notice(order, "magnified", ", ".join(group.links), size=magnified(places, apart))
-    found = _as_noted(plot, plan, rates, apart)
-    closing = tuple(e.link or (e.slide.key if e.slide else "") for e, _ in plan.open_ends)
-    ways = tuple(_left_open(e, across) for e, across in plan.open_ends)
-    between = tuple((plot.label(e.labels[0]), plot.label(e.labels[1])) for e, _ in plan.open_ends)
-    less = tuple(tuple(_taken_off(trial, order, *one)) for one in plan.open_ends)
-    named = _as_symbols(plot, order, plan, found)
-    divided = Superposed(named, closing, tuple(map(tuple, apart)), ways, between, less)
-    plot.do(Step("divide", "open ends", order, data=divided))
-    return found
-
-
-def _as_noted(
-    plot: Polygons, plan: GroupPlan, rates: Sequence[Sequence[float]], apart: Sequence[Sequence[float]]
-) -> list[float]:
-    """The divided rates as they are written down: the way from the first that was assumed with the figures of the
-    lengths that are divided, of several parts with as many as such have."""
-    noted, made = plot.board.instrument.noted, []
-    for i, (unknown, rate) in enumerate(zip(plan.tried, map(float, divide(rates, apart)), strict=True)):
-        unit = 1.0 if unknown.kind == "turning" else plot.structure.scene.units.rates.metres
-        low, more = rates[0][i] / unit, (rates[i + 1][i] - rates[0][i]) / unit
-        if len(plan.tried) == 1:
-            lengths = on_paper(apart[0][0]), on_paper(apart[0][0] - apart[1][0])
-            added = noted(rate / unit - low, figures(*lengths))
-        else:
-            added = noted((rate / unit - low) / more, MOST - 1) * more
-        made.append(noted(low + added, MOST) * unit)
-    return made
-
-
-def _as_symbols(
-    plot: Polygons, order: Order, plan: GroupPlan, values: Sequence[float]
-) -> tuple[tuple[Symbol, float], ...]:
-    """Rates by their symbols, in scene units."""
-    named = []
-    metres = plot.structure.scene.units.rates.metres
-    for unknown, value in zip(plan.tried, values, strict=True):
-        if unknown.kind == "turning":
-            named.append((Symbol(RATE[order], link=unknown.name), value))
-            continue
-        slide = plot.structure.slide(unknown.name)
-        point = slide.pin or next(iter(plot.links[slide.a].points), "")
-        of, to = plot.label(PointRef(point, slide.a)), plot.label(PointRef(point, slide.b))
-        named.append((Symbol("v" if order == "velocity" else "ar", of, to), value / metres))
-    return tuple(named)
-
-
-def _left_open(edge: Edge, across: bool) -> Direction:
-    """Along which direction a trial leaves an edge open."""
-    names = (edge.start.point, edge.end.point) if edge.link else edge.direction.names
-    return Direction("square" if across else "along", names)
-
-
-class _Reach:
-    """How far a polygon reaches to each side of its pole, whatever is assumed: every vector of it is linear in that."""
-
-    def __init__(self, drawn: Sequence[Mapping[Symbol, Vector]], rates: Sequence[Sequence[float]]) -> None:
-        shared = [symbol for symbol in drawn[0] if all(symbol in one for one in drawn)]
-        ends = np.array([[0j, *(z for s in shared for z in (one[s].tail, one[s].tip))] for one in drawn])
-        self.rest = ends[0]
-        self.slopes = (ends[1:] - ends[0]) / np.diag(np.array(rates[1:]))[:, None]
-
-    def at(self, rates: Sequence[float]) -> NDArray[np.float64]:
-        """Right, up, left and down (mm)."""
-        ends = self.rest + np.array(rates) @ self.slopes
-        return np.array([np.max((ends * turn).real) for turn in (1, -1j, -1, 1j)])
-
-    def size(self, rates: Sequence[float]) -> float:
-        """Of width and height the larger (mm)."""
-        right, up, left, down = self.at(rates)
-        return float(max(right + left, up + down))
+    return reach
 
 
 def _round(value: float, step: float) -> float:
