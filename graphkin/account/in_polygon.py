@@ -28,6 +28,7 @@ from graphkin.construction.sheet import Rate, Sheet
 from graphkin.construction.steps import (
     GIVEN,
     Aid,
+    Arrow,
     Bar,
     Direction,
     RateTrial,
@@ -89,7 +90,7 @@ def _before(sheet: Sheet, step: Step, symbol: Symbol | None, at: complex) -> Sym
         for stroke in one.strokes if one.diagram == step.diagram else ():
             if isinstance(stroke, Bar) and one.reason == "before its turn":
                 drawn[one.symbol] = stroke.b
-            elif isinstance(stroke, Vector | Aid):
+            elif isinstance(stroke, Arrow):
                 drawn[stroke.symbol] = stroke.tip
     there = [s for s, tip in drawn.items() if abs(tip - at) < SAME]
     for side in _sides(sheet, step) if symbol is not None else ():

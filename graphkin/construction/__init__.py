@@ -11,21 +11,6 @@ from graphkin.construction.scales import Room, Scales
 from graphkin.construction.sheet import Sheet
 
 __all__ = [
-    "EXACT",
-    "NO_SLIP",
-    "Cad",
-    "GoneOn",
-    "Instrument",
-    "Plan",
-    "Redrawn",
-    "Room",
-    "Scales",
-    "Sheet",
-    "Slip",
-    "draft",
-    "erring",
-    "execute",
-    "nudged",
-    "pencil",
-    "plan",
-]
+    "EXACT", "NO_SLIP", "Cad", "GoneOn", "Instrument", "Plan", "Redrawn", "Room", "Scales", "Sheet", "Slip", "draft",
+    "erring", "execute", "nudged", "pencil", "plan",
+]  # fmt: skip

@@ -29,17 +29,7 @@ from graphkin.construction.equations import (
 )
 from graphkin.construction.group_plan import GroupPlan, Move, Special, plan_group
 from graphkin.construction.links_on_paper import stuck
-from graphkin.construction.net import (
-    Edge,
-    Net,
-    Path,
-    Unknown,
-    VectorChain,
-    contacts_of,
-    equation_of,
-    node,
-    past,
-)
+from graphkin.construction.net import Edge, Net, Path, Unknown, VectorChain, contacts_of, equation_of, node, past
 from graphkin.construction.polygons import RATE, Polygons, letter
 from graphkin.construction.proportional_division import divide, magnified
 from graphkin.construction.seen_from import Joint, contours

@@ -10,37 +10,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Literal
 
-from graphkin.construction.net import (
-    Edge,
-    Unknown,
-    VectorChain,
-    contacts_of,
-    node,
-)
+from graphkin.construction.net import Edge, Unknown, VectorChain, contacts_of, node
 from graphkin.construction.polygons import PARTS, RATE, Component, Polygons, letter
 from graphkin.construction.sheet import Equation, Rate
-from graphkin.construction.steps import (
-    GIVEN,
-    ORDERS,
-    Aid,
-    Bar,
-    Direction,
-    Mark,
-    Order,
-    Ray,
-    Size,
-    Step,
-    Term,
-    Vector,
-)
+from graphkin.construction.steps import GIVEN, ORDERS, Aid, Bar, Direction, Mark, Order, Ray, Size, Step, Term, Vector
 from graphkin.plane import added_up, cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Driven, DrivenJoint, Dyad, Element, LargerGroup, Pair
 from graphkin.words.written import MOST, figures, on_paper
 
 __all__ = [
-    "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of",
-    "same_turn", "share_rate", "spread", "symbol_of", "turned",
+    "draw_equation", "draw_relative", "first_ends", "known_turns", "links_alike", "parts_of", "same_turn", "share_rate",
+    "spread", "symbol_of", "turned",
 ]  # fmt: skip
 
 Side = list[tuple[Edge, list[Component]]]

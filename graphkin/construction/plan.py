@@ -20,34 +20,18 @@ from graphkin.construction.position import Known, assembly_at, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order
-from graphkin.construction.triangles import (
-    Inversion,
-    inversions_of,
-    opened_at_triangles,
-    own_assembly,
-)
+from graphkin.construction.triangles import Inversion, inversions_of, opened_at_triangles, own_assembly
 from graphkin.errors import Unsolvable
 from graphkin.scene.model import Loading, Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.structure import (
-    Driven,
-    Dyad,
-    Element,
-    LargerGroup,
-    Structure,
-    analyse,
-    needed,
-    pins_on_circles,
-)
+from graphkin.structure import Driven, Dyad, Element, LargerGroup, Structure, analyse, needed, pins_on_circles
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
     from graphkin.construction.group_position import GroupTrial
 
-__all__ = [
-    "GoneOn", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan", "positioned",
-]  # fmt: skip
+__all__ = ["GoneOn", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan", "positioned"]
 
 
 # -- what is to be drawn -----------------------------------------------------------------------------------------------

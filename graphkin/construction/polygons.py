@@ -20,7 +20,20 @@ from graphkin.construction.links_on_paper import PlacedLinks, pushed_by_driver
 from graphkin.construction.net import VectorChain, node
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board, Rate
-from graphkin.construction.steps import ORDERS, Aid, Bar, Direction, Image, Mark, Order, Ray, Role, Size, Step, Vector
+from graphkin.construction.steps import (
+    ORDERS,
+    Aid,
+    Bar,
+    Direction,
+    Image,
+    Mark,
+    Order,
+    Ray,
+    Role,
+    Size,
+    Step,
+    Vector,
+)
 from graphkin.construction.touching import Touch, Touching
 from graphkin.construction.trains import PlansDrawn
 from graphkin.errors import CallError, Problem, Unsolvable

@@ -8,7 +8,7 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -21,12 +21,12 @@ from graphkin.construction.steps import (
     DIAGRAMS,
     ORDERS,
     Aid,
+    Arrow,
     Cause,
     DiagramName,
     Mark,
     OnPaper,
     Step,
-    Stroke,
     Term,
     Vector,
 )
@@ -346,7 +346,7 @@ class Sheet:
             places += Touching(self.scene, per, self.poses).outermost()
         extents: dict[DiagramName, Extent] = {"mechanism": Extent.around(places, self.scales.length)}
         for order in ORDERS:
-            drawn: list[Vector | Aid] = [*self.vectors(order).values(), *self.vectors_seen(order)]
+            drawn: list[Arrow] = [*self.vectors(order).values(), *self.vectors_seen(order)]
             true, every = (
                 Extent.around([0j, *(z for v in some for z in (v.tail, v.tip))], self.scales.of(order))
                 for some in (drawn, [*drawn, *self.trials(order)])
@@ -378,9 +378,6 @@ def either_way(symbol: Symbol) -> Symbol:
     return replace(symbol, of=of, to=to)
 
 
-# -- the board on which it grows ---------------------------------------------------------------------------------------
-
-
 # -- vectors that are nothing but rounding -----------------------------------------------------------------------------
 #
 # Exact hands lose some 1e-16 of the largest vector, and more where lines cross at a small angle.  A normal component is
@@ -392,64 +389,70 @@ def without_residues(sheet: Sheet) -> Sheet:
     zero = _residues(sheet)
     if not zero:
         return sheet
-    rates = {
-        "omega": _rates(sheet.omega, zero, sheet.scales.velocity / sheet.scales.length),
-        "alpha": _rates(sheet.alpha, zero, sheet.scales.acceleration / sheet.scales.length),
-    }
-    return replace(
-        sheet,
-        steps=tuple(_step(step, zero, rates) for step in sheet.steps),
-        omega=rates["omega"],
-        alpha=rates["alpha"],
-        noticed=tuple(
-            replace(remark, size=0.0) if remark.key == "zero vector" and remark.of[0] in zero else remark
-            for remark in sheet.noticed
-        ),
+    rates = {"omega": dict(sheet.omega), "alpha": dict(sheet.alpha)}
+    for (kind, found), scale in zip(rates.items(), (sheet.scales.velocity, sheet.scales.acceleration), strict=True):
+        for name, rate in found.items():
+            if rate.vector in zero:  # a driver's own rate on top of one that came from a residue stays
+                residue = rate.mm / rate.arm_mm * scale / sheet.scales.length if rate.arm_mm else 0.0
+                value = 0.0 if abs(rate.value) <= 2.0 * residue else rate.value
+                rates[kind][name] = replace(rate, value=value, mm=0.0)
+
+    def cleared(step: Step) -> Step:
+        step = replace(step, strokes=tuple(
+            replace(s, tip=s.tail) if isinstance(s, Arrow) and s.symbol in zero else s for s in step.strokes
+        ))
+        if step.reason == "sum of rates":
+            return replace(step, value=rates[step.kind][step.links[0]].value)
+        if step.symbol not in zero:
+            return step
+        return replace(step, value=0.0) if step.reason == "rate" else replace(step, mm=0.0)
+
+    noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
+    return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), omega=rates["omega"],
+                   alpha=rates["alpha"])  # fmt: skip
+
+
+def _residues(sheet: Sheet) -> set[Symbol]:
+    """The vectors that are nothing but rounding."""
+    scales, size, structure = sheet.scales, sheet.scene.size, sheet.structure
+    velocity, acceleration = (
+        {v.symbol: abs(v.span) for v in [*sheet.vectors_seen(order), *sheet.vectors(order).values()]}
+        for order in ORDERS
+    )
+    # the largest vector that leads to one (mm), and how sharp the crossings are
+    fastest, pushed = (greatest_before(structure, mm.items()) for mm in (velocity, acceleration))
+    crossings = [(r.diagram, _crossing(r), 1.0 / max(r.size, 1e-9)) for r in sheet.noticed if r.key == "sharp crossing"]
+    sharp_before, sharp = (
+        greatest_before(structure, ((symbol, lean) for diagram, symbol, lean in crossings if diagram in diagrams))
+        for diagrams in (("mechanism", "velocity"), ("mechanism", "velocity", "acceleration"))
     )
 
-
-def _residues(sheet: Sheet) -> frozenset[Symbol]:
-    scales, size = sheet.scales, sheet.scene.size
-    velocity, acceleration = _drawn(sheet, "velocity"), _drawn(sheet, "acceleration")
-    fastest, pushed = _largest(sheet, velocity), _largest(sheet, acceleration)
-    lost_before, lost = _lost(sheet, ("mechanism", "velocity")), _lost(sheet, ("mechanism", "velocity", "acceleration"))
-    zero = {s for s, vector in velocity.items() if 0.0 < abs(vector.span) <= lost_before(s) * fastest(s)}
-    still = zero | {symbol for symbol, vector in velocity.items() if vector.span == 0.0}
-    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+    def lost(sharpest: float) -> float:
+        """What rounding may have cost of a vector, as a part of the largest that leads to it."""
+        return min(MOST_LOST, LOST * max(sharpest, 1.0) ** 2)
 
     def residue(symbol: Symbol) -> float:
         # a motion without acceleration still has velocities, whose rounding is carried on as v squared over a length
-        most = pushed(symbol)
-        carried = max(most, (fastest(symbol) * scales.velocity) ** 2 / size / scales.acceleration) * lost(symbol)
+        most, speed = pushed(symbol), fastest(symbol) * scales.velocity
+        carried = max(most, speed**2 / size / scales.acceleration) * lost(sharp(symbol))
         # beside a dead point v squared over a length far exceeds all accelerations
         return min(carried, MOST_LOST * most) if most > carried else carried
 
-    for symbol, vector in acceleration.items():
-        # at a contact the curvatures give a normal part where nothing slides too
-        squares = () if symbol.of is not None and symbol.of.point in touching else _speeds(symbol, fixed)
-        speed = next((s for s in squares if s in velocity), None)
-        nothing = abs(vector.span) <= residue(symbol) if speed is None else speed in still
-        if nothing and vector.span != 0.0:
+    zero = {s for s, mm in velocity.items() if 0.0 < mm <= lost(sharp_before(s)) * fastest(s)}
+    still = zero | {symbol for symbol, mm in velocity.items() if mm == 0.0}
+    fixed, touching = sheet.scene.frame.points, {c.name for c in sheet.scene.contacts}
+    for symbol, mm in acceleration.items():
+        squared: list[Symbol] = []
+        # the velocity whose square a normal component is: relative, or from the pole where its start is fixed; at a
+        # contact the curvatures give a normal part where nothing slides too
+        if symbol.kind == "an" and symbol.to and symbol.of and symbol.of.point not in touching:
+            squared = [Symbol("v", symbol.of, symbol.to)]
+            squared += [Symbol("v", symbol.of)] if symbol.to.point in fixed else []
+        speed = next((s for s in squared if s in velocity), None)
+        nothing = mm <= residue(symbol) if speed is None else speed in still
+        if nothing and mm != 0.0:
             zero.add(symbol)
-    return frozenset(zero)
-
-
-def _drawn(sheet: Sheet, diagram: DiagramName) -> dict[Symbol, Vector | Aid]:
-    """The vectors of a diagram, those among them that are seen from a held link."""
-    return {**{one.symbol: one for one in sheet.vectors_seen(diagram)}, **sheet.vectors(diagram)}
-
-
-def _largest(sheet: Sheet, vectors: Mapping[Symbol, Vector | Aid]) -> Callable[[Symbol], float]:
-    """The largest vector that leads to one (mm)."""
-    return greatest_before(sheet.structure, ((symbol, abs(vector.span)) for symbol, vector in vectors.items()))
-
-
-def _lost(sheet: Sheet, diagrams: tuple[DiagramName, ...]) -> Callable[[Symbol], float]:
-    """What rounding may have cost of a vector, as a part of the largest that leads to it."""
-    crossings = (r for r in sheet.noticed if r.diagram in diagrams and r.key == "sharp crossing")
-    sharp = [(_crossing(r), 1.0 / max(r.size, 1e-9)) for r in crossings]
-    sharpest = greatest_before(sheet.structure, sharp)
-    return lambda symbol: min(MOST_LOST, LOST * max(sharpest(symbol), 1.0) ** 2)
+    return zero
 
 
 def _crossing(remark: Remark) -> Symbol:
@@ -461,38 +464,6 @@ def _crossing(remark: Remark) -> Symbol:
         return Symbol.parse(str(of))
     except ValueError:
         return Symbol("v", PointRef(str(of)))
-
-
-def _speeds(symbol: Symbol, fixed: Mapping[str, complex]) -> tuple[Symbol, ...]:
-    """The velocity whose square a normal component is: relative, or from the pole where its start is fixed."""
-    if symbol.kind != "an" or symbol.to is None:
-        return ()
-    return (Symbol("v", symbol.of, symbol.to), *((Symbol("v", symbol.of),) if symbol.to.point in fixed else ()))
-
-
-def _step(step: Step, zero: frozenset[Symbol], rates: Mapping[str, Mapping[str, Rate]]) -> Step:
-    strokes: tuple[Stroke, ...] = tuple(
-        replace(s, tip=s.tail) if isinstance(s, Vector | Aid) and s.symbol in zero else s for s in step.strokes
-    )
-    step = replace(step, strokes=strokes)
-    if step.reason == "sum of rates":
-        return replace(step, value=rates[step.kind][step.links[0]].value)
-    if step.symbol not in zero:
-        return step
-    if step.reason == "rate":
-        return replace(step, value=0.0)
-    return replace(step, mm=0.0) if step.mm else step
-
-
-def _rates(rates: Mapping[str, Rate], zero: frozenset[Symbol], per_mm: float) -> dict[str, Rate]:
-    """Rates without what came from residues; a driver's own rate on top of one stays."""
-    found = {}
-    for name, rate in rates.items():
-        if rate.vector in zero:
-            residue = rate.mm / rate.arm_mm * per_mm if rate.arm_mm else 0.0
-            rate = replace(rate, value=0.0 if abs(rate.value) <= 2.0 * residue else rate.value, mm=0.0)
-        found[name] = rate
-    return found
 
 
 # -- the board on which it grows ---------------------------------------------------------------------------------------
@@ -542,7 +513,7 @@ class Board:
         if any(mark in step.strokes for step in self.steps if step.diagram == diagram):
             return True
         last = self.steps[-1]
-        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Vector | Aid))
+        ends = (s.tip for s in last.strokes if last.diagram == diagram and isinstance(s, Arrow))
         if mark.at not in ends:
             return False
         self.steps[-1] = replace(last, strokes=(*last.strokes, mark))

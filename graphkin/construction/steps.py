@@ -18,45 +18,10 @@ from graphkin.words import Phrase, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
-    "DIAGRAMS",
-    "FINDS_A_POINT",
-    "GIVEN",
-    "LENGTHS",
-    "ORDERS",
-    "SENTENCES",
-    "Aid",
-    "Bar",
-    "Cause",
-    "CompassArc",
-    "DiagramName",
-    "Direction",
-    "FarPoint",
-    "Image",
-    "Mark",
-    "Missed",
-    "Moved",
-    "OnPaper",
-    "Order",
-    "Part",
-    "PlanTrial",
-    "RateTrial",
-    "Ray",
-    "Reason",
-    "Role",
-    "Size",
-    "Step",
-    "Stroke",
-    "Superposed",
-    "TakenOff",
-    "Term",
-    "TrialCurve",
-    "TrialPositions",
-    "TrialRow",
-    "TrialTable",
-    "Vector",
-    "Verb",
-    "end_of",
-    "phrase_of",
+    "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "ORDERS", "SENTENCES", "Aid", "Arrow", "Bar", "Cause",
+    "CompassArc", "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved", "OnPaper", "Order",
+    "Part", "PlanTrial", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff",
+    "Term", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
     "plain_in",
 ]  # fmt: skip
 
@@ -377,13 +342,12 @@ def _times(value: Any, times: float) -> Any:
 
 
 @dataclass(frozen=True)
-class Vector(OnPaper):
-    """A vector drawn: ``symbol`` from ``tail`` to ``tip``."""
+class Arrow(OnPaper):
+    """A vector: ``symbol`` from ``tail`` to ``tip``."""
 
     symbol: Symbol
     tail: complex
     tip: complex
-    role: Role
 
     @property
     def span(self) -> complex:
@@ -391,17 +355,17 @@ class Vector(OnPaper):
 
 
 @dataclass(frozen=True)
-class Aid(OnPaper):
+class Vector(Arrow):
+    """A vector drawn, with its part in an equation."""
+
+    role: Role
+
+
+@dataclass(frozen=True)
+class Aid(Arrow):
     """A vector that only leads on: of a ``trial`` polygon by its number, or of a special point (0)."""
 
-    symbol: Symbol
-    tail: complex
-    tip: complex
     trial: int
-
-    @property
-    def span(self) -> complex:
-        return self.tip - self.tail
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from graphkin.account.notation import Letters, pole
 from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import Aid, Bar, DiagramName, Image, Mark, Ray, Step, Vector
+from graphkin.construction.steps import Aid, Arrow, Bar, DiagramName, Image, Mark, Ray, Step, Vector
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Primitive, Segment, Stroke, Text, on_page
@@ -122,7 +122,7 @@ def extent(sheet: Sheet, diagram: DiagramName, within: Box | None = None) -> Box
     """The box (mm, y down, about the pole) around all vectors of a polygon, trial polygons among them; lines that lead
     to them are counted in where they do not reach far."""
     seen = sheet.vectors_seen(diagram)
-    vectors: list[Vector | Aid] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
+    vectors: list[Arrow] = [*sheet.vectors(diagram).values(), *seen, *sheet.trials(diagram)]
     ends = [0j, *(z for v in vectors for z in (v.tail, v.tip))]
     box = Box.around(on_page(z) for z in ends)
     for step in sheet.steps:
