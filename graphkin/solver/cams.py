@@ -31,8 +31,8 @@ from graphkin.structure import Structure
 from graphkin.words import Phrase, Wording
 
 __all__ = [
-    "AtDegree", "CamAt", "CamContact", "CamStudy", "Jump", "beginning", "cam_angle", "cam_at", "cam_with", "contact_of",
-    "follower_inputs", "greatest_jerk", "least_base", "lifts", "meeting_followers", "study_cam",
+    "AtDegree", "CamAt", "CamStudy", "Jump", "beginning", "cam_angle", "cam_at", "cam_with",
+    "follower_inputs", "greatest_jerk", "least_base", "lifts", "meeting_followers", "slip_of", "study_cam",
 ]  # fmt: skip
 
 
@@ -114,29 +114,16 @@ def cam_with(cam: LawCam, degree: Array, lift: Lift) -> CamAt:
     return CamAt(*map(np.asarray, found))
 
 
-@dataclass(frozen=True)
-class CamContact:
-    """What stands at a cam's contact, in the frame: place (m), unit normal out of the cam, velocity of the cam's point
-    minus that of the follower's (m/s), pressure angle of the follower (rad), lift (m, rad); each of shape (n,)."""
-
-    lift: Array
-    contact: Array
-    normal: Array
-    slip: Array
-    pressure: Array
-
-
-def contact_of(cam: LawCam, turn: Array, omega: Array) -> CamContact:
-    """The contact where the cam's own axis points along unit complex numbers and turns at a rate (rad/s)."""
-    at = cam_at(cam, cam.sense * np.angle(turn))
+def slip_of(cam: LawCam, at: CamAt, omega: Array) -> Array:
+    """Velocity of the cam's point at the contact minus that of the follower's (m/s), of a cam that turns at a rate
+    (rad/s), shape (n,)."""
     motion, rate = cam.motion, cam.sense * at.slope * omega
     if isinstance(motion, SlidingFollower):
         follower = motion.along * rate
     else:
         follower = 1j * motion.side * rate * (cam.axis + at.contact - motion.centre)
     slip = 1j * omega * at.contact - follower
-    slip = slip - at.normal * dot(at.normal, slip)  # what rounding leaves across
-    return CamContact(at.lift, cam.axis + at.contact, at.normal, slip, at.pressure)
+    return np.asarray(slip - at.normal * dot(at.normal, slip))  # without what rounding leaves across
 
 
 def lifts(law: FollowerLaw, angle: Array) -> Lift:

@@ -15,7 +15,7 @@ from graphkin.search import last_true, least_value
 from graphkin.solver.bounds import most_of
 from graphkin.solver.drivers import meant_value, working
 from graphkin.solver.dyads import DyadSolution
-from graphkin.solver.engine import SINGULAR, Discriminant, State, closes, newton, positions, touch
+from graphkin.solver.engine import SINGULAR, ExtendedPrecision, State, closes, discriminant_of, newton, positions, touch
 from graphkin.solver.larger_groups import GroupSolved
 from graphkin.solver.pose import Array, Drive
 from graphkin.solver.sentences import dyad_words, group_words, lies_at, links_words
@@ -143,7 +143,7 @@ def _touching(structure: Structure, i: int, signs: Mapping[int, float], about: f
     if place is None:
         return
     with working():
-        least, doubt = gap.with_doubt([place])
+        least, doubt = gap.with_doubt(0, [place])
         if abs(least) <= max(doubt, NOTHING):
             yield DeadPoint(place, i, signs, (-1, 1))
         elif least < 0:
@@ -159,8 +159,8 @@ def _touching(structure: Structure, i: int, signs: Mapping[int, float], about: f
 _ONE = np.asarray(1.0)
 
 
-def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> Discriminant:
-    return Discriminant(structure, i, {j: np.asarray(s) for j, s in signs.items()})
+def _gap(structure: Structure, i: int, signs: Mapping[int, float]) -> ExtendedPrecision:
+    return discriminant_of(structure, i, {j: np.asarray(s) for j, s in signs.items()})
 
 OPEN = 1e-9
 CERTIFIED = 0.5

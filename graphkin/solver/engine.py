@@ -27,8 +27,8 @@ from graphkin.solver.program import DimensionedProgram, program_of
 from graphkin.structure import Driven, LargerGroup, Rolled, Structure
 
 __all__ = [
-    "SINGULAR", "Discriminant", "ExtendedPrecision", "State", "closes", "group_at",
-    "known_exactly", "least_closes", "newton", "positions", "touch",
+    "SINGULAR", "ExtendedPrecision", "State", "closes", "discriminant_of", "group_at", "known_exactly",
+    "least_closes", "newton", "positions", "touch",
 ]  # fmt: skip
 
 ROUGH = 1e-10
@@ -76,32 +76,41 @@ class ExtendedPrecision:
                 done[k] = True
         return done
 
-    def row(self, k: int, at: Mapping[int, Decimal] | None = None) -> list[Decimal]:
-        """The formulas at position ``k``, or with drivers at other values."""
-        return self._row({name: number for name, (number, _) in self._numbers(k, at or {}).items()})
+    def row(self, k: int, at: Sequence[Decimal] = ()) -> list[Decimal]:
+        """The formulas at position ``k``, or with drivers at other values.  Raises ArithmeticError where groups have no
+        place."""
+        return self._row({name: number for name, (number, _) in self._numbers(k, at).items()})
 
-    def with_doubt(self, k: int, at: Mapping[int, Decimal] | None = None) -> tuple[Decimal, Decimal]:
-        """The first of them, and how far the digits that the file leaves open may move it.
+    def __call__(self, *values: Decimal) -> Decimal:
+        """The first of them at values of the drivers."""
+        return self.row(0, values)[0]
+
+    def with_doubt(self, k: int, at: Sequence[Decimal] = ()) -> tuple[Decimal, Decimal]:
+        """The first of them, and how far the digits that the file leaves open may move it: wholly where groups have no
+        place.
 
         Each number that is open is moved by itself; all together may move a product of small factors by as many times
         the sum of that.
         """
-        numbers = self._numbers(k, at or {})
+        numbers = self._numbers(k, at)
         given = {name: number for name, (number, _) in numbers.items()}
-        value = self._row(given)[0]
         errors = [(name, sign * error) for name, (_, error) in numbers.items() if error for sign in (1, -1)]
-        moved = [abs(self._row({**given, name: given[name] + error})[0] - value) for name, error in errors]
+        try:
+            value = self._row(given)[0]
+            moved = [abs(self._row({**given, name: given[name] + error})[0] - value) for name, error in errors]
+        except ArithmeticError:
+            return Decimal(0), UNKNOWN
         return value, len(moved) * sum(moved, Decimal(0))
 
     def _row(self, numbers: Mapping[Name, Decimal]) -> list[Decimal]:
         return self.code.values(numbers.__getitem__, {}, DECIMALS)
 
-    def _numbers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
+    def _numbers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """What the formulas take at position ``k``, and how far each number may be off."""
         given = self._drivers(k, at)
         return {name: given.get(name) or self.dimensioned.decimal(name) for name in self.code.leaves}
 
-    def _drivers(self, k: int, at: Mapping[int, Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
+    def _drivers(self, k: int, at: Sequence[Decimal]) -> dict[Name, tuple[Decimal, Decimal]]:
         """What the formulas take that changes from position to position, and how far it may be off."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
@@ -110,7 +119,7 @@ class ExtendedPrecision:
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
                 number, exact = Decimal(dead.exact), True
-            if j in at:
+            if j < len(at):
                 number, exact = at[j], True
             error = Decimal(0 if exact else GIVEN * abs(value))
             if driver.turns:
@@ -124,6 +133,7 @@ class ExtendedPrecision:
         return given
 
 
+UNKNOWN = Decimal("Infinity")
 SINGULAR = 1e-7
 """A group whose two loci cross at a smaller sine than this is at a dead point."""
 TINY = 1e-25
@@ -408,7 +418,9 @@ ROUNDING = Decimal(10) ** -36
 """What fifty digits leave open of a discriminant at a place that is found from it."""
 
 
-class Discriminant:
+def discriminant_of(
+    structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None
+) -> ExtendedPrecision:
     """The discriminant of a dyad in fifty digits, behind dyads only.
 
     Parameters
@@ -417,44 +429,22 @@ class Discriminant:
     forms : the assembly of the groups before it
     drive : positions whose driver values are taken as they are written; the scene's own if None
     """
-
-    def __init__(self, structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive | None = None) -> None:
-        known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
-        own = np.array([[d.values[0] for d in structure.scene.drivers]])
-        run = _Run(structure, drive or Drive.at(structure, own), known, False)
-        program = run.dimensioned.program
-        self._extended = run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
-
-    def __call__(self, *values: Decimal) -> Decimal:
-        """At values of the drivers.  Raises ArithmeticError where the groups before it have no place."""
-        return self._extended.row(0, dict(enumerate(values)))[0]
-
-    def with_doubt(self, values: Sequence[Decimal]) -> tuple[Decimal, Decimal]:
-        """The same, and how far the file leaves it open: wholly where the groups before it have no place."""
-        try:
-            return self._extended.with_doubt(0, dict(enumerate(values)))
-        except ArithmeticError:
-            return Decimal(0), Decimal("Infinity")
-
-    def written(self, k: int) -> tuple[Decimal, Decimal]:
-        """The same at a position."""
-        return self._extended.with_doubt(k)
+    known = {**{j: form for j, form in forms.items() if j < i}, i: np.ones(1)}
+    own = np.array([[d.values[0] for d in structure.scene.drivers]])
+    run = _Run(structure, drive or Drive.at(structure, own), known, False)
+    program = run.dimensioned.program
+    return run._extended(program.code(("closing", i), [program.groups[i].discriminant]))
 
 
 def closes(structure: Structure, i: int, forms: Mapping[int, Array], drive: Drive) -> tuple[Array, Array]:
     """Whether a dyad closes at values of the drivers as they are written: 1, -1, or 0 where it stands at its limit as
     far as can be told; and whether it is the file that leaves it open.  Shapes (n,)."""
-    discriminant = Discriminant(structure, i, forms, drive)
-    found, open_ = np.zeros(len(drive), dtype=int), np.zeros(len(drive), dtype=bool)
+    discriminant = discriminant_of(structure, i, forms, drive)
     with working():
-        for k in range(len(drive)):
-            try:
-                value, doubt = discriminant.written(k)
-            except ArithmeticError:
-                continue
-            found[k] = _sign(value, doubt)
-            open_[k] = found[k] == 0 and doubt > ROUNDING
-    return found, open_
+        told = [discriminant.with_doubt(k) for k in range(len(drive))]
+    found = np.array([_sign(*one) for one in told], dtype=int)
+    return found, np.array([not sign and ROUNDING < doubt < UNKNOWN
+                            for sign, (_, doubt) in zip(found, told, strict=True)], dtype=bool)  # fmt: skip
 
 
 def least_closes(
@@ -462,7 +452,7 @@ def least_closes(
 ) -> tuple[float, int] | None:
     """Where the discriminant of a dyad is least on a straight path of driver values (rad, m), near a parameter of it,
     and what ``closes`` says there; None where there is no such place."""
-    discriminant = Discriminant(structure, i, forms)
+    discriminant = discriminant_of(structure, i, forms)
     with working():
         first = [meant_value(d, x) for d, x in zip(structure.scene.drivers, start, strict=True)]
         way = [meant_value(d, x) - a for d, x, a in zip(structure.scene.drivers, end, first, strict=True)]
@@ -473,7 +463,7 @@ def least_closes(
         place = touch(lambda t: discriminant(*at(t)), about)
         if place is None or abs(place - Decimal(about)) > BESIDE:
             return None
-        return float(place), _sign(*discriminant.with_doubt(at(place)))
+        return float(place), _sign(*discriminant.with_doubt(0, at(place)))
 
 
 def _sign(value: Decimal, doubt: Decimal) -> int:

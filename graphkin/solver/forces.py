@@ -20,7 +20,7 @@ import numpy as np
 from graphkin.plane import cross
 from graphkin.scene.force_names import ForceJoint, joints, opposite
 from graphkin.scene.model import LoadOn, Phase, SpringOn
-from graphkin.solver.cams import contact_of
+from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.motion import SLIGHT, Motion, contact_motion, pitch_point
 from graphkin.solver.pose import Array
@@ -75,9 +75,8 @@ def _lines(motion: Motion, joint: ForceJoint) -> tuple[Sequence[complex | Array]
         return [_square(motion, slide)], _foot(motion, slide)
     if joint.kind == "cam":
         cam = next(c for c in scene.cams if c.link == joint.first)
-        turn = motion.poses[joint.first]
-        touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
-        return [touching.normal], touching.contact
+        touching = cam_at(cam, cam_angle(cam, motion.poses[joint.first].u))
+        return [touching.normal], np.asarray(cam.axis + touching.contact)
     contact = next((c for c in scene.contacts if c.name == joint.point), None)
     if contact is None:
         gear = next(g for g in scene.gears if g.name == joint.point)

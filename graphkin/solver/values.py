@@ -25,7 +25,7 @@ from graphkin.scene.force_names import no_force
 from graphkin.scene.model import Mechanism, Phase
 from graphkin.scene.symbol import Symbol, Value
 from graphkin.search import changes
-from graphkin.solver.cams import contact_of
+from graphkin.solver.cams import cam_angle, cam_at, slip_of
 from graphkin.solver.driver_range import DriverRange, extremes, range_of
 from graphkin.solver.forces import Action, Forces, actions, balances, forces_of, without_line
 from graphkin.solver.mobility import structure_of
@@ -471,11 +471,11 @@ def _columns(motion: Motion, angles: Mapping[str, Array]) -> dict[str, dict[str,
         columns["slides"][pair.key] = dict(zip(kinds, (x / per for x, per in values), strict=True))
     for cam in scene.cams:
         turn = motion.poses[cam.link]
-        touching = contact_of(cam, np.asarray(turn.u), np.asarray(turn.omega))
+        touching = cam_at(cam, cam_angle(cam, turn.u))
         unit = 1.0 if isinstance(cam.motion, SwingingFollower) else metres
         columns.setdefault("cams", {})[cam.link] = {
-            "lift": touching.lift / unit, "contact": touching.contact / metres, "normal": touching.normal,
-            "slip": touching.slip / fast, "pressure": touching.pressure,
+            "lift": touching.lift / unit, "contact": (cam.axis + touching.contact) / metres, "normal": touching.normal,
+            "slip": slip_of(cam, touching, np.asarray(turn.omega)) / fast, "pressure": touching.pressure,
         }  # fmt: skip
     return columns
 

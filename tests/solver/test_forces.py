@@ -13,7 +13,7 @@ import pytest
 
 import graphkin
 from graphkin.scene import library, mechanism_of
-from graphkin.solver.cams import contact_of
+from graphkin.solver.cams import cam_angle, cam_at
 from graphkin.solver.motion import pitch_point
 from tests import with_tables
 from tests.command import run
@@ -84,7 +84,7 @@ def shares(mechanism, solved, key):
     if gear is not None:
         return second, first, pitch_point(motion, gear)[0]
     if cam is not None:
-        return second, first, contact_of(cam, motion.poses[first].u, motion.poses[first].omega).contact
+        return second, first, cam.axis + cam_at(cam, cam_angle(cam, motion.poses[first].u)).contact
     mesh = next((g for g in mechanism.gears if g.wheels == (first, second)), None)
     if mesh is not None:
         return second, first, pitch_point(motion, mesh)[0]

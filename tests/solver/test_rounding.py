@@ -7,7 +7,7 @@ from decimal import Decimal, localcontext
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
 from graphkin.solver.drivers import cos_sin, meant
-from graphkin.solver.engine import Discriminant
+from graphkin.solver.engine import discriminant_of
 from tests.scenes import four_bar
 
 
@@ -35,7 +35,7 @@ def test_a_discriminant_is_told_as_well_as_the_digits_of_the_file_tell_it() -> N
     dyad = next(iter(structure.dyads))
     with localcontext() as context:
         context.prec = 60
-        value, doubt = Discriminant(structure, dyad, {}).with_doubt([Decimal("1.047")])
+        value, doubt = discriminant_of(structure, dyad, {}).with_doubt(0, [Decimal("1.047")])
         long1, long2, line = Decimal(50 * 2**0.5) / 1000, Decimal("0.06"), Decimal("0.1")
         c, s = cos_sin(Decimal("1.047"))
         square = (line - c / 20) ** 2 + (s / 20) ** 2
