@@ -23,6 +23,7 @@ from graphkin.construction.forces.force_sheet import (
     MomentTerm,
     opposite,
 )
+from graphkin.construction.forces.joints import balance_of
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
 from graphkin.scene.model import LoadOn, Mechanism, Phase, SpringOn
@@ -348,11 +349,12 @@ def given_loads(sheet: Sheet, letters: Letters) -> list[Phrase]:
     """Masses, weights, inertias, loads, springs and what balances, a line for each kind."""
     scene, loading = sheet.scene, sheet.scene.loading
     masses = list(_masses(scene, letters))
+    balances = dict.fromkeys(balance_of(sheet.structure, driver).symbol for driver in scene.drivers)
     return [
         *([reduce(lambda one, other: Phrase("given masses", (one, other)), masses)] if masses else []),
         *(_load(scene, load, letters) for load in loading.loads),
         *(_spring_given(scene, spring, letters) for spring in loading.springs),
-        _balanced_by(scene, letters),
+        Phrase("given balance", (", ".join(f"${force_letters(letters.convention, one)}$" for one in balances),)),
     ]
 
 
@@ -400,22 +402,6 @@ def _phase(scene: Mechanism, phase: Phase) -> Phrase:
         metres, unit = scene.units.metres, scene.units.length
         ends = (number(phase.start / metres), f"{number(phase.end / metres)} {unit}")
     return Phrase("given while driver", ends)
-
-
-def _balanced_by(scene: Mechanism, letters: Letters) -> Phrase:
-    said = scene.loading.balance
-    found = []
-    if said is not None:
-        found.append(Symbol("M" if said.kind == "moment" else "F", link=said.link))
-    else:
-        for driver in scene.drivers:
-            if driver.turns:
-                found.append(Symbol("M", link=driver.link))
-            else:
-                of = next((p.of for p in scene.pins if p.key == driver.key), driver.key.partition("/")[0])
-                found.append(Symbol("F", link=of))
-    names = ", ".join(f"${force_letters(letters.convention, s)}$" for s in found)
-    return Phrase("given balance", (names,))
 
 
 def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phrase:

@@ -59,21 +59,39 @@ class CamSheet:
     @property
     def steps(self) -> tuple[Phrase, ...]:
         """What is done, one after the other."""
-        return tuple(_steps(self))
+        cam, motion = self.cam, self.cam.motion
+        radius, shifted = amount(self.base, 4), self.offset > 1e-9
+        steps = [Phrase("cam step diagram", (str(len(self.divisions)),)), Phrase("cam step base", (cam.point, radius))]
+        if isinstance(motion, SwingingFollower):
+            distance = amount(abs(self.divisions[0].at.line), 4)
+            steps.append(Phrase("cam step pivots", (cam.point, motion.pivot, distance)))
+            steps.append(Phrase("cam step swings", (motion.pivot, motion.tip)))
+        else:
+            if shifted:
+                steps[-1] = Phrase("cam step circles", (cam.point, radius, amount(self.offset, 4)))
+            steps.append(Phrase("cam step tangents" if shifted else "cam step rays", (cam.point,)))
+            steps.append(Phrase("cam step lifts"))
+        if cam.flat:
+            return (*steps, Phrase("cam step faces"))
+        edge = Phrase("cam step rollers", (amount(self.roller, 4),)) if cam.roller else Phrase("cam step edge")
+        return (*steps, edge, Phrase("cam step normals", (cam.point,)))
 
 
 def cam_sheet(cam: LawCam, scale: float) -> CamSheet:
     """Draw a cam at a scale (m for one mm of paper)."""
-    mm = 1.0 / scale
-    divided = tuple(
-        CamDivision(i, degree, cam.law.at(degree).lift, _on_paper(station(cam, degree), mm), _pressure(cam, degree))
-        for i, degree in enumerate(_degrees(cam))
-    )
+    mm, divided = 1.0 / scale, []
+    for i, degree in enumerate(_degrees(cam)):
+        at = station(cam, degree)
+        # between normal and path, read with the protractor, in 0 .. pi/2
+        angle = abs(cmath.phase(at.normal / at.way))
+        centre = None if at.centre is None else at.centre * mm
+        places = (z * mm for z in (at.line, at.base, at.point, at.contact))
+        at = at._replace(**dict(zip(("line", "base", "point", "contact"), places, strict=True)), centre=centre)
+        divided.append(CamDivision(i, degree, cam.law.at(degree).lift, at, min(angle, math.pi - angle)))
     pitch = () if cam.flat else tuple(_pitch(cam, mm))
     offset = abs(cam.motion.offset) * mm if isinstance(cam.motion, SlidingFollower) else 0.0
-    return CamSheet(
-        cam, scale, divided, tuple(z * mm for z in outline(cam)), pitch, cam.base * mm, offset, cam.roller * mm
-    )
+    profile = tuple(z * mm for z in outline(cam))
+    return CamSheet(cam, scale, tuple(divided), profile, pitch, cam.base * mm, offset, cam.roller * mm)
 
 
 def _degrees(cam: LawCam) -> Iterator[float]:
@@ -84,50 +102,12 @@ def _degrees(cam: LawCam) -> Iterator[float]:
         yield from (piece.start + width * k / count for k in range(count))
 
 
-def _on_paper(at: CamStation, mm: float) -> CamStation:
-    centre = None if at.centre is None else at.centre * mm
-    return CamStation(at.line * mm, at.base * mm, at.point * mm, centre, at.normal, at.contact * mm, at.way)
-
-
-def _pressure(cam: LawCam, degree: float) -> float:
-    """The angle between normal and path, read with the protractor, in 0 .. pi/2."""
-    at = station(cam, degree)
-    angle = abs(cmath.phase(at.normal / at.way))
-    return min(angle, math.pi - angle)
-
-
 def _pitch(cam: LawCam, mm: float) -> Iterator[complex]:
     for part in cam.law.parts:
         count = max(2, math.ceil(180 * (part.end - part.start) / TURN))
         for k in range(count + 1):
             degree = part.start + (part.end - part.start) * k / count
             yield station(cam, degree, part.at(degree)).point * mm
-
-
-def _steps(sheet: CamSheet) -> Iterator[Phrase]:
-    cam = sheet.cam
-    last = len(sheet.divisions)
-    yield Phrase("cam step diagram", (str(last),))
-    slides = isinstance(cam.motion, SlidingFollower)
-    radius = amount(sheet.base, 4)
-    if slides and sheet.offset > 1e-9:
-        yield Phrase("cam step circles", (cam.point, radius, amount(sheet.offset, 4)))
-    else:
-        yield Phrase("cam step base", (cam.point, radius))
-    if not slides:
-        yield Phrase("cam step pivots", (cam.point, cam.motion.pivot, amount(abs(sheet.divisions[0].at.line), 4)))  # type: ignore[union-attr]
-        yield Phrase("cam step swings", (cam.motion.pivot, cam.motion.tip))  # type: ignore[union-attr]
-    else:
-        yield Phrase("cam step tangents" if sheet.offset > 1e-9 else "cam step rays", (cam.point,))
-        yield Phrase("cam step lifts")
-    if cam.flat:
-        yield Phrase("cam step faces")
-    elif cam.roller:
-        yield Phrase("cam step rollers", (amount(sheet.roller, 4),))
-    else:
-        yield Phrase("cam step edge")
-    if not cam.flat:
-        yield Phrase("cam step normals", (cam.point,))
 
 
 TINY = 1e-9  # of the base radius: a line nearer to the axis passes it

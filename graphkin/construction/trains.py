@@ -113,73 +113,58 @@ def centre_lines(train: Iterable[Mesh], links: Mapping[str, PlacedLink], ground:
         mesh = next((m for m in left if made and any(p in made[-1][0] for p in m.axes)), left[0])
         left.remove(mesh)
         for heights, members in made:
-            if any(p in heights for p in mesh.axes) and _laid(mesh, heights, members, links):
+            if any(p in heights for p in mesh.axes) and _laid(mesh, heights, links):
                 members.append(mesh)
                 break
         else:
-            fixed = [p for p in mesh.axes if p in links[ground].points]
-            heights = {(*fixed, mesh.axes[0])[0]: 0.0}
-            _laid(mesh, heights, [], links)
-            made.append((heights, [mesh]))
+            start = next((p for p in mesh.axes if p in links[ground].points), mesh.axes[0])
+            made.append(({start: 0.0}, [mesh]))
+            _laid(mesh, made[-1][0], links)
     return tuple(_line(members, heights, links, ground) for heights, members in made)
 
 
-def _apart(mesh: Mesh, links: Mapping[str, PlacedLink]) -> float:
-    held = links[mesh.carrier].points
-    return abs(held[mesh.axes[1]] - held[mesh.axes[0]])
-
-
-def _laid(
-    mesh: Mesh, heights: dict[str, float], members: Sequence[Mesh], links: Mapping[str, PlacedLink]
-) -> bool:
+def _laid(mesh: Mesh, heights: dict[str, float], links: Mapping[str, PlacedLink]) -> bool:
     """Lay a pair's axes on a line where they fit; False where they stand there at other distances."""
     one, two = mesh.axes
     if not two:
         return one in heights
-    far = _apart(mesh, links)
+    held = links[mesh.carrier].points
+    far = abs(held[two] - held[one])
     if one in heights and two in heights:
         return abs(abs(heights[two] - heights[one]) - far) <= ALIKE * far
     known, new = (one, two) if one in heights else (two, one)
-    held = links[mesh.carrier].points
-    way = 1.0
-    others = [p for p in heights if p != known and p in held and held[p] != held[known]]
-    if others:
+    base = heights[known]
+    near = next((p for p in heights if p in held and p != known and held[p] != held[known]), None)
+    if near is not None:
         # a carrier that is straight stays so
-        near = others[0]
-        up = held[near] - held[known]
-        sense = 1.0 if heights[near] > heights[known] else -1.0
-        along = dot(held[new] - held[known], up) / abs(up)
-        straight = abs(cross(held[new] - held[known], up)) <= ALIKE * abs(up) * far
-        way = sense * (1.0 if along > 0 else -1.0) if straight else -sense
-    elif members:
-        near_height = next((h for p, h in heights.items() if p != known and h != heights[known]), None)
-        way = -1.0 if near_height is not None and near_height > heights[known] else 1.0
-    heights[new] = heights[known] + way * far
+        up, out = held[near] - held[known], held[new] - held[known]
+        on = dot(out, up) > 0 and abs(cross(out, up)) <= ALIKE * abs(up) * far
+        upward = on == (heights[near] > base)
+    else:
+        other = next((h for h in heights.values() if h != base), base)
+        upward = other <= base
+    heights[new] = base + (far if upward else -far)
     return True
 
 
 def _line(
     members: Sequence[Mesh], heights: Mapping[str, float], links: Mapping[str, PlacedLink], ground: str
 ) -> CentreLine:
+    """A line of centres with its places: axes, and where wheels roll on each other."""
     at: dict[str, dict[str, None]] = {}
     spots = []
     for mesh in members:
         one, two = mesh.axes
-        at.setdefault(one, {}).update(dict.fromkeys((mesh.wheels[0], mesh.carrier)))
+        for axis, wheel in zip(mesh.axes, mesh.wheels, strict=True):
+            if axis:
+                at.setdefault(axis, {}).update(dict.fromkeys((wheel, mesh.carrier)))
         part, rest = mesh.parts
-        if rest is None:
-            height = heights[one] + float(part)
-        else:
-            at.setdefault(two, {}).update(dict.fromkeys((mesh.wheels[1], mesh.carrier)))
-            height = heights[one] + (heights[two] - heights[one]) * float(part / (part + rest))
-        spots.append(Spot(mesh.name, height, mesh.wheels, True))
+        reach = float(part) if rest is None else (heights[two] - heights[one]) * float(part / (part + rest))
+        spots.append(Spot(mesh.name, heights[one] + reach, mesh.wheels, True))
     axes = [Spot(p, heights[p], tuple(names), False) for p, names in at.items()]
-    every = (*axes, *spots)
-    fixed = [s for s in every if ground in s.links]
-    if not fixed:
-        fixed = [s for s in axes if s.name in links[ground].points]
-    start = fixed[0] if fixed else axes[0]
-    return CentreLine(tuple(members), every, start.name, bool(fixed))
+    fixed = [s for s in (*axes, *spots) if ground in s.links]
+    start = (*fixed, *(s for s in axes if s.name in links[ground].points), axes[0])[0]
+    return CentreLine(tuple(members), (*axes, *spots), start.name, bool(fixed or start.name in links[ground].points))
 
 
 # -- a plan as drawn ---------------------------------------------------------------------------------------------------

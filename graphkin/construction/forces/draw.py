@@ -195,7 +195,7 @@ def _on_lever(images: Images, one: ForceVector, hand: Instrument) -> MomentTerm:
     """The moment of a force about the pole, at the end point of its point's velocity; of a couple as a pair of forces
     at two points of its link, square to the line between them."""
     if one.symbol.is_vector:
-        end = TURN * images.velocity(one.link, one.at)
+        end = TURN * images.end("velocity", one.link, one.at)
         arm = _arm(end, one.force, hand) if one.force and end else 0.0
         return MomentTerm(one.symbol, one.force, arm, abs(one.force) * arm, end, turned=one.turned)
     far = images.image("velocity", one.link) if one.link != images.sheet.scene.frame.name else None

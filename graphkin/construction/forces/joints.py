@@ -181,18 +181,10 @@ class Images:
         along = 1j * self.sheet.poses[balance.link].axis if balance.square else balance.along
         return along, self.place(balance.link, balance.at)
 
-    def velocity(self, link: str, at: complex) -> complex:
-        """The end point of the velocity of the point of a link that lies at a place of the mechanism (mm)."""
-        return self._end("velocity", link, at)
-
-    def acceleration(self, link: str, at: complex) -> complex:
-        """The end point of its acceleration (mm)."""
-        return self._end("acceleration", link, at)
-
     def slip(self, slide: Pair) -> tuple[float, float]:
         """The sliding velocity along the guide, and the greatest speed that leads to it (m/s)."""
         at = self.foot(slide)
-        a, b = self.velocity(slide.a, at), self.velocity(slide.b, at)
+        a, b = self.end("velocity", slide.a, at), self.end("velocity", slide.b, at)
         most = max(abs(a), abs(b), *(abs(z) for z in self.sheet.ends["velocity"].values()))
         return dot(a - b, self.along(slide)) * self.sheet.scales.velocity, most * self.sheet.scales.velocity
 
@@ -215,7 +207,8 @@ class Images:
             if PointRef(ref.point) in self.sheet.points and (ref.link == link or (not ref.link and ref.point in own))
         ]
 
-    def _end(self, order: str, link: str, at: complex) -> complex:
+    def end(self, order: str, link: str, at: complex) -> complex:
+        """The end point of the velocity or the acceleration of the point of a link that lies at a place (mm)."""
         if link == self.sheet.scene.frame.name:
             return 0j
         known = self._known(order, link)
@@ -230,10 +223,8 @@ class Images:
         if far is not None:
             (a, a_end), (b, b_end) = far
             return a_end + (b_end - a_end) * ((at - a) / (b - a))
-        return end + self._by_rates(order, link, at - start)
-
-    def _by_rates(self, order: str, link: str, arm: complex) -> complex:
         scales, omega = self.sheet.scales, self.sheet.omega[link].value
         if order == "velocity":
-            return 1j * omega * arm * (scales.length / scales.velocity)
-        return (1j * self.sheet.alpha[link].value - omega**2) * arm * (scales.length / scales.acceleration)
+            return end + 1j * omega * (at - start) * (scales.length / scales.velocity)
+        turning = 1j * self.sheet.alpha[link].value - omega**2
+        return end + turning * (at - start) * (scales.length / scales.acceleration)

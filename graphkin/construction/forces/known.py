@@ -91,13 +91,6 @@ def _on_stroke(sheet: Sheet, growing: Sheet, phase: Phase) -> bool | None:
     return running and phase.start < part < phase.end
 
 
-def against(growing: Sheet, pair: str) -> tuple[complex, float]:
-    """The direction of a guide, and the sense (1, -1, or 0 at rest) in which the pair slides along it."""
-    images, slide = Images(growing), growing.structure.slide(pair)
-    slip, most = images.slip(slide)
-    return images.along(slide), 0.0 if abs(slip) <= STILL * most else math.copysign(1.0, slip)
-
-
 COINCIDE = 1e-9
 """Of the mechanism's size: points of a spring that lie nearer have no line."""
 
@@ -110,7 +103,7 @@ def inertias(sheet: Sheet, hand: Instrument) -> dict[str, Inertia]:
 
 def _inertia(sheet: Sheet, images: Images, mass: LinkMass, hand: Instrument) -> Inertia:
     centre = images.place(mass.link, mass.at)
-    image = images.acceleration(mass.link, centre)
+    image = images.end("acceleration", mass.link, centre)
     size = hand.read(abs(image))
     push = image / abs(image) * size * sheet.scales.acceleration if image else 0j
     alpha = sheet.alpha[mass.link].value
@@ -177,6 +170,7 @@ def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Forc
 def _force(sheet: Sheet, growing: Sheet, load: LoadOn) -> complex:
     """A force load (N), its direction from the drawn links."""
     if load.against:
-        along, sense = against(growing, load.against)
-        return -load.size * sense * along
+        images, slide = Images(growing), growing.structure.slide(load.against)
+        slip, most = images.slip(slide)
+        return 0j if abs(slip) <= STILL * most else -load.size * math.copysign(1.0, slip) * images.along(slide)
     return load.size * load.turn * (sheet.poses[load.follows].axis if load.follows else 1.0)
