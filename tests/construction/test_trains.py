@@ -49,6 +49,13 @@ TRAINS = {
                    "k": {"between": ["1", "3"], "teeth": [20, 40]}},
          "driver": {"slide": "2", "travel": 5, "velocity": 40, "acceleration": 3}},
         {"omega_1": -1, "omega_3": 0.5, "alpha_3": 3 / 80}),
+    "a rack along an arm that turns": (
+        {"frame": {"points": {"A": [0, 0]}},
+         "links": {"1": {"points": ["A", "B"], "length": 60, "guides": {"h": {"through": [0, 40], "angle": 0}}},
+                   "2": {"points": ["R"], "on": "1.h"}, "3": {"points": ["B"]}},
+         "gears": {"g": {"between": ["3", "2"], "teeth": [20, "rack"], "carrier": "1"}},
+         "driver": [{"link": "1", "angle": 10, "omega": 3}, {"slide": "2", "travel": 5, "velocity": 40}]},
+        {"omega_3": 2}),
     "a motor between planet and carrier": (
         {"frame": AXIS, "links": {k: SUN[k] for k in ("2", "3")},
          "gears": {"r": {"between": ["3", "0"], "teeth": [20, -70], "carrier": "2"}},
@@ -81,3 +88,13 @@ def test_the_slope_of_a_wheel_s_line_on_paper_is_its_rate():
     )
     rate = (x2 - x1) * scales["velocity"] / ((y2 - y1) * scales["length"])
     assert -7.5 == pytest.approx(rate, rel=1e-3)
+
+
+def test_a_straight_carrier_stays_straight_on_its_line_of_centres():
+    links = {**SUN, "2": {"points": ["A", "B"], "length": 50, "at": {"C": [90, 0]}}, "4": {"points": ["C"]}}
+    gears = {"s": {"between": ["1", "3"], "teeth": [30, 20], "carrier": "2"},
+             "m": {"between": ["3", "4"], "teeth": [20, 20], "carrier": "2"}}  # fmt: skip
+    drivers = [{"link": "1", "angle": 0, "omega": 10}, {"link": "2", "angle": 10, "omega": 3}]
+    scene = {"frame": AXIS, "links": links, "gears": gears, "driver": drivers}
+    (line,) = check(scene).sheet.trains[0].on
+    assert [0, 50, 90] == pytest.approx([1e3 * line.spot(axis).height for axis in "ABC"])
