@@ -13,14 +13,14 @@ import numpy as np
 
 from graphkin.checking.readings import Reading
 from graphkin.construction.scales import Scales
-from graphkin.construction.sheet import Sheet
+from graphkin.construction.sheet import Sheet, greatest_before
 from graphkin.construction.steps import DiagramName, phrase_of
 from graphkin.errors import CallError, Disagreement, Problem
 from graphkin.files import Json
 from graphkin.scene.symbol import PointRef, Symbol, Value
 from graphkin.scene.tables import Unit, Units
 from graphkin.solver.motion import SLIGHT
-from graphkin.structure import by_drivers_alone, greatest_before, links_for
+from graphkin.structure import by_drivers_alone, links_for
 from graphkin.words import Phrase, say
 from graphkin.words.written import MOST, ROUNDED, amount, computed, figures, on_paper, product
 

@@ -8,7 +8,7 @@ acceleration polygons from their poles; where a figure is placed on a page is no
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -31,11 +31,11 @@ from graphkin.construction.steps import (
     Vector,
 )
 from graphkin.construction.touching import Touching, outlines_on_paper
-from graphkin.errors import Problem, Unsolvable
+from graphkin.errors import CallError, Problem, Unsolvable
 from graphkin.plane import cross, cross_lines
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.structure import greatest_before
+from graphkin.structure import leading, links_for
 from graphkin.structure.model import Element, LargerGroup, Structure
 from graphkin.words import Phrase
 
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "MOST_LOST", "Board", "DrawnGroup", "Equation", "LimitPosition", "Limits", "Rate", "Reading", "Remark", "Sheet",
-    "either_way", "without_residues",
+    "either_way", "greatest_before", "without_residues",
 ]  # fmt: skip
 
 PARALLEL = 1e-12  # sine below which two lines have no crossing at all
@@ -410,6 +410,38 @@ def without_residues(sheet: Sheet) -> Sheet:
     noticed = (replace(r, size=0.0) if r.key == "zero vector" and r.of[0] in zero else r for r in sheet.noticed)
     return replace(sheet, steps=tuple(map(cleared, sheet.steps)), noticed=tuple(noticed), omega=rates["omega"],
                    alpha=rates["alpha"])  # fmt: skip
+
+
+def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
+    """For a quantity of the motion the greatest of sizes: of its own, and of those of the links that it hangs on.
+
+    What is greater farther on in the order of solution has no part in it: beside a dead point of the last group the
+    rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
+    link that is held still, all sizes count; theirs count from the first larger group on.
+    """
+    elements = structure.elements
+    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
+
+    def links(symbol: Symbol) -> frozenset[str] | None:
+        try:
+            return None if symbol.seen else links_for(structure, symbol)
+        except CallError:
+            return None
+
+    greatest: dict[int, float] = {}  # of what each element adds
+    for symbol, size in sizes:
+        names = links(symbol)
+        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
+        place = special if names is None else max(of_frame, default=-1)
+        greatest[place] = max(greatest.get(place, 0.0), size)
+    greatest.pop(-1, None)
+
+    def before(symbol: Symbol) -> float:
+        names = links(symbol)
+        places = greatest.keys() if names is None else greatest.keys() & leading(structure, names)
+        return max((greatest[place] for place in places), default=0.0)
+
+    return before
 
 
 def _residues(sheet: Sheet) -> set[Symbol]:

@@ -392,6 +392,7 @@ def _order(members: list[str], pairs: list[Pair]) -> int:
             contour = max(contour, steps)
     return max(3, most, contour if contour >= 4 else 0)
 
+
 # -- driven triangles, and what rolls at the scene's own position ------------------------------------------------------
 
 
@@ -399,10 +400,11 @@ def _triangles(structure: Structure, group: LargerGroup, taken: set[str]) -> tup
     """The driven triangles of a larger group; ``taken`` are the keys of drivers, which no other may bear."""
     found: list[DrivenTriangle] = []
     for driver in group.drivers:
-        triangle = next((t for t in _closed_by(structure, group, driver) if t.equivalent.key not in taken), None)
-        if triangle is not None:
-            taken.add(triangle.equivalent.key)
-            found.append(triangle)
+        for triangle in _closed_by(structure, group, driver):
+            if triangle.equivalent.key not in taken:
+                taken.add(triangle.equivalent.key)
+                found.append(triangle)
+                break
     return tuple(found)
 
 
@@ -414,29 +416,27 @@ def _closed_by(structure: Structure, group: LargerGroup, driver: Driver) -> Iter
     and the cylinder are a dyad with a given travel between: the triangle is rigid at the moment, and the motion at the
     common pair follows at once, whatever the rest of the mechanism does.
     """
-    ends = [_hung_on(structure, group, link, driver.slide) for link in driver.links]
-    if not driver.slide or not {*driver.links} <= {*group.members} or any(len(joints) != 1 for joints in ends):
+    if not driver.slide or not {*driver.links} <= {*group.members}:
         return
-    for a, b in product(ends[0][0], ends[1][0]):
+    hung: list[list[set[str]]] = []  # for each pair of rod and cylinder besides the slide what it joins them to
+    for link in driver.links:
+        points = {pair.point for pair in group.pairs if pair.point in structure.links[link].points}
+        joints = [{*structure.hinges[point]} - {link} for point in sorted(points)]
+        joints += [{p.other(link)} for p in group.pairs if not p.turns and p.key != driver.slide and link in p.links]
+        hung.append(joints)
+    if any(len(joints) != 1 for joints in hung):
+        return
+    for a, b in product(*([n for n in group.members if n in joints[0]] for joints in hung)):
         if a == b or {a, b} & {*driver.links}:
             continue
-        joints = [Pair(point, b, a) for point, names in structure.hinges.items() if a in names and b in names]
-        joints += [pair for pair in group.pairs if not pair.turns and {*pair.links} == {a, b}]
+        common = [Pair(point, b, a) for point, names in structure.hinges.items() if a in names and b in names]
+        common += [pair for pair in group.pairs if not pair.turns and {*pair.links} == {a, b}]
         first, second = sorted((a, b), key=group.members.index)
-        for held, other in ((first, second), (second, first)) if len(joints) == 1 else ():
-            (pair,) = joints
+        for held, other in ((first, second), (second, first)) if len(common) == 1 else ():
+            (pair,) = common
             ends_of_driver, slide = ((other, held), "") if pair.turns else (pair.links, pair.key)
             equivalent = Driver(*ends_of_driver, 0.0, 0.0, 0.0, slide)
             yield DrivenTriangle(held, (other, *driver.links), pair, driver, equivalent)
-
-
-def _hung_on(structure: Structure, group: LargerGroup, link: str, slide: str) -> list[tuple[str, ...]]:
-    """For each pair of a link besides a slide the members of the group on its other side, which at a hinge may be
-    several."""
-    points = {pair.point for pair in group.pairs if pair.point in structure.links[link].points}
-    joints = [{*structure.hinges[point]} - {link} for point in sorted(points)]
-    joints += [{p.other(link)} for p in group.pairs if not p.turns and p.key != slide and link in p.links]
-    return [tuple(name for name in group.members if name in names) for names in joints]
 
 
 def _in_parts(structure: Structure) -> Structure:

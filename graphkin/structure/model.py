@@ -21,7 +21,7 @@ from graphkin.words import Phrase
 
 __all__ = [
     "Body", "Driven", "DrivenJoint", "DrivenTriangle", "Dyad", "DyadKind", "Element", "LargerGroup", "Mobility", "Pair",
-    "Rolled", "RollingRelation", "Structure", "by_drivers_alone", "driver_pair", "greatest_before", "links_for",
+    "Rolled", "RollingRelation", "Structure", "by_drivers_alone", "driver_pair", "leading", "links_for",
     "named_with_contact", "needed", "part_of", "reached", "without",
 ]  # fmt: skip
 
@@ -424,11 +424,11 @@ def needed(structure: Structure, asked: Sequence[Symbol]) -> list[Element]:
     """
     if not asked or any(symbol.scope in ("force", "cycle") for symbol in asked):  # every link may push any other
         return list(structure.elements)
-    kept = {place for symbol in asked for place in _leading(structure, links_for(structure, symbol))}
+    kept = {place for symbol in asked for place in leading(structure, links_for(structure, symbol))}
     return [structure.elements[place] for place in sorted(kept)]
 
 
-def _leading(structure: Structure, links: Iterable[str]) -> set[int]:
+def leading(structure: Structure, links: Iterable[str]) -> set[int]:
     """The places of the elements on the way to some links."""
     places = (structure.place_of.get(name) for name in links)
     return {before for place in places if place is not None for before in structure.led_by[place]}
@@ -440,42 +440,10 @@ def by_drivers_alone(structure: Structure, symbol: Symbol) -> bool:
     if symbol.seen or not structure.links.keys() >= set(symbol.links()):  # of redundant links nothing is asked
         return False
     try:
-        places = _leading(structure, links_for(structure, symbol))
+        places = leading(structure, links_for(structure, symbol))
     except CallError:  # a special point of the drawing
         return False
     return all(isinstance(structure.elements[place], Driven) for place in places)
-
-
-def greatest_before(structure: Structure, sizes: Iterable[tuple[Symbol, float]]) -> Callable[[Symbol], float]:
-    """For a quantity of the motion the greatest of sizes: of its own, and of those of the links that it hangs on.
-
-    What is greater farther on in the order of solution has no part in it: beside a dead point of the last group the
-    rates of the others are as they are.  Of points that are no link's, special points of the drawing, and seen from a
-    link that is held still, all sizes count; theirs count from the first larger group on.
-    """
-    elements = structure.elements
-    special = next((i for i, e in enumerate(elements) if isinstance(e, LargerGroup)), len(elements) - 1)
-
-    def links(symbol: Symbol) -> frozenset[str] | None:
-        try:
-            return None if symbol.seen else links_for(structure, symbol)
-        except CallError:
-            return None
-
-    greatest: dict[int, float] = {}  # of what each element adds
-    for symbol, size in sizes:
-        names = links(symbol)
-        of_frame = [] if names is None else [structure.place_of[n] for n in names if n in structure.place_of]
-        place = special if names is None else max(of_frame, default=-1)
-        greatest[place] = max(greatest.get(place, 0.0), size)
-    greatest.pop(-1, None)
-
-    def before(symbol: Symbol) -> float:
-        names = links(symbol)
-        places = greatest.keys() if names is None else greatest.keys() & _leading(structure, names)
-        return max((greatest[place] for place in places), default=0.0)
-
-    return before
 
 
 def part_of(structure: Structure, asked: Sequence[Symbol]) -> Mechanism:
