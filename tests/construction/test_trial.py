@@ -90,6 +90,17 @@ def test_a_sheet_found_by_trial_shows_the_link_that_was_left_out() -> None:
     assert {name for group in sheet.groups for name in group.kept} <= set(sheet.poses)
 
 
+@pytest.mark.parametrize("name", ["triad-slider", "loader-cylinder", "scissor-lift"])
+def test_each_division_is_made_between_the_nearest_trials_on_either_side(name: str) -> None:
+    (table,) = (s.data.table for s in draft(mechanism_of(name)).steps if isinstance(s.data, TrialPositions))
+    (((a,), (one,)), ((b,), (two,))) = table.trials[table.before - 1 : table.before + 1]
+    assert len(table.divided) > 1
+    for (value,), (missed,) in table.divided:
+        assert one * two < 0.0
+        assert (a * two - b * one) / (two - one) == pytest.approx(value, rel=1e-9)
+        a, one, b, two = (value, missed, b, two) if missed * two < 0.0 else (a, one, value, missed)
+
+
 def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> None:
     sheet = graphkin.check(HELD).sheet
     (act,) = (step.data for step in sheet.steps if isinstance(step.data, TrialPositions))
