@@ -144,23 +144,6 @@ KINDS: dict[str, type[DesignTask]] = {
 }
 
 
-@dataclass(frozen=True, kw_only=True)
-class Design:
-    """A design file: a task with its units and the wishes for its sheet."""
-
-    task: DesignTask
-    name: str = "design"
-    title: str = ""
-    title_zh: str = ""
-    source: str = ""
-    units: Units = field(default_factory=Units)
-    sheet: SheetWishes = field(default_factory=SheetWishes)
-
-    def title_in(self, language: str) -> str:
-        """Title in a language, the other where there is none."""
-        return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
-
-
 @file_table
 class _DesignTables(FileTable):
     """A design file but for its task."""
@@ -171,6 +154,18 @@ class _DesignTables(FileTable):
     design: dict[str, Any] = field(default_factory=dict)
     units: Units = Units()
     sheet: SheetWishes = SheetWishes()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Design(_DesignTables):
+    """A design file: a task with its units and the wishes for its sheet."""
+
+    task: DesignTask
+    name: str = "design"
+
+    def title_in(self, language: str) -> str:
+        """Title in a language, the other where there is none."""
+        return (self.title_zh or self.title) if language == "zh" else (self.title or self.title_zh)
 
 
 DESIGN = Form(_DesignTables, "graphkin design")
@@ -248,8 +243,7 @@ def _read(raw: Tables, name: str) -> Design:
     problems += wrong
     if problems or task is None:
         raise SceneError(*problems)
-    return Design(task=task, name=name, title=own.title, title_zh=own.title_zh, source=own.source, units=own.units,
-                  sheet=own.sheet)  # fmt: skip
+    return Design(**vars(own), task=task, name=name)
 
 
 def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:

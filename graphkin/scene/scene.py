@@ -23,7 +23,7 @@ from graphkin.files import OwnTables, Tables, opened, path_of, whole_file
 from graphkin.scene.model import Mechanism
 from graphkin.scene.reading import as_mapping, mechanism_said
 from graphkin.scene.scene_tables import SCENE, SceneTables
-from graphkin.scene.tables import item_of, plain
+from graphkin.scene.tables import path_of_key, plain, value_at
 from graphkin.words import Phrase, Wording, from_others
 
 __all__ = [
@@ -440,37 +440,29 @@ def _is_file(path: str) -> bool:
 def put(made: OwnTables, key: str, value: object) -> Problem | None:
     """Put a value at a key (with dots) of a scene's mapping, which is changed; the problem if there is no such key."""
     parts = key.split(".")
-    whole = isinstance(value, dict | list)
-    place: object = made
-    for depth, part in enumerate(parts):
-        last = depth == len(parts) - 1
-        before = ".".join(parts[:depth]) or Phrase("the scene as a whole")
-        step: Any = part
-        if isinstance(place, list):
-            step = item_of(part, len(place))
-            if step is None:
-                found = Phrase("has no item", before=before, part=part)
-                return Problem(key, found, Phrase("it has counted from 1", count=len(place)))
-            if last:
-                place[step] = value
-                return None
-        elif not isinstance(place, dict):
-            return Problem(key, Phrase("is and has nothing inside", before=before, place=f"{place!r:.40}"))
-        elif part not in place:
-            drivers = {k for kind in ("<angle>", "<slide>") for k in SCENE.keys_at(("driver", "<one>", kind))}
-            known = drivers if parts[:1] == ["driver"] and depth else set(SCENE.keys_at(parts[:depth]))
-            if last and part in known:
-                place[part] = value
-                return None
-            return Problem(key, Phrase("has no", before=before, part=part), did_you_mean(part, map(str, place)))
-        elif last:
-            if isinstance(place[part], dict | list) and not whole:
-                inside = ", ".join(map(str, place[part] if isinstance(place[part], dict) else ("x", "y")))
-                return Problem(key, Phrase("is a table or a list not a"), Phrase("add one of", inside=inside))
-            place[part] = value
-            return None
-        place = place[step]
-    return None
+    path = path_of_key(made, key)
+    if path is not None:
+        table, old = value_at(made, path[:-1]), value_at(made, path)
+        if isinstance(table, dict) and isinstance(old, dict | list) and not isinstance(value, dict | list):
+            inside = ", ".join(map(str, old if isinstance(old, dict) else ("x", "y")))
+            return Problem(key, Phrase("is a table or a list not a"), Phrase("add one of", inside=inside))
+        table[path[-1]] = value
+        return None
+    there = next(n for n in range(len(parts)) if path_of_key(made, ".".join(parts[: n + 1])) is None)
+    before, part = ".".join(parts[:there]), parts[there]
+    place, said = value_at(made, path_of_key(made, before) or ()), before or Phrase("the scene as a whole")
+    if isinstance(place, list):
+        found = Phrase("has no item", before=said, part=part)
+        return Problem(key, found, Phrase("it has counted from 1", count=len(place)))
+    if not isinstance(place, dict):
+        return Problem(key, Phrase("is and has nothing inside", before=said, place=f"{place!r:.40}"))
+    known = set(SCENE.keys_at(parts[:there]))
+    if parts[:1] == ["driver"] and there:
+        known = {k for kind in ("<angle>", "<slide>") for k in SCENE.keys_at(("driver", "<one>", kind))}
+    if part in known and there == len(parts) - 1:
+        place[part] = value
+        return None
+    return Problem(key, Phrase("has no", before=said, part=part), did_you_mean(part, map(str, place)))
 
 
 # -- new scenes --------------------------------------------------------------------------------------------------------

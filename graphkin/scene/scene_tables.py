@@ -80,16 +80,6 @@ def forms(wanted: str) -> Discriminator:
     return Discriminator(_form, custom_error_type="form", custom_error_message=wanted)
 
 
-def form_of_driver(value: object) -> str:
-    """Whether a table drives a slide or an angle."""
-    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
-
-
-def form_of_list(value: object) -> str:
-    """Whether there is one table or a list of them."""
-    return "<list>" if isinstance(value, list) else "<one>"
-
-
 NameOrPlace = Annotated[
     Annotated[PointName, Tag("<name>")] | Annotated[Place, Tag("<list>")], forms("write the name of a point b or")
 ]
@@ -390,13 +380,18 @@ class DrivenSlide(FileTable):
     time: Number | None = key("Instead of travel: the moment of the law that is asked, in s.", default=None)
 
 
+def _form_of_driver(value: object) -> str:
+    """Whether a table drives a slide or an angle."""
+    return "<slide>" if isinstance(value, dict) and "slide" in value and "link" not in value else "<angle>"
+
+
 OneDriver = Annotated[
-    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(form_of_driver)
+    Annotated[Driver, Tag("<angle>")] | Annotated[DrivenSlide, Tag("<slide>")], Discriminator(_form_of_driver)
 ]
 Drivers = Annotated[
-    Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")], Discriminator(form_of_list)
+    Annotated[OneDriver, Tag("<one>")] | Annotated[List[OneDriver], Tag("<list>")],
+    Discriminator(lambda value: "<list>" if isinstance(value, list) else "<one>"),
 ]
-
 
 # -- what acts ---------------------------------------------------------------------------------------------------------
 

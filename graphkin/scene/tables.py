@@ -35,8 +35,7 @@ from typing import (
     get_type_hints,
 )
 
-from pydantic import Tag, TypeAdapter, ValidationError
-from pydantic_core.core_schema import CoreSchema, no_info_plain_validator_function
+from pydantic import PlainValidator, Tag, TypeAdapter, ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
@@ -675,20 +674,15 @@ def _rules(table: type[AnyTable], others: Mapping[str, object]) -> TypeAdapter[A
     return made
 
 
-class _WhenMet:
-    """The rules of a table in another: made when a file has such a table, since most have few of the kinds."""
-
-    def __init__(self, table: type[FileTable]) -> None:
-        self.rules = cache(lambda: _rules(table, _when_met()))
-
-    def __get_pydantic_core_schema__(self, *_: object) -> CoreSchema:
-        return no_info_plain_validator_function(lambda value: self.rules().validate_python(value))
-
-
 @cache
 def _when_met() -> Mapping[str, object]:
-    """Every table by its name, its rules to be made when they are met."""
-    return {table.__name__: Annotated[table, _WhenMet(table)] for table in FileTable.__subclasses__()}
+    """Every table by its name, its rules to be made when a file has such a table, since most have few of the kinds."""
+    return {table.__name__: Annotated[Any, _when_asked(table)] for table in FileTable.__subclasses__()}
+
+
+def _when_asked(table: type[FileTable]) -> PlainValidator:
+    rules = cache(lambda: _rules(table, _when_met()))
+    return PlainValidator(lambda value: rules().validate_python(value))
 
 
 def _within(kind: object, loc: KeyPath) -> type[FileTable] | None:
