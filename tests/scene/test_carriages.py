@@ -6,6 +6,8 @@ import pytest
 
 import graphkin
 from graphkin.errors import SceneError
+from graphkin.scene import mechanism_of
+from graphkin.scene.reading import as_mapping
 
 
 def carriage(three, **more):
@@ -46,6 +48,16 @@ def test_where_both_pins_are_drawn_their_angle_to_the_guide_is_the_drawn_one():
     drawn = {p: [solved[p][0].real, solved[p][0].imag] for p in ("P", "Q")}
     again = graphkin.solve(carriage({}, drawn=drawn))
     assert solved["a_F"][0] == pytest.approx(again["a_F"][0], rel=1e-9)
+
+
+@pytest.mark.parametrize("drawn", [False, True])
+def test_a_carriage_is_written_again_as_it_stands(drawn):
+    solved = graphkin.solve(BY_PLACE)
+    places = {p: [solved[p][0].real, solved[p][0].imag] for p in ("P", "Q")}
+    scene = mechanism_of(carriage({}, drawn=places) if drawn else BY_PLACE)
+    again = mechanism_of(as_mapping(scene))
+    assert scene.slidings[0].turn == pytest.approx(again.slidings[0].turn, abs=1e-12)
+    assert scene.by_name["3"].points == pytest.approx(again.by_name["3"].points, abs=1e-12)
 
 
 def test_a_carriage_whose_second_pin_is_told_twice_is_refused():

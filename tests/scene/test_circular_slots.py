@@ -75,6 +75,13 @@ def test_the_own_axis_of_a_block_lies_along_the_slot_turned_by_angle_on() -> Non
     assert 1j * spoke * cmath.rect(1.0, math.radians(35)) == pytest.approx(axis(with_block(35.0)), abs=1e-12)
 
 
+def test_of_a_straight_guide_and_a_slot_each_keeps_its_angle() -> None:
+    made = rocker()
+    made["links"]["2"] = {"points": ["B", "D"], "length": 300}
+    made["links"]["3"] = {"points": ["C"], "on": ["2", "0.s"], "angle_on": [30, 0]}
+    assert [cmath.rect(1.0, math.radians(30))] == [pytest.approx(pair.turn) for pair in mechanism_of(made).slidings]
+
+
 @pytest.mark.parametrize("scene", [*CASES, with_pin(ends=[60, 150])])
 def test_a_file_is_written_again_with_its_slot(scene: dict[str, Any]) -> None:
     one = mechanism_of(scene)

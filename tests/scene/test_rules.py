@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+import graphkin
 from graphkin.errors import SceneError
 from graphkin.scene import mechanism_of_text
 from graphkin.scene.model import FromDeadPoint
@@ -317,3 +318,12 @@ def test_near_alone_means_nothing() -> None:
 def test_no_distance_is_the_dead_point_itself() -> None:
     [sentence] = messages(changed(SIX_BAR, (DEAD[0], DEAD[1].replace("1e-9", "0"))))
     assert sentence == "driver.angle: 0 is the dead point itself; write the distance from the dead point"
+
+
+def test_a_name_that_a_wrong_entry_may_have_held_is_no_second_problem() -> None:
+    four_bar = graphkin.read("fourbar-150-500-300-400").to_dict()
+    four_bar["links"]["2"]["at"] = "nothing"
+    four_bar["sketch"] = {"E": [10, 20]}
+    with pytest.raises(SceneError) as told:
+        graphkin.read(four_bar)
+    assert ["links.2.at"] == [str(problem.where) for problem in told.value.problems]
