@@ -26,6 +26,7 @@ from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.drawing.write.drawing import Drawing
+from graphkin.papers import pictures
 from graphkin.papers.blocks import (
     Beside,
     Block,
@@ -47,21 +48,6 @@ from graphkin.papers.blocks import (
 )
 from graphkin.papers.lesson import Lesson, Stage, plain_words
 from graphkin.papers.paper import A4, Paper, paper_of
-from graphkin.papers.pictures import (
-    LEAST_FRAME,
-    POLYGONS,
-    Layers,
-    bare_picture,
-    blank_equations,
-    blank_sums,
-    draw_frame,
-    equation_picture,
-    force_space,
-    mechanism_picture,
-    parts,
-    stage_picture,
-    workspace,
-)
 from graphkin.plane import added_up
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -85,10 +71,10 @@ ROOM_BETWEEN = 8.0  # mm around what stands on a page
 def problem(lesson: Lesson) -> Document:
     """The problem sheet of a lesson."""
     language, paper = lesson.language, paper_of(lesson.sheet.scene)
-    bare = mechanism_picture(lesson)
+    bare = pictures.mechanism_picture(lesson)
     how = sentences(*(said(key, language) for key in ("solve here", "print true", "sense words")))
     words = (*given(lesson), Paragraph(how, small=True))
-    moving = [d for d in POLYGONS if lesson.sheet.vectors(d)]
+    moving = [d for d in pictures.POLYGONS if lesson.sheet.vectors(d)]
     shown = all(_space(lesson, bare, [d], paper) for d in moving)
     wide = not shown
     if wide:
@@ -106,7 +92,7 @@ def problem(lesson: Lesson) -> Document:
         (f"${lesson.letters.vector(s)}$", "" if s.is_vector or s.measure == "length" else "–", "", lesson.unit(s), "")
         for s in lesson.questions
     )
-    both = _space(lesson, bare, POLYGONS, paper) if wide and len(moving) == len(POLYGONS) else None
+    both = _space(lesson, bare, pictures.POLYGONS, paper) if wide and len(moving) == len(pictures.POLYGONS) else None
     before, after = _polygon_pages(lesson, bare, paper, both)
     whole: tuple[Block, ...] = (
         Heading(scene_title(lesson), 1),
@@ -125,14 +111,14 @@ def _space(
     lesson: Lesson, bare: Drawing, diagrams: Sequence[DiagramName], paper: Paper, above: float = 0.0
 ) -> Drawing | None:
     """Mechanism and poles together below the heading of a page, and so many mm of equations above them."""
-    return workspace(lesson, bare, diagrams, Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - above))
+    return pictures.workspace(lesson, bare, diagrams, Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - above))
 
 
 def _polygon_pages(
     lesson: Lesson, bare: Drawing, paper: Paper, both: Drawing | None
 ) -> tuple[list[Block], list[Block]]:
     """The equations that stand before the sums, and a page for each polygon, or one for both."""
-    drawn = [d for d in POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
+    drawn = [d for d in pictures.POLYGONS if any(e.diagram == d for e in lesson.sheet.equations)]
     names = {d: said(FIGURE_WORDS[d], lesson.language) for d in drawn}
     room = paper.body.width / 2 - ROOM_BETWEEN if paper.folded else paper.body.width
     asked = {d: _equations(lesson, d, min(room, A4.body.width)) for d in drawn}
@@ -146,7 +132,7 @@ def _polygon_pages(
         return before, [Heading(told, fresh=True), Together((_poles(lesson, drawn), Picture(both)))]
     after: list[Block] = []
     for d in drawn:
-        frame = (frames[d] if beside else _space(lesson, bare, [d], paper)) or draw_frame(lesson, d)
+        frame = (frames[d] if beside else _space(lesson, bare, [d], paper)) or pictures.draw_frame(lesson, d)
         equations = asked[d] if beside else ()
         after += [Heading(names[d], fresh=True), *equations, Together((_poles(lesson, [d]), Picture(frame)))]
     return before, after
@@ -165,8 +151,8 @@ def _equations(lesson: Lesson, diagram: DiagramName, width: float) -> tuple[Para
     if lesson.level == "hard":
         return ()
     if lesson.level == "easy":
-        return tuple(Picture(equation_picture(lesson, e)) for e in equations)
-    blank = blank_equations(lesson, equations, width)
+        return tuple(Picture(pictures.equation_picture(lesson, e)) for e in equations)
+    blank = pictures.blank_equations(lesson, equations, width)
     return Paragraph(said("your equations", lesson.language), small=True), Picture(blank)
 
 
@@ -185,16 +171,16 @@ def _forces(lesson: Lesson, bare: Drawing, paper: Paper) -> Iterator[Block]:
     counts = [len(g.polygon) for g in forces.states[0].groups if g.way != "drawn system" and len(g.polygon) > 1]
     asked: tuple[Paragraph | Picture, ...] = ()
     if counts and lesson.level != "hard":
-        blank = blank_sums(lesson, counts, min(paper.body.width, A4.body.width))
+        blank = pictures.blank_sums(lesson, counts, min(paper.body.width, A4.body.width))
         asked = (Paragraph(said("your force equations", language), small=True), Picture(blank))
     page = Box(0.0, 0.0, paper.body.width, paper.body.height - HEAD - ROOM_BETWEEN)
-    beside = page.height - _height(asked) >= LEAST_FRAME
+    beside = page.height - _height(asked) >= pictures.LEAST_FRAME
     if not beside:
         yield Together((Heading(heading), *asked))
     room = Box(0.0, 0.0, page.width, page.height - (_height(asked) if beside else 0.0))
     yield Heading(heading, fresh=True)
     yield from asked if beside else ()
-    drawn = force_space(lesson, bare, room)
+    drawn = pictures.force_space(lesson, bare, room)
     yield Together((Paragraph(said("your forces", language), small=True), Picture(drawn)))
 
 
@@ -451,16 +437,16 @@ def beginning(lesson: Lesson) -> tuple[Paragraph, ...]:
 
 def solution_blocks(lesson: Lesson, lead: tuple[Paragraph, ...] = ()) -> Iterator[Block]:
     """Stage by stage; ``lead`` stands before the first."""
-    layers: dict[str, Layers] = {}
+    layers: dict[str, pictures.Layers] = {}
     first: int | None = None  # of steps that the next figure of their diagram shows too
     figure = train_figure(lesson.sheet, language=lesson.language, convention=lesson.convention)
     orders: list[str] = [plan.order for plan in moving_plans(lesson.sheet)] if figure is not None else []
     # velocity plans of what rolls, and those of the tangential accelerations, each a figure
-    plans = dict(zip(orders, map(bare_picture, (figure, *figure.further) if figure else ()), strict=True))
+    plans = dict(zip(orders, map(pictures.bare_picture, (figure, *figure.further) if figure else ()), strict=True))
     count = 0  # of the figures
     for stage, after in zip(lesson.stages, (*lesson.stages[1:], None), strict=True):
         if stage.diagram not in layers:
-            layers[stage.diagram] = parts(lesson, stage.diagram)
+            layers[stage.diagram] = pictures.parts(lesson, stage.diagram)
         opening = lead if stage is lesson.stages[0] else ()
         if stage.equation is None and all(step.per_mm for step in stage.steps):  # drawn on the plan of a train alone
             plan = plans.pop(stage.diagram, None)
@@ -514,7 +500,7 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
         lead = ()
         if stage.figure == "lever" and lever is not None:
             count += 1
-            yield Picture(bare_picture(lever), numbered(count, said("lever", language)))
+            yield Picture(pictures.bare_picture(lever), numbered(count, said("lever", language)))
             lever = None
 
 
@@ -590,18 +576,18 @@ def _told(lesson: Lesson, stage: Stage, count: int) -> Iterator[Heading | Paragr
     assert equation is not None
     where = dict(said("see figure", lesson.language, count))
     yield Heading(tuple((each, f"{title}{where[each]}") for each, title in stage_title(lesson, stage)))
-    yield Picture(equation_picture(lesson, equation), joined=True)
+    yield Picture(pictures.equation_picture(lesson, equation), joined=True)
     why = in_each(lesson.language, lambda each: lesson.account.why(equation, each))
     if any(text for _, text in why):
         yield Paragraph(why, small=True)
 
 
 def _stage(
-    lesson: Lesson, stage: Stage, layers: Layers, lead: tuple[Paragraph, ...], begun: int, count: int
+    lesson: Lesson, stage: Stage, layers: pictures.Layers, lead: tuple[Paragraph, ...], begun: int, count: int
 ) -> Iterator[Heading | Paragraph | Steps | Picture | Beside]:
     """A stage with its figure, on which what is new since step ``begun`` stands out."""
     sheet = lesson.sheet
-    drawn = stage_picture(lesson, layers, stage.diagram, begun, stage.last)
+    drawn = pictures.stage_picture(lesson, layers, stage.diagram, begun, stage.last)
     start = next(step.number for step in sheet.steps if step.diagram == stage.diagram)
     args: tuple[int, ...] = (stage.last,)
     key = "figure whole" if begun == start else "figure with step"
