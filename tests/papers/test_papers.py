@@ -11,12 +11,14 @@ import pytest
 import graphkin
 from graphkin.api.checked import check
 from graphkin.api.handouts import handout
-from graphkin.drawing.ink.primitives import Line, Text, walk
+from graphkin.drawing.box import Box
+from graphkin.drawing.ink.primitives import Line, Polygon, Text, walk
 from graphkin.papers import prepare as papers
 from graphkin.papers.blocks import Heading, Picture, Steps, TableBlock, laid_out
 from graphkin.papers.documents import answer_key, key_rows, problem, solution
 from graphkin.papers.html import document_page
 from graphkin.papers.pdf import can_typeset
+from graphkin.papers.pictures import POLYGONS, mechanism_picture, workspace
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.scene import written
 from tests import EVERYTHING
@@ -252,3 +254,16 @@ def test_a_solution_says_of_as_many_readings_that_they_agree_as_its_table_shows(
     said = re.search(r"all (\d+) readings agree", page, re.IGNORECASE)
     table = page[: said.start()].rsplit("<table", 1)[1]
     assert table.count("<tr") - 1 == int(said[1])
+
+
+@pytest.mark.parametrize("page", [Box(0.0, 0.0, 500.0, 250.0), Box(0.0, 0.0, 280.0, 500.0)])
+def test_the_mechanism_and_the_frames_of_both_polygons_stand_clear_of_each_other_on_a_page(page):
+    lesson = handout("slider-crank-offset", formats=("pdf",)).lesson
+    bare = mechanism_picture(lesson)
+    drawn = workspace(lesson, bare, POLYGONS, page)
+    one, two = (Box.around(c.points) for c in drawn.children if isinstance(c, Polygon))
+    apart = (max(one.left, two.left) - min(one.right, two.right), max(one.top, two.top) - min(one.bottom, two.bottom))
+    assert 4.0 < max(apart) < 4.5
+    for frame in (one, two):
+        assert bare.width < frame.left < frame.right <= page.width
+        assert 0.0 <= frame.top < frame.bottom <= page.height

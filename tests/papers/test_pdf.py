@@ -79,3 +79,8 @@ def test_room_to_write_in_takes_what_the_page_has_left():
 def test_a_page_is_not_filled_beyond_its_height_by_a_millimetre():
     pieces = [Piece(WORDS, 150.0), Piece(WORDS, 111.0), Piece(WORDS, 20.0)]
     assert [[0], [1, 2]] == [numbers(pieces, page) for page in pages(pieces)]
+
+
+def test_steps_in_two_columns_take_half_their_height_below_what_stands_above_them():
+    pieces = [Piece(WORDS, 100.0), *(Piece(WORDS, 70.0, 2.0, 0.08, half=True) for _ in range(4))]
+    assert [[0, 1, 2, 3, 4]] == [numbers(pieces, page) for page in pages(pieces)]
