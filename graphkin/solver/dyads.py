@@ -189,16 +189,11 @@ def _rpr(j: Joints[V, R], sign: R) -> DyadSolution[V, R]:
         j.known1.pinned(j.outer1, d * j.inner1.u.conjugate(), w - j.inner1.omega, al - j.inner1.alpha),
         j.known2.pinned(j.outer2, d * j.inner2.u.conjugate(), w - j.inner2.omega, al - j.inner2.alpha),
         inside * (1.0 / (j.size * j.size)),
-        leg / _greater(c, j.size),
+        leg / root(square + j.size * j.size),  # over a smooth stand-in for the greater of both lengths
         d,
         1j * line,
         right_side,
     )
-
-
-def _greater(a: Number, b: Number) -> Values:
-    """A smooth stand-in for the greater of two lengths, at most 1.42 times as large."""
-    return root(a * a + b * b)
 
 
 def _two(e1: Number, e2: Number, over: Number, w: Number) -> tuple[Values, Values]:

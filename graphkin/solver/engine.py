@@ -365,10 +365,6 @@ class _Run:
                 if np.iscomplexobj(value):
                     self.given["pose", name, f, "y"] = np.ascontiguousarray(value.imag)
 
-    def _known(self, name: Name) -> float:
-        """A number of the formulas that is the same at all positions."""
-        return self.dimensioned.params([name], self.rates_of)[0]
-
     def _values(self, key: Hashable, asked: Sequence[Real | Vec]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
         code = self.dimensioned.program.code(key, asked)
@@ -391,7 +387,7 @@ class _Run:
 
     def _given_at_first(self, name: Name) -> float:
         """A number that the formulas are given, at the first position."""
-        return float(self.given[name][0]) if name in self.given else self._known(name)
+        return float(self.given[name][0]) if name in self.given else self.dimensioned.params([name], self.rates_of)[0]
 
     def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}

@@ -355,17 +355,15 @@ class _Statics:
             for link in spring.links:
                 if link in self.row:
                     right[self.row[link] : self.row[link] + 3] += np.nan_to_num(off)
-        found = np.nan_to_num([self._size_of(one, forces) for one in self.unknowns])
+        moments = {key: moment / size for key, moment in forces.moments.items()}
+        values = ((moments if one.along is None else forces.forces)[one.key] for one in self.unknowns)
+        found = np.nan_to_num([np.abs(value) for value in values])
         matrix = np.nan_to_num(self.matrix)
         off = np.abs(matrix) * 16 * EPS + (matrix != 0.0) * np.nan_to_num(place / size + turn[0])[:, None, None]
         right += (off @ found.T[..., None])[..., 0].T
         spread = (np.abs(self.inverse[0]) @ np.nan_to_num(right).T[..., None])[..., 0].T + 16 * EPS * found
         most = np.where(forces.ok, spread.max(axis=0), np.nan)
         return most, most * size
-
-    def _size_of(self, one: PairForce, forces: Forces) -> Array:
-        value = forces.moments[one.key] / self.size if one.along is None else forces.forces[one.key]
-        return np.abs(value)
 
 
 # -- what acts on the links of a motion from outside: inertia forces, weights, loads, each where and whil --------------
