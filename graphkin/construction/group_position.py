@@ -16,7 +16,7 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import numpy as np
 
@@ -86,7 +86,7 @@ class GroupTrial:
             paper.poses.update(_fit(exact, self.reduced, self.on(paper)))
             return
         stops: list[Unsolvable] = []
-        for reduced in _to_hand(paper, self):
+        for reduced in chain([self.reduced], self._others(paper)):
             for _ in range(AGAIN):
                 try:
                     _placed_by_hand(paper, reduced, self.on(paper))
@@ -95,6 +95,14 @@ class GroupTrial:
                 else:
                     return
         raise stops[0]
+
+    def _others(self, paper: PlacedLinks) -> Iterator[ReducedMechanism]:
+        """Other reduced mechanisms, the best first; links that roll stand as they are given in their own only."""
+        guess = self.on(paper)
+        there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
+        known = replace(paper, instrument=EXACT, poses=there, pricked={})
+        if not self.given:
+            yield from best_first(self.reduced.structure, self.reduced.group, known, guess)
 
     def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
         """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
@@ -125,17 +133,6 @@ class GroupTrial:
             story += told_here
             board.poses.update({name: poses[name] for name in element.members})
         return tuple(story)
-
-
-def _to_hand(paper: PlacedLinks, trial: GroupTrial) -> Iterator[ReducedMechanism]:
-    """The reduced mechanism of a trial, then others; links that roll stand as they are given in their own only."""
-    yield trial.reduced
-    if trial.given:
-        return
-    guess = trial.on(paper)
-    there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
-    known = replace(paper, instrument=EXACT, poses=there, pricked={})
-    yield from best_first(trial.reduced.structure, trial.reduced.group, known, guess)
 
 
 def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:

@@ -100,7 +100,8 @@ def reduced_mechanisms(structure: Structure, group: LargerGroup, more_than: int 
 
 def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: int) -> Iterator[ReducedMechanism]:
     scene = structure.scene
-    rolling = tuple(_rolling(structure, group))
+    rails = (tuple(structure.slide(n) for kind, n in r.terms if kind == "travel") for r in group.rolling)
+    rolling = tuple(RemovedConstraint("", slides=s, rolling=r) for r, s in zip(group.rolling, rails, strict=True))
     own = {d.key: d for d in scene.drivers}
     driven = {n for d in scene.drivers if d.turns for n in d.links}
     # what the driver moves is rather left in its place
@@ -125,12 +126,6 @@ def _reduced(structure: Structure, group: LargerGroup, known: set[str], count: i
             drawn = tuple(e for e in elements if isinstance(e, Driven | Dyad))
             if len(drawn) == len(elements):
                 yield ReducedMechanism(structure, removed, trial, group, drawn, held=held)
-
-
-def _rolling(structure: Structure, group: LargerGroup) -> Iterator[RemovedConstraint]:
-    for relation in group.rolling:
-        slides = tuple(structure.slide(name) for kind, name in relation.terms if kind == "travel")
-        yield RemovedConstraint("", slides=slides, rolling=relation)
 
 
 def _removable(structure: Structure, group: LargerGroup, driven: set[str]) -> Iterator[RemovedConstraint]:

@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphkin.errors import Problem, SceneError
-from graphkin.plane import added_up
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.search import last_true, least_value
 from graphkin.words import Phrase, Wording, listed
@@ -67,7 +66,7 @@ def pick(
     told: tuple[tuple[Literal["drawn", "sketch"], Mapping[str, complex]], ...]
     told = ("drawn", scene.drawn), ("sketch", scene.sketch)
     for by, given in told:
-        sums = [added_up(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
+        sums = [math.fsum(abs(z - given[p]) ** 2 for p, z in c.items() if p in given) for c in candidates]
         best = min(range(len(sums)), key=sums.__getitem__)
         rest = min((s, i) for i, s in enumerate(sums) if i != best)
         # beside a dead point two assemblies lie close to each other, and a sketch still tells them apart
