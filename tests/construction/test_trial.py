@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -120,3 +121,18 @@ def test_the_last_value_that_can_be_drawn_is_found_to_rounding(root, bad):
 
     last = position._last_drawn(gap, 0.0, bad)
     assert root - 1e-13 <= abs(last) <= root
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0], ids=["up to it", "from it on"])
+def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(sense, monkeypatch):
+    fit, last = 0.0031, 0.0032  # both between two values of the grid
+
+    def gaps(reduced, known, values):
+        return {(): [sense * values[0] - fit]} if sense * values[0] <= last else {}
+
+    monkeypatch.setattr(position, "_gaps", gaps)
+    monkeypatch.setattr(position, "_drawn", lambda reduced, known, values, branches: values[0])
+    reduced = SimpleNamespace(
+        elements=(), trial=(SimpleNamespace(turns=True),), gaps=lambda _: [0.0], put_back=lambda at: at
+    )
+    assert [pytest.approx(sense * fit, rel=1e-12)] == list(position.fits_between(reduced, None, -0.1, 0.1))
