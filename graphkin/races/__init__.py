@@ -20,7 +20,7 @@ from graphkin.races.methods import METHODS, acts, copy_time, one_by_one
 from graphkin.races.work import Entry, Machine, Skipped, Work, this_machine, work_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.study.reference import context
+from graphkin.study.equations import context
 from graphkin.table import Table
 from graphkin.words import Phrase, say, word
 from graphkin.words.written import in_markup

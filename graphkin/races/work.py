@@ -22,8 +22,7 @@ from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
 from graphkin.solver.pose import Array
 from graphkin.structure import Dyad, Structure
-from graphkin.study.equations import Equations, Solution
-from graphkin.study.reference import Split, reference, refined, split
+from graphkin.study.equations import Equations, Solution, Split, reference, refined, split
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:

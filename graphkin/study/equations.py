@@ -1,8 +1,10 @@
-"""The closure equations of a mechanism in any kind of number: doubles, single precision, complex steps, 50 digits.
+"""The closure equations of a mechanism in any kind of number, doubles, complex steps, 50 digits; and their solution to
+50 digits, by which all methods are measured.
 
 Three unknowns a link (the place of its origin and its angle), two equations a pair, one a driver; the general way of
 multibody programs (Haug, Computer Aided Kinematics and Dynamics, ch. 3).  It knows neither dyads nor their order, and
-so it is the foil to the closed form and the base of its 50-digit reference.
+so it is the foil to the closed form.  The numbers of the scene are taken as they are in memory, doubles in SI, and as
+exact.
 """
 
 from __future__ import annotations
@@ -11,18 +13,28 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from graphkin.errors import CallError, Problem
 from graphkin.plane import Values
 from graphkin.solver import Motion
 from graphkin.solver.constraints import solve_all
 from graphkin.solver.pose import Array
-from graphkin.structure import Driven, Dyad, LargerGroup, Pair, Structure
+from graphkin.structure import Driven, Dyad, Pair, Structure
+from graphkin.words import Phrase
 
-__all__ = ["DOUBLES", "Arithmetic", "Equations", "Solution", "solve_many"]
+if TYPE_CHECKING:
+    from mpmath import MPContext, mpf
 
+    Digits = Sequence[float | mpf]
+
+__all__ = ["Arithmetic", "Equations", "Solution", "Split", "context", "reference", "refined", "split"]
+
+DIGITS = 50
+STEPS = 60
+CLOSED = 1e-38
 
 
 @dataclass(frozen=True)
@@ -39,13 +51,13 @@ class Arithmetic:
     solve: Callable[[Array, Array], Array]
 
 
-def solve_many(matrix: Array, right: Array) -> Array:
-    """Solve systems side by side: matrix (m, m, n), right (m, n); a singular one gives inf or nan."""
+def _side_by_side(matrix: Array, right: Array) -> Array:
+    """Solve systems side by side: matrix (m, m, n), right (m, n); a singular one gives nan."""
     return np.moveaxis(solve_all(np.moveaxis(matrix, -1, 0), np.moveaxis(right, -1, 0)), 0, -1)
 
 
 DOUBLES = Arithmetic(
-    np.cos, np.sin, cmath.phase, lambda d: d - 2 * math.pi * np.rint(np.real(d) / (2 * math.pi)), solve_many
+    np.cos, np.sin, cmath.phase, lambda d: d - 2 * math.pi * np.rint(np.real(d) / (2 * math.pi)), _side_by_side
 )
 
 
@@ -58,31 +70,61 @@ class Solution:
     second: Array
 
 
+Line = tuple[int, str, complex, str, complex, str, complex, float]
+"""Row, a link and a place in its axes, another link and a place in its, the link whose axes tell a direction, that
+direction, offset: the way from the second place to the first, seen along the direction, is the offset."""
+
+
 class Equations:
-    """The closure equations of a structure.
+    """The closure equations of a structure: lines, and turns of one link against another.
 
     Driver values and their rates are given as sequences, one entry a driver, each a number or an array over positions.
     """
 
     def __init__(self, structure: Structure, numbers: Arithmetic = DOUBLES) -> None:
         self.structure, self.numbers = structure, numbers
-        frame = structure.scene.frame.name
-        self.names = tuple(n for n in structure.links if n != frame)
+        self.frame = structure.scene.frame.name
+        self.names = tuple(n for n in structure.links if n != self.frame)
         self.column = {n: 3 * k for k, n in enumerate(self.names)}
+        self.lines: list[Line] = []
+        self.turns: list[tuple[int, str, str, Values]] = []
+        """Row, a link, another, and the angle by which the first stands ahead of the second."""
+        self.drivers: list[int] = []
+        """The row of each driver."""
+        row = 0
+        for pair in self._pairs():
+            if pair.turns:
+                one, two = (structure.links[link].points[pair.point] for link in (pair.a, pair.b))
+                self.lines += [(row + k, pair.a, one, pair.b, two, self.frame, along, 0.0)
+                               for k, along in enumerate((1 + 0j, 1j))]  # fmt: skip
+            else:
+                self._along(row, pair, 1j * pair.guide.direction)
+                held = numbers.arg(pair.guide.direction) + numbers.arg(pair.turn)
+                self.turns.append((row + 1, pair.a, pair.b, held))
+            row += 2
+        for driver in structure.scene.drivers:
+            self.drivers.append(row)
+            if driver.turns:
+                self.turns.append((row, driver.link, driver.relative_to, 0.0))
+            else:
+                pair = structure.slide(driver.key)
+                self._along(row, pair, pair.guide.direction)
+            row += 1
 
-    @cached_property
-    def pairs(self) -> tuple[Pair, ...]:
+    def _pairs(self) -> list[Pair]:
         """Every pair that joins the links."""
         found: list[Pair] = []
         for e in self.structure.elements:
-            if isinstance(e, Driven):
-                found.append(e.pair)
-            elif isinstance(e, Dyad):
-                found += [e.outer_first, e.inner, e.outer_second, *(w.pair for body in e.bodies for w in body.joints)]
+            if isinstance(e, Dyad):
+                found += [*e.pairs, *(joint.pair for joint in e.joints)]
             else:
-                assert isinstance(e, LargerGroup)
-                found += e.pairs
-        return tuple(found)
+                found += [e.pair] if isinstance(e, Driven) else e.pairs
+        return found
+
+    def _along(self, row: int, pair: Pair, along: complex) -> None:
+        """The line of a sliding pair along a direction of its guide."""
+        offset = (pair.guide.through * along.conjugate()).real
+        self.lines.append((row, pair.a, 0j, pair.b, 0j, pair.b, along, offset))
 
     def start(self, motion: Motion, which: slice | int = slice(None)) -> Array:
         """Unknowns from a motion, shape (3 links, positions)."""
@@ -96,8 +138,8 @@ class Equations:
 
     def improved(self, x: Array, values: Sequence[Values]) -> Array:
         """One step of Newton's method."""
-        matrix, open_ = self._system(x, values)
-        return np.asarray(x - self.numbers.solve(matrix, open_))
+        matrix, gaps = self._system(x, values)
+        return np.asarray(x - self.numbers.solve(matrix, gaps))
 
     def open(self, x: Array, values: Sequence[Values]) -> Array:
         """How far each equation is from closed (m, rad)."""
@@ -107,9 +149,7 @@ class Equations:
         """Velocities and accelerations at a position: two linear systems with the matrix of the last Newton step."""
         matrix, _ = self._system(x, values)
         rate = self.numbers.solve(matrix, self._drive(x, first))
-        push = self._drive(x, second)
-        self._bend(x, rate, values, push)
-        return Solution(x, rate, self.numbers.solve(matrix, push))
+        return Solution(x, rate, self.numbers.solve(matrix, self._drive(x, second) + self._turning(x, rate)))
 
     def velocities(self, x: Array, values: Sequence[Values], first: Sequence[Values]) -> Array:
         """Velocities alone."""
@@ -118,118 +158,154 @@ class Equations:
     def point(self, at: Solution, link: str, local: Values) -> tuple[Values, ...]:
         """x and y of place, velocity and acceleration of a place of a link."""
         k = self.column[link]
-        x, y, angle = at.place[k : k + 3]
-        c, s = self.numbers.cos(angle), self.numbers.sin(angle)
-        rx, ry = c * local.real - s * local.imag, s * local.real + c * local.imag
-        w, bend = at.rate[k + 2], at.second[k + 2]
+        x, y, _ = at.place[k : k + 3]
+        rx, ry = self._turned(at.place, link, local)
+        w, push = at.rate[k + 2], at.second[k + 2]
         return (
             x + rx, y + ry, at.rate[k] - w * ry, at.rate[k + 1] + w * rx,
-            at.second[k] - bend * ry - w * w * rx, at.second[k + 1] + bend * rx - w * w * ry,
+            at.second[k] - push * ry - w * w * rx, at.second[k + 1] + push * rx - w * w * ry,
         )  # fmt: skip
 
-    # the equations in their order: two for each pair, then one for each driver
+    # the equations
 
-    def _link(self, x: Array, name: str) -> tuple[Values, Values, Values, Values]:
-        """Place and direction of a link."""
-        if name not in self.column:
-            return 0.0, 0.0, 1.0, 0.0
-        k = self.column[name]
-        return x[k], x[k + 1], self.numbers.cos(x[k + 2]), self.numbers.sin(x[k + 2])
+    def _of(self, x: Array, link: str) -> Any:
+        """x, y and angle of a link, or their rates."""
+        k = self.column.get(link)
+        return (0.0, 0.0, 0.0) if k is None else x[k : k + 3]
 
-    def _angle(self, x: Array, name: str) -> Values:
-        return x[self.column[name] + 2] if name in self.column else 0.0
+    def _turned(self, x: Array, link: str, local: Values) -> tuple[Values, Values]:
+        """A vector of a link in the axes of the frame."""
+        if link not in self.column:
+            return local.real, local.imag
+        angle = x[self.column[link] + 2]
+        c, s = self.numbers.cos(angle), self.numbers.sin(angle)
+        return c * local.real - s * local.imag, s * local.real + c * local.imag
 
     def _system(self, x: Array, values: Sequence[Values]) -> tuple[Array, Array]:
+        """The derivative of the equations by the unknowns, and how far they are open."""
         matrix = np.zeros((len(x), *x.shape), dtype=x.dtype)
-        open_ = np.zeros_like(x)
+        gaps = np.zeros_like(x)
 
         def put(row: int, name: str, *by: Values) -> None:
             if name in self.column:
-                k = self.column[name]
-                for j, value in enumerate(by):
-                    matrix[row, k + j] = matrix[row, k + j] + value
+                for k, value in enumerate(by, self.column[name]):
+                    matrix[row, k] = matrix[row, k] + value
 
-        for n, pair in enumerate(self.pairs):
-            i, (a, b) = 2 * n, (pair.a, pair.b)
-            if pair.turns:
-                sides = [(name, sign, *self._arm(x, name, pair.point)) for name, sign in ((a, 1), (b, -1))]
-                for name, sign, place_x, place_y, rx, ry in sides:
-                    open_[i] = open_[i] + sign * (place_x + rx)
-                    open_[i + 1] = open_[i + 1] + sign * (place_y + ry)
-                    put(i, name, sign, 0, -sign * ry)
-                    put(i + 1, name, 0, sign, sign * rx)
-                continue
-            gx, gy, over, along = self._guide(x, pair)
-            through = pair.guide.through
-            offset = pair.guide.direction.real * through.imag - pair.guide.direction.imag * through.real
-            open_[i] = over - offset
-            put(i, a, -gy, gx, 0)
-            put(i, b, gy, -gx, -along)
-            held = self.numbers.arg(pair.guide.direction) + self.numbers.arg(pair.turn)
-            open_[i + 1] = self.numbers.unturned(self._angle(x, a) - self._angle(x, b) - held)
-            put(i + 1, a, 0, 0, 1)
-            put(i + 1, b, 0, 0, -1)
-        for n, driver in enumerate(self.structure.scene.drivers):
-            i = 2 * len(self.pairs) + n
-            if driver.turns:
-                turned = self._angle(x, driver.link) - self._angle(x, driver.relative_to)
-                open_[i] = self.numbers.unturned(turned - values[n])
-                put(i, driver.link, 0, 0, 1)
-                put(i, driver.relative_to, 0, 0, -1)
-                continue
-            pair = self.structure.slide(driver.key)
-            gx, gy, over, along = self._guide(x, pair)
-            g, through = pair.guide.direction, pair.guide.through
-            open_[i] = along - (g.real * through.real + g.imag * through.imag) - values[n]
-            put(i, pair.a, gx, gy, 0)
-            put(i, pair.b, -gx, -gy, over)
-        return matrix, open_
-
-    def _arm(self, x: Array, name: str, point: str) -> tuple[Values, Values, Values, Values]:
-        place_x, place_y, c, s = self._link(x, name)
-        p = self.structure.links[name].points[point]
-        return place_x, place_y, c * p.real - s * p.imag, s * p.real + c * p.imag
-
-    def _guide(self, x: Array, pair: Pair) -> tuple[Values, ...]:
-        """Direction g of a guide, and g x e and g . e for the way e from its link's origin to the sliding link's."""
-        ax, ay, _, _ = self._link(x, pair.a)
-        bx, by, c, s = self._link(x, pair.b)
-        g = pair.guide.direction
-        gx, gy, ex, ey = c * g.real - s * g.imag, s * g.real + c * g.imag, ax - bx, ay - by
-        return gx, gy, gx * ey - gy * ex, gx * ex + gy * ey
+        for row, a, of_a, b, of_b, axes, along, offset in self.lines:
+            gx, gy = self._turned(x, axes, along)
+            (ax, ay), (bx, by) = self._turned(x, a, of_a), self._turned(x, b, of_b)
+            (xa, ya, _), (xb, yb, _) = self._of(x, a), self._of(x, b)
+            ex, ey = (xa + ax) - (xb + bx), (ya + ay) - (yb + by)
+            gaps[row] = gx * ex + gy * ey - offset
+            put(row, a, gx, gy, gy * ax - gx * ay)
+            put(row, b, -gx, -gy, gx * by - gy * bx)
+            put(row, axes, 0, 0, gx * ey - gy * ex)
+        for row, a, b, held in self.turns:
+            driven = values[self.drivers.index(row)] if row in self.drivers else 0.0
+            gaps[row] = self.numbers.unturned(self._of(x, a)[2] - self._of(x, b)[2] - held - driven)
+            put(row, a, 0, 0, 1)
+            put(row, b, 0, 0, -1)
+        for k, row in enumerate(self.drivers):
+            if not self.structure.scene.drivers[k].turns:
+                gaps[row] = gaps[row] - values[k]
+        return matrix, gaps
 
     def _drive(self, x: Array, given: Sequence[Values]) -> Array:
         right = np.zeros_like(x)
-        for n, value in enumerate(given):
-            right[2 * len(self.pairs) + n] = right[2 * len(self.pairs) + n] + value
+        for row, value in zip(self.drivers, given, strict=True):
+            right[row] = right[row] + value
         return right
 
-    def _bend(self, x: Array, rate: Array, values: Sequence[Values], right: Array) -> None:
-        """Add to the right side of the acceleration equations what the velocities give: normal and Coriolis terms."""
+    def _turning(self, x: Array, rate: Array) -> Array:
+        """What the velocities give on the right side of the acceleration equations: normal and Coriolis terms."""
+        right = np.zeros_like(x)
+        for row, a, of_a, b, of_b, axes, along, _ in self.lines:
+            gx, gy = self._turned(x, axes, along)
+            (ax, ay), (bx, by) = self._turned(x, a, of_a), self._turned(x, b, of_b)
+            (xa, ya, _), (xb, yb, _) = self._of(x, a), self._of(x, b)
+            (va, ua, wa), (vb, ub, wb) = self._of(rate, a), self._of(rate, b)
+            w = self._of(rate, axes)[2]
+            ex, ey = (xa + ax) - (xb + bx), (ya + ay) - (yb + by)
+            vx, vy = (va - wa * ay) - (vb - wb * by), (ua + wa * ax) - (ub + wb * bx)
+            normal = wa * wa * (gx * ax + gy * ay) - wb * wb * (gx * bx + gy * by)
+            right[row] = normal + w * w * (gx * ex + gy * ey) + 2 * w * (gy * vx - gx * vy)
+        return right
 
-        def spin(name: str) -> Values:
-            return rate[self.column[name] + 2] if name in self.column else 0.0
 
-        def speed(name: str) -> tuple[Values, Values]:
-            return (rate[self.column[name]], rate[self.column[name] + 1]) if name in self.column else (0.0, 0.0)
+# 50 digits
 
-        def guided(pair: Pair) -> tuple[Values, ...]:
-            gx, gy, over, along = self._guide(x, pair)
-            (ax, ay), (bx, by), w = speed(pair.a), speed(pair.b), spin(pair.b)
-            return gx, gy, over, along, ax - bx, ay - by, w
 
-        for n, pair in enumerate(self.pairs):
-            i = 2 * n
-            if pair.turns:
-                for name, sign in ((pair.a, 1), (pair.b, -1)):
-                    _, _, rx, ry = self._arm(x, name, pair.point)
-                    right[i] = right[i] + sign * spin(name) ** 2 * rx
-                    right[i + 1] = right[i + 1] + sign * spin(name) ** 2 * ry
-                continue
-            gx, gy, over, _, vx, vy, w = guided(pair)
-            right[i] = right[i] + w * w * over + 2 * w * (gx * vx + gy * vy)
-        for n, driver in enumerate(self.structure.scene.drivers):
-            if not driver.turns:
-                i = 2 * len(self.pairs) + n
-                gx, gy, _, along, vx, vy, w = guided(self.structure.slide(driver.key))
-                right[i] = right[i] + w * w * along - 2 * w * (gx * vy - gy * vx)
+def context() -> MPContext:
+    """An mpmath context of 50 digits.
+
+    Raises
+    ------
+    CallError : mpmath is not installed
+    """
+    try:
+        from mpmath import MPContext
+    except ImportError:
+        raise CallError(
+            Problem("study", Phrase("the 50-digit reference needs mpmath"), "pip install 'graphkin[study]'")
+        ) from None
+    mp = MPContext()
+    mp.dps = DIGITS
+    return mp
+
+
+def reference(structure: Structure, mp: MPContext) -> Equations:
+    """The closure equations of a structure in numbers of an mpmath context."""
+    turn = 2 * mp.pi
+
+    def solve(matrix: Array, right: Array) -> Array:
+        return np.array(mp.lu_solve(mp.matrix(matrix.tolist()), mp.matrix(right.tolist())), dtype=object).ravel()
+
+    numbers = Arithmetic(
+        cos=np.frompyfunc(mp.cos, 1, 1),
+        sin=np.frompyfunc(mp.sin, 1, 1),
+        arg=lambda z: mp.arg(mp.mpc(z)),
+        unturned=lambda d: d - turn * mp.nint(d / turn),
+        solve=solve,
+    )
+    return Equations(structure, numbers)
+
+
+def refined(
+    equations: Equations, mp: MPContext, x: Digits, values: Digits, first: Digits, second: Digits
+) -> Solution:
+    """Position and rates to 50 digits from a start near by.
+
+    Raises
+    ------
+    ArithmeticError : Newton's method does not close the equations from there
+    """
+    at = np.array([mp.mpf(v) for v in x], dtype=object)
+    for _ in range(STEPS):
+        new = equations.improved(at, values)
+        moved = max(abs(v) for v in new - at)
+        at = new
+        if moved < CLOSED:
+            return equations.rates(at, values, first, second)
+    raise ArithmeticError(Phrase("the reference does not converge"))
+
+
+class Split:
+    """Numbers of 50 digits as sums of two doubles, so that the error of doubles can be told to 1e-32."""
+
+    def __init__(self, high: Array, low: Array) -> None:
+        self.high, self.low = high, low
+
+    def off(self, values: Array) -> Array:
+        """How far values lie off."""
+        return np.asarray(np.abs((values - self.high) - self.low))
+
+    def __getitem__(self, which: tuple[Array, ...]) -> Split:
+        return Split(self.high[which], self.low[which])
+
+
+def split(numbers: Array, mp: MPContext) -> Split:
+    """Real or complex mpmath numbers, any shape, in two parts."""
+    given = np.asarray(numbers, dtype=object)
+    high = np.array([complex(z) for z in given.ravel()]).reshape(given.shape)
+    low = np.array([complex(mp.mpc(z) - mp.mpc(complex(z))) for z in given.ravel()]).reshape(given.shape)
+    return Split(high, low)

@@ -35,15 +35,11 @@ from graphkin.scene.model import FromDeadPoint, Mechanism
 from graphkin.scene.scene_tables import Tools
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import Motion
-from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.dead_points import dead_points
 from graphkin.solver.drivers import working
-from graphkin.solver.engine import positions
-from graphkin.solver.pose import Array, Drive
-from graphkin.structure import Structure
-from graphkin.study.equations import Equations
+from graphkin.solver.pose import Array
+from graphkin.study.equations import Equations, context, reference, refined
 from graphkin.study.error_laws import LOST, Answer, ErrorLaw, Singularity, grid, in_powers, measured
-from graphkin.study.reference import context, reference, refined
 from graphkin.words import Phrase
 from graphkin.words.written import true_minus
 
@@ -154,9 +150,8 @@ def dead_point(kind: str, mp: MPContext, samples: int = 4) -> Singularity:
     """
     scene, follower, side = mechanism_of_text(_DYADS[kind], kind), FOLLOWERS[kind], SIDES[kind]
     driver, dead = scene.drivers[0], _dead(kind, scene, mp)
-    structure = solver.structure_of(scene)
     reach = max(abs(z) for z in scene.by_name[follower].points.values())
-    given = next(p for p in dead_points(structure) if side in p.sides and p.value > 0)
+    given = next(p for p in dead_points(solver.structure_of(scene)) if side in p.sides and p.value > 0)
     x = grid(FAR, NEAR, samples)
 
     def angle(e: float) -> mpf:
@@ -336,17 +331,17 @@ def differences(mp: MPContext, samples: int = 4) -> Singularity:
     """
     places = 4 * samples
     scene = mechanism_of("slider-crank-offset")
-    structure, link = solver.structure_of(scene), scene.links[-1].name
-    forms = {i: f[None] for i, f in choose_forms(structure).items()}
+    reach, link = solver.driver_range(scene), scene.links[-1].name
+    structure = reach.structure
     (_, rate, second), equations = scene.drivers[0].values, Equations(structure)
     angles = 2 * math.pi * (np.arange(places) + 0.3) / places
-    k = equations.column[link]
+    k, slider = equations.column[link], solver.prepare(structure, (next(iter(scene.links[-1].points)),))
 
     def place(values: Array) -> Array:
-        state = positions(structure, Drive.at(structure, values[:, None]), forms, rates=False)
-        return np.broadcast_to(state.poses[link].z, values.shape)
+        x, y = slider.columns(values)[0]
+        return np.asarray(x + 1j * y)
 
-    start = _unknowns(structure, equations, angles, forms)
+    start = equations.start(reach.motion(reach.offsets(angles)))
     precise = reference(structure, mp)
     velocity, acceleration = np.empty(places, dtype=complex), np.empty(places, dtype=complex)
     for i in range(places):
@@ -380,16 +375,6 @@ def differences(mp: MPContext, samples: int = 4) -> Singularity:
     laws = measured(stated, steps, map(central, steps)) + measured(few, steps[::4], map(complex_step, steps[::4]))
     fate = Phrase("fate differences", _numbers(*(laws[i].best for i in (0, 2, 4))))
     return Singularity("differences", "step", laws, (fate,))
-
-
-def _unknowns(structure: Structure, equations: Equations, angles: Array, forms: Mapping[int, Array]) -> Array:
-    """The unknowns of the closure equations at angles of the crank, by the closed form."""
-    poses = positions(structure, Drive.at(structure, angles[:, None]), forms).poses
-    rows = []
-    for name in equations.names:
-        z, u = (np.broadcast_to(part, angles.shape) for part in (poses[name].z, poses[name].u))
-        rows += [z.real, z.imag, np.angle(u)]
-    return np.array(rows)
 
 
 def _worst(values: Array, right: Array) -> float:

@@ -26,7 +26,7 @@ from graphkin.solver.engine import State, positions
 from graphkin.solver.pose import Drive
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
 from graphkin.study.equations import Arithmetic, Equations
-from graphkin.study.reference import context
+from graphkin.study.equations import context
 
 from .tally import Tally
 
