@@ -25,8 +25,7 @@ from graphkin.solver.drivers import meant, meant_direction, own_values
 from graphkin.solver.engine import State, positions
 from graphkin.solver.pose import Drive
 from graphkin.structure import Driven, Dyad, LargerGroup, Structure, analyse
-from graphkin.study.equations import Arithmetic, Equations
-from graphkin.study.equations import context
+from graphkin.study.equations import Arithmetic, Equations, context
 
 from .tally import Tally
 
