@@ -59,6 +59,10 @@ class Instrument:
         """Read a length off the ruler."""
         return mm
 
+    def read_signed(self, mm: float) -> float:
+        """Read a length off the ruler that has a sense."""
+        return self.read(abs(mm)) * (1.0 if mm >= 0.0 else -1.0)
+
     def read_direction(self, along: complex) -> complex:
         """Read an angle off the protractor."""
         return along

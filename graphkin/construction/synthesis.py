@@ -439,16 +439,14 @@ def _(task: FunctionTask, paper: DesignSheet) -> None:
     (p, q), (r, s) = ([paper.hand.point(one * z) for z in line] for line in trials)
     crossing = paper.meet("AB", p, unit(q - p), r, unit(s - r))
     corner = complex(2.2 * frame, 0.0)
-    axes = [DesignLine(corner, corner + max(0.3 * frame, 1.1 * z), "direction") if not up else
-            DesignLine(corner, corner + 1j * max(0.3 * frame, 1.1 * z), "direction")
-            for up, z in ((False, crossing.real), (True, crossing.imag))]  # fmt: skip
+    axes = [DesignLine(corner, corner + way * max(0.3 * frame, 1.1 * z), "direction")
+            for way, z in ((1, crossing.real), (1j, crossing.imag))]  # fmt: skip
     strokes: list[DesignStroke] = [DesignPoint("", corner + z) for z in (p, q, r, s)]
     for a, b in ((p, q), (r, s)):
         along = sorted((a, b, crossing), key=lambda z: (z.real, z.imag))
         strokes.append(DesignLine(corner + along[0], corner + along[-1], "construction"))
     paper.do("design reciprocals", (_mm(one),), *axes, *strokes, DesignPoint("Q", corner + crossing))
-    across = paper.hand.read(abs(crossing.real)) * math.copysign(1.0, crossing.real)
-    upward = paper.hand.read(abs(crossing.imag)) * math.copysign(1.0, crossing.imag)
+    across, upward = paper.hand.read_signed(crossing.real), paper.hand.read_signed(crossing.imag)
     if min(abs(across), abs(upward)) < 1e-9 * one:
         raise _not_drawn("design.pairs", "they ask for a bar without end", "other angles")
     crank, rocker = frame * one / across, frame * one / upward
@@ -501,7 +499,7 @@ def _trials(
         strokes += [DesignPoint("", B), DesignPoint("", moved), DesignLine(B, moved, "construction")]
         if at is not None and abs(at - D) < 3 * frame:
             strokes += [DesignLine(p, at, "direction"), DesignPoint("", at)]
-            reciprocal = frame / (paper.hand.read(abs(at - D)) * math.copysign(1.0, reciprocal))
+            reciprocal = frame / paper.hand.read_signed(math.copysign(abs(at - D), reciprocal))
         ends.append(complex(frame / paper.hand.read(crank), reciprocal))
     paper.do("design trial", (str(other + 1),), *strokes)
     return ends[0], ends[1]

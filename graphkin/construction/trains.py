@@ -294,8 +294,7 @@ class TrainPlan:
             foot, rate = -slope * self.scales.pole, self.rates[link]
         else:
             along = hand.direction(unit(complex(slope, 1.0)))
-            foot = -along.real / along.imag * self.scales.pole
-            foot = hand.read(abs(foot)) * (1 if foot >= 0 else -1)
+            foot = hand.read_signed(-along.real / along.imag * self.scales.pole)
             rate = self.rates[link] = foot * self.scales.rate
         reach = [s.height * mm for s in spots]
         if len(reach) == 1:
@@ -323,7 +322,7 @@ class TrainPlan:
         if mesh.slide in self.travels or at is None or on is None:
             return False
         run = on - at - lean
-        read = hand.read(abs(run)) * (1 if run >= 0 else -1)
+        read = hand.read_signed(run)
         self.travels[mesh.slide] = mesh.sense * read * self.scales.speed, read
         return True
 

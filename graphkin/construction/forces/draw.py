@@ -15,6 +15,7 @@ and machines, ch. 13).  A couple is a pair of forces square to a bar, at the end
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -196,7 +197,8 @@ def _on_lever(images: Images, one: ForceVector, hand: Instrument) -> MomentTerm:
     at two points of its link, square to the line between them."""
     if one.symbol.is_vector:
         end = TURN * images.end("velocity", one.link, one.at)
-        arm = _arm(end, one.force, hand) if one.force and end else 0.0
+        mm = cross(end, unit(one.force)) if one.force else 0.0
+        arm = hand.read_signed(mm) if abs(mm) > 1e-13 * abs(end) else 0.0
         return MomentTerm(one.symbol, one.force, arm, abs(one.force) * arm, end, turned=one.turned)
     far = images.image("velocity", one.link) if one.link != images.sheet.scene.frame.name else None
     omega = images.sheet.omega[one.link].value if one.link in images.sheet.omega else 0.0
@@ -207,17 +209,8 @@ def _on_lever(images: Images, one: ForceVector, hand: Instrument) -> MomentTerm:
     (a, a_end), (b, b_end) = far
     square, size = 1j * unit(b - a), one.moment / (abs(b - a) / images.mm)
     tail, tip = TURN * a_end, TURN * b_end
-    read = hand.read(abs(tip - tail))
-    arm = read if cross(tip - tail, square) > 0 else -read
+    arm = hand.read_signed(math.copysign(abs(tip - tail), cross(tip - tail, square)))
     return MomentTerm(one.symbol, square * size, arm, size * arm, tip, pair=(tail, tip))
-
-
-def _arm(end: complex, force: complex, hand: Instrument) -> float:
-    mm = cross(end, unit(force))
-    if abs(mm) <= 1e-13 * abs(end):
-        return 0.0
-    read = hand.read(abs(mm))
-    return read if mm > 0 else -read
 
 
 # -- what is read off --------------------------------------------------------------------------------------------------

@@ -137,10 +137,7 @@ class CutFree:
         if not one.force:
             return MomentTerm(one.symbol, 0j, None, one.moment, turned=one.turned)
         mm = cross(one.at - about, unit(one.force))
-        arm = 0.0
-        if abs(mm) >= 1e-12 * self.size:
-            read = self.hand.read(abs(mm))
-            arm = read if mm > 0 else -read
+        arm = self.hand.read_signed(mm) if abs(mm) >= 1e-12 * self.size else 0.0
         moment = abs(one.force) * arm / self.images.mm
         return MomentTerm(one.symbol, one.force, arm, moment, one.at, about, turned=one.turned)
 
