@@ -157,11 +157,6 @@ def _carried_over(sheet: Sheet, step: Step) -> Phrase | None:
     return Phrase(key, (step.symbol, told, rule, slip))
 
 
-def _carried_over_lines(voice: Voice, step: Step, language: str) -> Iterator[Phrase]:
-    if (told := _carried_over(voice.sheet, step)) is not None:
-        yield told
-
-
 def _laid_sums(voice: Voice, step: Step) -> Iterable[str]:
     vector = _drawn(step)
     return measured(voice, step) if step.mm == 0.0 or vector is None else _laid(voice, step, step.size, vector.span)
@@ -531,7 +526,8 @@ SUMS: Mapping[Reason, Callable[[Voice, Step], Iterable[str]]] = {
 }  # fmt: skip
 """What is computed in a step, where that is more than its vectors as they are `measured`."""
 LINES: Mapping[Reason, Callable[[Voice, Step, str], Iterable[str | Phrase]]] = {
-    **dict.fromkeys(ROLES, _carried_over_lines), "similar": _image_lines, "division": _image_lines,
+    **dict.fromkeys(ROLES, lambda voice, step, language: filter(None, [_carried_over(voice.sheet, step)])),
+    "similar": _image_lines, "division": _image_lines,
     "rates": _by_rates_lines, "rate": _rate_lines,
     # a link whose turning relative to another is known, as soon as that one turns at a known rate:
     # ω_2 = ω_3 + ω_23 = −0.04162 + 0.08323 = 0.04161 rad/s

@@ -50,7 +50,10 @@ def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wordin
     """For each position the values of the drivers, why there is no solution ("" where there is one), and the tables,
     which are the same for all positions."""
     motion, scene = solved.motion, solved.mechanism
-    tables = _asked(solved, language) if solved.find else _whole(solved, language)
+    asked = SolutionTable([word("quantity", language), "", ""], (1,))
+    for column in (column for name in solved.find for column in solved.columns(name)):
+        asked.rows.append((column.name, (_texts(column.values), [column.unit] * len(column.values))))
+    tables = [asked] if solved.find else _whole(solved, language)
     for k, status in enumerate(motion.status):
         drivers = zip(scene.drivers, motion.values[k], strict=True)
         values = [f"{d.key} = {scene.unit_of(d).said(float(v))}" for d, v in drivers]
@@ -61,13 +64,6 @@ def solution_tables(solved: Solved, language: str) -> Iterator[tuple[str, Wordin
 def _texts(*parts: Array) -> list[str]:
     """Numbers, or the components of vectors, over the positions; "" where there is none."""
     return ["" if any(map(math.isnan, row)) else ", ".join(f"{x:.6g}" for x in row) for row in zip(*parts, strict=True)]
-
-
-def _asked(solved: Solved, language: str) -> list[SolutionTable]:
-    table = SolutionTable([word("quantity", language), "", ""], (1,))
-    for column in (column for name in solved.find for column in solved.columns(name)):
-        table.rows.append((column.name, (_texts(column.values), [column.unit] * len(column.values))))
-    return [table]
 
 
 def _whole(solved: Solved, language: str) -> list[SolutionTable]:

@@ -345,7 +345,13 @@ def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
     """Leaf by leaf, and what it costs to part it from the one before."""
     leads = False  # whether words or an equation lead to what follows them
     for block in blocks:
-        for i, piece in enumerate(_leaves(block)):
+        leaves: list[Piece] = []
+        for one in block.blocks if isinstance(block, Together) else (block,):
+            if isinstance(one, Steps):
+                leaves += [Piece(step, tie=INSIDE if k else 0.0, half=one.parted) for k, step in enumerate(one.items)]
+            else:
+                leaves.append(Piece(one))
+        for i, piece in enumerate(leaves):
             tie = piece.tie
             if leads:
                 tie = KEPT
@@ -353,15 +359,6 @@ def _pieces(blocks: Iterable[Block]) -> Iterator[Piece]:
                 tie = BEFORE if piece.floats else KEPT
             leads = isinstance(piece.block, Heading) or (isinstance(piece.block, Picture) and piece.block.joined)
             yield replace(piece, tie=tie)
-
-
-def _leaves(block: Block) -> Iterator[Piece]:
-    for one in block.blocks if isinstance(block, Together) else (block,):
-        if isinstance(one, Steps):
-            yield from (Piece(step, tie=INSIDE if k else 0.0, half=one.parted) for k, step in enumerate(one.items))
-        else:
-            assert not isinstance(one, Together)
-            yield Piece(one)
 
 
 def lines_of(beside: Beside) -> list[tuple[float, Heading | Paragraph | StepItem]]:

@@ -135,7 +135,10 @@ def views_of(
         last = made[start]
         for i in way:
             with suppress(Unsolvable):
-                made[i] = last = _followed(structure, rows[i], asked, last)
+                try:
+                    made[i] = last = plan(structure, rows[i], asked, near=last.exact)
+                except Unsolvable:  # the way from its neighbour is barred, from the scene's own position it may not be
+                    made[i] = last = plan(structure, rows[i], asked)
     given = sum(i < start for i in made)
     plans = [made[i] for i in sorted(made)]
     sheets = [execute(replace(w, scales=s)) for w, s in zip(plans, common_scales(plans, paper), strict=True)]
@@ -150,14 +153,6 @@ def views_of(
         else:
             views.append(replace(lesson, centres=here))
     return views, start
-
-
-def _followed(structure: Structure, row: Mapping[str, float], asked: Sequence[Symbol], last: Plan) -> Plan:
-    """A plan reached from its neighbour, or where the way from there is barred from the scene's own position."""
-    try:
-        return plan(structure, row, asked, near=last.exact)
-    except Unsolvable:
-        return plan(structure, row, asked)
 
 
 def _centres(

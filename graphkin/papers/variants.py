@@ -102,7 +102,12 @@ def asked_of(scene: Mechanism) -> tuple[Symbol, ...]:
     found: list[Symbol] = []
     last = next(reversed(structure.groups), None)
     if last is not None:
-        names = [p.point or p.pin for p in _joints(last)]
+        if isinstance(last, Dyad):  # its end first, or what lies inside it
+            joints: tuple[Pair, ...] = (last.outer_second, last.inner, last.outer_first)
+        else:
+            inside = [p for p in last.pairs if {p.a, p.b} <= set(last.members)]
+            joints = (*reversed(inside), *(p for p in last.pairs if p not in inside))
+        names = [p.point or p.pin for p in joints]
         known = {*scene.frame.points, *(d.centre for k in scene.links if k.name in driven for d in k.discs)}
         rolled = {e.link for e in structure.driven if any(d.rolls for d in e.drivers)}
         known |= {p for k in scene.links if k.name in rolled for p in k.points}
@@ -143,14 +148,6 @@ def _of_larger_groups(scene: Mechanism, asked: Sequence[Symbol]) -> Iterator[Sym
             names += [f"{kind}_{link.name}" for kind in ("omega", "alpha") for link in links]
             yield from (s for s in map(Symbol.parse, names) if s not in asked)
         found |= {p for link in links for p in link.points}
-
-
-def _joints(group: Dyad | LargerGroup) -> tuple[Pair, ...]:
-    """The pairs of a group, those whose motion is best asked for first: its end, or what lies inside it."""
-    if isinstance(group, Dyad):
-        return group.outer_second, group.inner, group.outer_first
-    inside = [p for p in group.pairs if {p.a, p.b} <= set(group.members)]
-    return (*reversed(inside), *(p for p in group.pairs if p not in inside))
 
 
 def examined(
