@@ -73,13 +73,13 @@ def draw_element(plot: Polygons, order: Order, element: Element) -> None:
     if isinstance(element, Driven):
         _driven(plot, order, element)
     elif isinstance(element, Dyad):
-        known_turns(plot, order, element)
         if element not in plot.chains:
             chain = equation_of(_net_of(plot, element), plot.ends["velocity"])
             if chain is None:
                 # every dyad has an equation with two unknowns, but its points must be apart on the sheet
                 raise stuck("not drawn", element.links, "points of theirs fall together on any sheet")
             plot.chains[element] = chain
+        known_turns(plot, order, element)
         draw_equation(plot, order, element, plot.chains[element])
     else:
         _draw_group(plot, order, element)
