@@ -486,8 +486,9 @@ def _with_table(links: Centres, instrument: Instrument) -> Centres:
         centre = diagram.crossing() or _otherwise(diagram, motions, largest)
         if centre.place is not None:
             point, place = chart.point(centre.place), centre.place
-            if point is not None and centre.lines and (pricked := instrument.point(point)) != point:
-                place, point = chart.at(pricked), pricked
+            if point is not None and centre.lines and not instrument.faultless:
+                point = instrument.point(point)
+                place = chart.at(point)
             direction = chart.direction(place) if point is None else None
             centre = replace(centre, place=place, point=point, direction=direction)
         diagram.take(replace(centre, number=number))
