@@ -202,9 +202,7 @@ class _SharedJoint:
         self.carrier, self.ends = (cells[5], cells[6:8]) if len(cells) > 7 else ("", [])
 
 
-def _block(
-    made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links: dict[str, str], rate: float
-) -> None:
+def _block(made: Bodies, ends: list[str], joints: dict[str, _SharedJoint], links: dict[str, str], rate: float) -> None:
     """A block that slides on a line of the frame or of its carrier; welded to a link it is part of that."""
     line = next((joints[k] for k in ends if k in joints and joints[k].slides), None)
     pin = next((joints[k] for k in ends if k in joints and not joints[k].slides), None)

@@ -383,9 +383,7 @@ def pins_in_slots(reading: Reading) -> tuple[PinInSlot, ...]:
     return tuple(pins)
 
 
-def _pin_problem(
-    where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[PinInSlot]
-) -> Problem | None:
+def _pin_problem(where: str, point: str, pin: Pin, ref: str, reading: Reading, pins: list[PinInSlot]) -> Problem | None:
     on = ref.partition(".")[0]
     found: Wording
     if on == pin.of:

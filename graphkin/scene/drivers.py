@@ -69,9 +69,7 @@ def drives(reading: Reading) -> dict[str, model.Driver]:
         else:
             ends = {p.key: (p.key, p.on) for p in reading.running} | {s.key: (s.link, s.on) for s in reading.slidings}
             sliding, on = ends.get(name, (name, ""))  # of a pin in a slot its block
-            found[where] = model.Driver(
-                sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law
-            )
+            found[where] = model.Driver(sliding, on, value, si.velocity or 0.0, si.acceleration, name, dead, law=law)
     return found
 
 
@@ -318,13 +316,8 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
     """
     low, high = time_span(scene)
     if not low <= time <= high:
-        raise CallError(
-            Problem(
-                "at time",
-                Phrase("found s", time=f"{time:g}"),
-                Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}"),
-            )
-        )
+        wanted = Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}")
+        raise CallError(Problem("at time", Phrase("found s", time=f"{time:g}"), wanted))
     drivers: list[model.Driver] = []
     values: dict[str, float] = {}
     since = time - asked_time(scene)

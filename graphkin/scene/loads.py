@@ -49,12 +49,10 @@ def _not_moving(reading: Reading, where: str, link: str) -> bool:
     if reading.wrong(reading.no_link(where, link)):
         return True
     if link == reading.frame.name:
-        reading.say(where, Phrase("link is the frame", name=link),
-                    Phrase("what acts on the fixed link moves nothing"))
+        reading.say(where, Phrase("link is the frame", name=link), Phrase("what acts on the fixed link moves nothing"))
         return True
     if link in reading.links and reading.links[link].redundant:
-        reading.say(where, Phrase("link is redundant", what=link),
-                    Phrase("its share of the forces is not determined"))
+        reading.say(where, Phrase("link is redundant", what=link), Phrase("its share of the forces is not determined"))
         return True
     return False
 

@@ -491,34 +491,27 @@ def dimensions(mechanism: Mechanism) -> dict[Dimension, complex]:
 def with_dimensions(mechanism: Mechanism, changed: Mapping[Dimension, complex]) -> Mechanism:
     """The mechanism with some of its numbers changed; what was drawn is then a sketch."""
 
+    def own(old: complex, *name: str | int) -> complex:
+        return changed.get(name, old)
+
     def link(old: PlacedLink) -> PlacedLink:
-        points = {p: changed.get(("point", old.name, p), z) for p, z in old.points.items()}
-        guides = {
-            n: replace(
-                g,
-                through=changed.get(("through", old.name, n), g.through),
-                direction=changed.get(("direction", old.name, n), g.direction),
-            )
-            for n, g in old.guides.items()
-        }
+        points = {p: own(z, "point", old.name, p) for p, z in old.points.items()}
+        guides = {n: replace(g, through=own(g.through, "through", old.name, n),
+                             direction=own(g.direction, "direction", old.name, n))
+                  for n, g in old.guides.items()}  # fmt: skip
         return replace(old, points=points, guides=guides)
 
     def driver(k: int, old: Driver) -> Driver:
-        value, rate, second = (
-            changed.get((what, k), complex(x)).real
-            for what, x in zip(("value", "rate", "second"), old.values, strict=True)
-        )
+        value, rate, second = (own(complex(x), what, k).real
+                               for what, x in zip(("value", "rate", "second"), old.values, strict=True))  # fmt: skip
         return replace(old, value=value, rate=rate, second=second, rpm=None if ("rate", k) in changed else old.rpm)
 
     return replace(
-        mechanism,
-        frame=link(mechanism.frame),
-        links=tuple(map(link, mechanism.links)),
-        slidings=tuple(replace(s, turn=changed.get(("turn", s.key), s.turn)) for s in mechanism.slidings),
+        mechanism, frame=link(mechanism.frame), links=tuple(map(link, mechanism.links)),
+        slidings=tuple(replace(pair, turn=own(pair.turn, "turn", pair.key)) for pair in mechanism.slidings),
         drivers=tuple(driver(k, d) for k, d in enumerate(mechanism.drivers)),
-        sketch={**mechanism.drawn, **mechanism.sketch},
-        drawn={},
-    )
+        sketch={**mechanism.drawn, **mechanism.sketch}, drawn={},
+    )  # fmt: skip
 
 
 _MOVING = ("frame", "links", "slidings", "pins", "drivers", "cams", "contacts", "gears", "starts", "slots")

@@ -77,9 +77,7 @@ def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
     return tuple(made)
 
 
-def background_of(
-    wish: Background, known: Mapping[str, complex], reading: Reading
-) -> PlacedBackground | None:
+def background_of(wish: Background, known: Mapping[str, complex], reading: Reading) -> PlacedBackground | None:
     """The picture that a file asks for, laid by two points whose places (m) are known; None where something is wrong,
     which is noted."""
     where, before = "sheet.background", len(reading.problems)

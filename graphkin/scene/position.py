@@ -474,48 +474,40 @@ def _along(rail: Placement, guide_name: str, place: complex | None) -> float | N
 def check_starts(position: DrawnPosition) -> None:
     """Note where rolling is said to start of links that stand elsewhere by given places.  Of a driven link it starts
     where the driver stands."""
-    driven = {link for link, _, _ in position.angles}
+    driven = {*position.travels, *(link for link, _, _ in position.angles)}
+    said = starts_of(position, ())
     for name, link in position.reading.links.items():
-        if link.start is None or name in driven:
+        key = next((pair.key for pair in position.reading.slidings if pair.link == name), name)
+        if link.start is None or not driven.isdisjoint((name, key)):
             continue
-        keys = [s.key for s in position.reading.slidings if s.link == name]
-        turn, travel = position.bodies[name].turn, None
-        if keys and keys[0] not in position.travels:
-            travel = position.travel_of(keys[0])
-        if travel is not None and abs(link.start * position.reading.metres - travel) > position.tolerance:
-            told = position.number(travel)
-        elif not keys and turn is not None and abs(cmath.phase(turn / direction(link.start))) > GIVEN_TWICE:
-            told = f"{degrees(turn):.10g} deg"
+        turn, travel = position.bodies[name].turn, position.travel_of(key)
+        if travel is not None and abs(said[key] - travel) > position.tolerance:
+            seen = position.number(travel)
+        elif key == name and turn is not None and abs(cmath.phase(turn / cmath.rect(1.0, said[key]))) > GIVEN_TWICE:
+            seen = f"{degrees(turn):.10g} deg"
         else:
             continue
-        said = Phrase("found but the given places make it", start=f"{link.start:.10g}", value=told)
-        position.reading.say(f"links.{name}.start", said, Phrase("one of the two is wrong leave start"))
+        found = Phrase("found but the given places make it", start=f"{link.start:.10g}", value=seen)
+        position.reading.say(f"links.{name}.start", found, Phrase("one of the two is wrong leave start"))
 
 
 def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
     """Where what rolls stands: angles of links (rad), travels of sliding pairs and of contacts with a face (m), as far
     as the file or its drawn points tell."""
-    found: dict[str, float] = {}
-    for name, link in position.reading.links.items():
-        turn = position.bodies[name].turn
-        own = [s.key for s in position.reading.slidings if s.link == name]
-        if link.start is not None and own:
-            found[own[0]] = link.start * position.reading.metres
-        elif link.start is not None:
-            found[name] = math.radians(link.start)
-        elif turn is not None:
-            found[name] = cmath.phase(turn)
-    for pair in position.reading.slidings:
-        travel = position.travel_of(pair.key)
-        if travel is not None:
-            found.setdefault(pair.key, travel)
+    slidings, bodies = position.reading.slidings, position.bodies
+    turns = {name: bodies[name].turn for name, link in position.reading.links.items() if link.start is None}
+    seen = {name: cmath.phase(turn) for name, turn in turns.items() if turn is not None}
+    travels = {pair.key: position.travel_of(pair.key) for pair in slidings}
     for contact in contacts:
         if contact.flat:
             place = position.places.get(contact.round[0].centre)
-            travel = _along(position.bodies[contact.face], contact.guide, place)
-            if travel is not None:
-                found[contact.block] = travel
-    return found
+            travels[contact.block] = _along(bodies[contact.face], contact.guide, place)
+    told = dict[str, float]()
+    for name, link in position.reading.links.items():
+        if link.start is not None:
+            key = next((pair.key for pair in slidings if pair.link == name), name)
+            told[key] = link.start * position.reading.metres if key != name else math.radians(link.start)
+    return {**seen, **{key: travel for key, travel in travels.items() if travel is not None}, **told}
 
 
 # -- whether what is given agrees --------------------------------------------------------------------------------------

@@ -49,9 +49,7 @@ AnyBody = TypeVar("AnyBody", Link, Frame)
 # -- what a file says --------------------------------------------------------------------------------------------------
 
 
-def mechanism_said(
-    file: SceneTables, name: str, problems: list[Problem], lost: frozenset[KeyPath]
-) -> Mechanism:
+def mechanism_said(file: SceneTables, name: str, problems: list[Problem], lost: frozenset[KeyPath]) -> Mechanism:
     """The mechanism that a file describes.
 
     Parameters

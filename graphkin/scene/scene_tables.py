@@ -230,9 +230,7 @@ TwoTeeth = Annotated[
 class Contact(FileTable):
     """Two outlines that touch."""
 
-    between: TwoOutlines = key(
-        'Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").'
-    )
+    between: TwoOutlines = key('Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").')
     side: Literal["left", "right", "outside", "inside"] | None = key(
         "Of a face: the side of the directed guide on which the disc lies, left if left out. "
         "Of two discs: outside (if left out), or inside, the smaller in the larger.", default=None,
@@ -273,9 +271,7 @@ class DriverLaw(FileTable):
 
     origin: Number | None = key("The driver's value at 0 s: degrees, or travel.", name="from", default=None)
     to: Number | None = key("The driver's value at the end.", default=None)
-    rise: Number | None = key(
-        "Instead of to: by how much the value grows; negative where it falls.", default=None
-    )
+    rise: Number | None = key("Instead of to: by how much the value grows; negative where it falls.", default=None)
     duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
     by: LawName | None = key("The law by which it goes from one to the other.", default=None)
     pieces: Annotated[List[LawPiece], Rule(max_length=1000)] = key(
@@ -308,9 +304,7 @@ class AllowedPressure(FileTable):
 class Cam(FileTable):
     """A cam that turns about its first point, given by the law of its follower."""
 
-    follower: LinkName = key(
-        "The link that it moves: on a guide of the frame, or swinging about a point of the frame."
-    )
+    follower: LinkName = key("The link that it moves: on a guide of the frame, or swinging about a point of the frame.")
     law: List[LawPiece] = key('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].')
     base: BaseCircle = key('The base circle: { r = 30, of = "profile" }.')
     sense: Literal[1, -1] = key(
@@ -333,9 +327,7 @@ class Driver(FileTable):
     """A driven angle."""
 
     link: LinkName = key("The driven link.")
-    angle: Number | None = key(
-        "Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None
-    )
+    angle: Number | None = key("Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None)
     omega: Number | None = key("rad/s, counter-clockwise positive.", unit="angular velocity", default=None)
     rpm: Number | None = key("Instead of omega: turns per minute.", default=None)
     speed: Number | None = key(
@@ -366,9 +358,7 @@ class DrivenSlide(FileTable):
         "From the guide's origin to the sliding link's own; may be left out with [drawn].", unit="length", default=None
     )
     velocity: Number | None = key("Unit of speed, along the guide's sense.", unit="velocity", default=None)
-    acceleration: Number = key(
-        "Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0
-    )
+    acceleration: Number = key("Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0)
     relative_to: LinkName | None = key("The guiding link, where there are two.", default=None)
     origin: Literal["dead point"] | None = key(
         '"dead point": the travel counts from a dead point of the mechanism.', name="from", default=None
@@ -426,9 +416,7 @@ class LoadPhase(FileTable):
     sense: Number = key("1: while it slides along the guide's sense; -1: against it.", default=1.0)
     start: NotNegative = key("Part of that stroke at which it begins.", name="from", default=0.0)
     end: NotNegative = key("Part of that stroke at which it ends.", name="to", default=1.0)
-    driver: Place | None = key(
-        "Instead of stroke: two values of the first driver, growing between them.", default=None
-    )
+    driver: Place | None = key("Instead of stroke: two values of the first driver, growing between them.", default=None)
 
 
 @file_table
@@ -440,9 +428,7 @@ class Load(FileTable):
         "Where a force acts: a point of the link, or [x, y] in its own axes.", unit="length", default=None
     )
     force: Number | None = key("Size of a force.", unit="force", default=None)
-    moment: Number | None = key(
-        "Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None
-    )
+    moment: Number | None = key("Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None)
     angle: Number | None = key(
         "Direction of a force in degrees in the frame, or from the axis of follows.", default=None
     )
@@ -597,9 +583,7 @@ class ReadScan(FileTable):
         "part whose tip it is (an_C/B); of the mechanism points. Pixels [x, y] from the left upper corner."
     )
     read: dict[EndName, Place] = key("The other ends as they were read off, in pixels.")
-    file: Text | None = key(
-        "The scan itself, under the exact figure: PNG or JPEG, from the scene file.", default=None
-    )
+    file: Text | None = key("The scan itself, under the exact figure: PNG or JPEG, from the scene file.", default=None)
     within: Magnitude = key("What a line may be off, as a part of the longest: 0.01 if left out.", default=0.01)
 
 
@@ -641,12 +625,8 @@ class Vary(FileTable):
     level: Level = key(
         "easy: lines cross well, transmission is good; hard: the lines may cross flatter.", default="usual"
     )
-    crossing: Least | None = key(
-        "Degrees at which lines cross at least; that of the level if left out.", default=None
-    )
-    transmission: Least | None = key(
-        "Least transmission angle of two bars at the position, degrees.", default=None
-    )
+    crossing: Least | None = key("Degrees at which lines cross at least; that of the level if left out.", default=None)
+    transmission: Least | None = key("Least transmission angle of two bars at the position, degrees.", default=None)
     pressure: Least | None = key("Greatest pressure angle of a slide at the position, degrees.", default=None)
     tolerance: Part | None = key(
         "Part of an answer that a drawing may miss it by at most; 0.05 if left out.", default=None

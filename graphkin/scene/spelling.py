@@ -239,9 +239,7 @@ _COUNTER = re.compile(
     r"|逆(?:时针)?(?:方向|转动|转|旋转)?|[↺⟲⥀↶]",
     re.IGNORECASE,
 )
-_CLOCKWISE = re.compile(
-    r"\bc\.?w\.?(?![a-z])|clock[\s-]*wise|顺(?:时针)?(?:方向|转动|转|旋转)?|[↻⟳⥁↷]", re.IGNORECASE
-)
+_CLOCKWISE = re.compile(r"\bc\.?w\.?(?![a-z])|clock[\s-]*wise|顺(?:时针)?(?:方向|转动|转|旋转)?|[↻⟳⥁↷]", re.IGNORECASE)
 _NUMBERED = r"(?P<deg>[+\-]?\d+(?:[.,]\d+)?)\s*(?:°|deg(?:rees?)?|度)"
 _SIDE = re.compile(
     _NUMBERED + r"\s*(?P<side>above|below|over|under|left of|right of"
@@ -521,9 +519,7 @@ _RAISED = re.compile(r"(?<=[A-Za-z])\s*\^\s*\{?\s*([+-]?\d)\s*\}?")
 _PER_TIME = re.compile(r"(?<=[\d\s])\b1\s*/\s*(?=s|min)")
 _SPACED = re.compile(r"(?<![\d.,])\d{1,3}(?: \d{3})+(?![\d.,]*\d)(?:[.,]\d+)?")
 _HAT = r"\s*[*·]?\s*(?:\\?hat)?\{{?[{0}]\u0302?\}}?"
-_UNIT_VECTORS = re.compile(
-    rf"({NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({NUMBER}){_HAT.format('jĵJ')}(?![A-Za-z])"
-)
+_UNIT_VECTORS = re.compile(rf"({NUMBER}){_HAT.format('iîI')}\s*([+-])\s*({NUMBER}){_HAT.format('jĵJ')}(?![A-Za-z])")
 _LABELLED = re.compile(
     rf"[A-Za-z_]*x\s*[=:]\s*({NUMBER})([^;,=:]*)[;,]?\s*[A-Za-z_]*y\s*[=:]\s*({NUMBER})", re.IGNORECASE
 )
