@@ -137,3 +137,12 @@ def test_a_wheel_written_out_with_where_it_starts_may_be_driven_elsewhere():
     assert "start" in made["links"]["1"]
     made["driver"] = {"link": "1", "angle": 30, "omega": -2}
     assert 30 == pytest.approx(math.degrees(mechanism_of(made).drivers[0].values[0]))
+
+
+def test_where_rolling_starts_is_an_angle_of_a_link_or_the_travel_of_one_that_slides():
+    made = changed(WHEELS, "links.2.start", -30)
+    made["frame"]["guides"] = {"h": {"through": [0, -20], "angle": 0}}
+    made["links"]["3"] = {"on": "0.h", "start": 15}
+    made["gears"]["r"] = {"between": ["1", "3"], "teeth": [20, "rack"]}
+    starts = mechanism_of(made).starts
+    assert (pytest.approx(math.radians(-30)), pytest.approx(0.015)) == (starts["2"], starts["3/0"])
