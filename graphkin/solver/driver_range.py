@@ -549,13 +549,10 @@ def _same(one: Array, other: Array) -> bool:
 # -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------
 
 
-Course = Callable[[Array], tuple[Array, Array, Array]]
+Course = Callable[[Array], tuple[Array, Array]]
 
 SAMPLES = 720
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
-STEPS = 6
-NEAR = 1e-14
-"""Within this (rad) of what Newton's method gives a rate's sign is looked for digit by digit."""
 ROUNDED = 1e-11
 """An angle (rad) between limit positions that is nothing but rounding."""
 WHERE_ELSE = Phrase("ask for s_ theta_ or d_ at single")
@@ -608,16 +605,16 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     if cam is not None and (reach.driver.link, reach.driver.relative_to) == (cam.link, reach.scene.frame.name):
         return _of_follower(reach, cam)
 
-    def course(offset: Array) -> tuple[Array, Array, Array]:
-        """Value, rate and second rate by the driver's own angle."""
+    def course(offset: Array) -> tuple[Array, Array]:
+        """Value and rate by the driver's own angle."""
         motion = reach.motion(offset, unit=True)
         if symbol.other:
             slide = motion.slide(symbol.pair)
-            return slide.travel, slide.velocity, slide.acceleration
-        return reach.angle(motion, symbol.link), motion.omega(symbol.link), motion.alpha(symbol.link)
+            return slide.travel, slide.velocity
+        return reach.angle(motion, symbol.link), motion.omega(symbol.link)
 
     grid = np.linspace(0.0, math.tau, SAMPLES + 1)
-    values, rates, _ = course(grid)
+    values, rates = course(grid)
     pair = symbol.pair
     if not symbol.other and abs(values[-1] - values[0]) > 1.0:
         raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
@@ -653,26 +650,6 @@ def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
     return Extremes(low[0], high[0], low[1], high[1])
 
 
-def _turning_point(course: Course, sign: float, places: Array, rates: Array) -> float:
-    """Where between two places, with the rates there, a rate of this sign changes it: by Newton's method, beside its
-    answer to the last digit."""
-    low, high = places.tolist()
-
-    def before(offset: Array) -> Array:
-        return np.asarray(sign * course(offset)[1] >= 0.0)
-
-    at = low + (high - low) * float(rates[0] / (rates[0] - rates[1]))
-    for _ in range(STEPS):
-        _, rate, slope = (float(found[0]) for found in course(np.array([at])))
-        if not slope or not low <= (last := at) - rate / slope <= high:
-            return last_true(before, low, high)
-        at = last - rate / slope
-        if abs(at - last) < 1e-7:
-            break
-    found = last_true(before, at - NEAR, at + NEAR)
-    return found if abs(found - at) < 0.9 * NEAR else last_true(before, low, high)
-
-
 def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
 
@@ -682,15 +659,13 @@ def _best(
 ) -> tuple[float, float]:
     """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there.
     ``angle`` is the crank's at an offset."""
-    n = len(grid) - 1
-    tops = [k for k in range(n) if sign * rates[k] >= 0.0 > sign * rates[k + 1]]
-    best = max((sign * values[k] for k in tops), default=0.0)
-    found = []
-    for k in tops:
-        if max(sign * values[k], sign * values[k + 1]) < best - 0.05 * float(np.ptp(values)):
-            continue
-        c = _turning_point(course, sign, grid[k : k + 2], rates[k : k + 2])
-        found.append((c, float(course(np.array([c]))[0][0])))
-    most = max(sign * value for _, value in found)
-    equal = [one for one in found if sign * one[1] > most - EQUAL * float(np.ptp(values))]
-    return min(equal, key=lambda one: (angle(one[0]) + EQUAL) % math.tau)
+    tops = np.flatnonzero((sign * rates[:-1] >= 0.0) & (sign * rates[1:] < 0.0))
+    height = sign * np.maximum(sign * values[tops], sign * values[tops + 1])
+    near = sign * height >= float((sign * height).max()) - 0.05 * float(np.ptp(values))
+    places = np.array([
+        last_true(lambda at: sign * course(at)[1] >= 0.0, float(grid[k]), float(grid[k + 1])) for k in tops[near]
+    ])  # fmt: skip
+    found = course(places)[0]
+    equal = np.flatnonzero(sign * found > float((sign * found).max()) - EQUAL * float(np.ptp(values)))
+    best = min(equal.tolist(), key=lambda k: (angle(float(places[k])) + EQUAL) % math.tau)
+    return float(places[best]), float(found[best])
