@@ -105,7 +105,7 @@ def exact_values(motion: Motion, asked: Sequence[Symbol] = ()) -> Callable[[Symb
         found = value_of(motion, symbol)[0]
         if symbol.kind == "d" and math.isnan(found):  # the centre of links at rest: that of any motion
             found = _growing(motion).value(symbol)[0]
-        return complex(found) if symbol.is_vector else float(found.real)
+        return complex(found) if np.iscomplexobj(found) else float(found)
 
     return value
 
