@@ -1,17 +1,22 @@
-"""What is written beside the forces of a group: why each step is taken, moment equations in numbers, how a polygon is
-laid off with a ruler and closed, what was read off; and what a mechanism weighs and carries, as it is given.
+"""The forces of a position as they are told: step by step with reasons, moment equations in numbers, how a polygon is
+laid off and closed, what was read off; and what a mechanism weighs and carries, as it is given.
+
+Inertia forces come first, off the drawn accelerations, and springs; then group by group what is cut free, moments,
+polygon, forces inside, couples; at last the lever.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from decimal import Decimal
-from functools import reduce
-from typing import NamedTuple
+from functools import cached_property, reduce
+from itertools import chain
+from typing import Literal, TypeAlias
 
 from graphkin.account.headings import number, written
-from graphkin.account.notation import Letters, force_letters
+from graphkin.account.notation import Letters, force_letters, pole
 from graphkin.construction.forces.force_sheet import (
     ForceGroup,
     ForceSheet,
@@ -24,192 +29,372 @@ from graphkin.construction.forces.force_sheet import (
     opposite,
 )
 from graphkin.construction.forces.joints import balance_of
+from graphkin.construction.scales import Extent, fitting_scale
 from graphkin.construction.sheet import Sheet
 from graphkin.plane import added_up
 from graphkin.scene.model import LoadOn, Mechanism, Phase, SpringOn
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Neutral, Phrase, Wording, about, listed
+from graphkin.words import Neutral, Phrase, Wording, about, in_all, languages, listed, say
 from graphkin.words.written import FINER, MOST, amount, is_quotient, on_paper, pointing, product, to_lay_off
 
 __all__ = [
-    "Balance", "ForceSentence", "balance", "closed_by", "corner_at", "corners", "couple_sentences", "given_loads",
-    "group_caption", "inertia_line", "laid_lines", "laid_off", "lever_sum", "moment_sentences", "read_off",
-    "spring_lines",
+    "SHORT", "ForceAccount", "ForceStage", "ForceStep", "balance", "corner_at", "corners", "given_loads",
+    "lever_on_page", "spots_of",
 ]  # fmt: skip
 
-DIGITS = 5  # figures of a computed force, moment or arm
 ZERO = 1e-8  # mm: a shorter force is nothing but rounding
 SAME = 1e-6  # mm
 APART = 0.3  # mm: corners that are nearer bear one letter
+SHORT = 0.3  # mm: a nearer end point of a lever is at its pole
+LEVER_ROOM = 134.0, 130.0  # mm, width and height of a lever
+
+Kind = Literal["inertia", "spring", "cut", "moments", "system", "lay", "close", "inside", "couples", "lever"]
 
 
-def group_caption(group: ForceGroup, count: int) -> Phrase:
-    """``1. Links 5, 6 (RRP) cut free``."""
-    kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}.get(group.way, group.kind)
-    return Phrase(about("force group", group.links), (str(count), listed(group.links), kind))
+@dataclass(frozen=True)
+class ForceStep:
+    """A step of the forces.
 
+    Parameters
+    ----------
+    kind : what is done in it
+    why : why it is taken
+    work : what is computed in it
+    found : what it finds
+    part : which part of a force it finds by moments; of a polygon inside a group the link
+    number : its place behind the steps of the motion
+    """
 
-def inertia_line(sheet: Sheet, one: Inertia, letters: Letters) -> str:
-    """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
-    units, c = sheet.scene.units, letters.convention
-    mass, push = amount(one.mass / units.kilograms, DIGITS), amount(abs(one.push), DIGITS)
-    size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=DIGITS)
-    mass_of = next(m for m in sheet.scene.loading.masses if m.link == one.link)
-    point = next((p for p, z in sheet.scene.by_name[one.link].points.items() if z == mass_of.at), f"S{one.link}")
-    letter = "A" if c == "us" else "a"
-    said = f"${force_letters(c, Symbol('Fi', link=one.link))}$ = $m_{{{one.link}}}$ ${letter}_{{{point}}}$ = "
-    said += f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"
-    if one.inertia:
-        turned = f"{number(one.moment / units.newtons, DIGITS)} {units.force}·m"
-        name = force_letters(c, Symbol("Mi", link=one.link))
-        said += f";  ${name}$ = −$J_{{{one.link}}}$ $α_{{{one.link}}}$ = {turned}"
-        if one.h is not None:
-            shift = number(abs(one.h) / units.metres, DIGITS)
-            said += f";  $h_{{{one.link}}}$ = {shift} {units.length}"
-    return said
-
-
-class ForceSentence(NamedTuple):
-    """A step in words with symbols: why it is taken, what is computed, and what it finds (``part`` of it)."""
-
-    reason: Phrase
-    work: tuple[Wording, ...] = ()
-    symbol: Symbol | None = None
+    kind: Kind
+    why: Phrase
+    work: Sequence[Wording] = ()
+    found: Sequence[Symbol] = ()
     part: str = ""
+    number: int = 0
+
+    def words(self, language: str) -> tuple[tuple[str, str], ...]:
+        """Each language of a paper, and why the step is taken, in words with symbols."""
+        return tuple((each, say(self.why, each)) for each in languages(language))
+
+    def lines(self, language: str) -> tuple[str, ...]:
+        """What is computed, in the languages of a paper."""
+        return tuple(line for told in self.work for line in in_all(told, language))
+
+
+@dataclass(frozen=True)
+class ForceStage:
+    """Steps that belong together: of one group, of the inertia forces, of a lever (these have no ``group``).
+
+    ``figure`` is the one they are drawn on; ``again`` marks what is drawn with a load that begins or ends here.
+    """
+
+    figure: Literal["mechanism", "acceleration", "forces", "lever"]
+    title: Phrase
+    steps: tuple[ForceStep, ...]
+    state: ForceState
+    group: ForceGroup | None = None
+    again: bool = False
+
+    def heading(self, language: str) -> tuple[tuple[str, str], ...]:
+        """Each language of a paper, and the title."""
+        return tuple((each, say(self.title, each)) for each in languages(language))
+
+    def told(self, *kinds: Kind) -> list[Wording]:
+        """Why steps of some kinds are taken, each with what is computed in it."""
+        return [line for step in self.steps if step.kind in kinds for line in (step.why, *step.work)]
+
+    def number_of(self, kind: Kind, symbol: Symbol | None = None, part: str = "") -> int | None:
+        """The step of a kind; None where there is none that finds a symbol, or is of that part or link."""
+        alike = [s for s in self.steps if s.kind == kind and s.part == part and (symbol is None or symbol in s.found)]
+        return alike[-1].number if alike else None
 
     @property
-    def lines(self) -> tuple[Wording, ...]:
-        return self.reason, *self.work
+    def known(self) -> int:
+        """The step that shows known forces."""
+        return self.steps[0].number
+
+    @property
+    def closing(self) -> int:
+        """The step that closes the polygon."""
+        return [s for s in self.steps if s.kind not in ("inside", "couples")][-1].number
+
+    def on_links(self, vector: ForceVector) -> int:
+        """The step that draws a force on the links cut free."""
+        return self.known if vector.known else self.number_of("moments", vector.symbol, vector.part) or self.closing
+
+    def in_polygon(self, vector: ForceVector, link: str = "") -> int:
+        """The step that draws a force in the polygon of the group, or of one link."""
+        if link:
+            return self.number_of("inside", None, link) or self.closing
+        laid = vector.known or (self.group is not None and vector in laid_off(self.group))
+        return self.number_of("lay") or self.known if laid else self.closing
 
 
-def moment_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:
-    """The moment equations that give parts of forces, each with its reason."""
-    lines = list[ForceSentence]()
-    held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
-    if held is not None:
-        name = f"${force_letters(letters.convention, held.symbol, 'n')}$"
-        said = Phrase("force reason along", (held.link.split("/")[0], name))
-        lines.append(ForceSentence(said, (), held.symbol, "n"))
-    for one in group.moments:
-        links, symbol, part = _links(one.links), one.unknown.symbol, one.unknown.part
-        if not one.terms and group.way == "polygon" and group.kind != "RPR":
-            name = f"${force_letters(letters.convention, symbol)}$"
-            args = links, name, f"${letters.point(one.about)}$"
-            lines.append(ForceSentence(Phrase("force two-force member", args), (), symbol, part))
-            continue
-        name = f"${force_letters(letters.convention, symbol, part if _parted(sheet, group, one) else '')}$"
-        key = "force reason driver" if group.way == "driver" else "force reason guide" if group.kind == "RPR" else (
-            "force reason pin"
-        )  # fmt: skip
-        about = f"${letters.point(one.about)}$"
-        said = Phrase(key, (about, links, name))
-        work: tuple[Wording, ...] = (*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name))
-        lines.append(ForceSentence(said, work, symbol, part))
-    return lines
+@dataclass(frozen=True)
+class ForceAccount:
+    """Tells the forces of a sheet, which has their scale, in the letters of one convention."""
+
+    sheet: Sheet
+    forces: ForceSheet
+    letters: Letters
+
+    @cached_property
+    def per_mm(self) -> str:
+        """The scale of the polygons, as it is written in the file's unit of force."""
+        return amount(self.forces.per_mm / self.sheet.scene.units.newtons, 12)
+
+    def name(self, symbol: Symbol, part: str = "") -> str:
+        """A force or a moment as a symbol, or a part of it."""
+        return f"${force_letters(self.letters.convention, symbol, part)}$"
+
+    def stages(self) -> Iterator[ForceStage]:
+        """All steps from the drawn accelerations to what balances, by their numbers."""
+        last = self.sheet.steps[-1].number if self.sheet.steps else 0
+        for stage in self._unnumbered():
+            first, last = last + 1, last + len(stage.steps)
+            yield replace(stage, steps=tuple(replace(s, number=n) for n, s in enumerate(stage.steps, first)))
+
+    def _unnumbered(self) -> Iterator[ForceStage]:
+        first, *others = self.forces.states
+        inertia = tuple(
+            ForceStep("inertia", Phrase("force step inertia", (n,)), (self.inertia(one),), (Symbol("Fi", link=n),))
+            for n, one in self.forces.inertias.items()
+        )
+        if inertia:
+            yield ForceStage("acceleration", Phrase("force inertia"), inertia, first)
+        pulls = tuple(ForceStep("spring", line) for line in self.springs())
+        if pulls:
+            yield ForceStage("mechanism", Phrase("force step springs"), pulls, first)
+        shown = [(first, group, False) for group in first.groups]
+        for state in others:
+            pairs = zip(state.groups, first.groups, strict=True)
+            shown += [(state, group, True) for group, before in pairs if group != before]
+        for count, (state, group, again) in enumerate(shown, 1):
+            yield ForceStage("forces", self.caption(group, count), (*self.of_group(state, group),), state, group, again)
+        for k, state in enumerate(self.forces.states):
+            for lever in state.levers:
+                why = Phrase("lever reason", (f"${pole(self.letters.convention, 'velocity')}$",))
+                why = Phrase("two sentences", (why, Phrase("lever virtual"))) if lever.virtual else why
+                total, balanced = self.lever(state, lever_on_page(self.sheet, lever)[0])
+                steps = (ForceStep("lever", why), ForceStep("lever", Phrase("lever step forces")),
+                         ForceStep("lever", balanced, (total,), (lever.unknown.symbol,)))  # fmt: skip
+                yield ForceStage("lever", Phrase("lever"), steps, state, again=bool(k))
+
+    def inertia(self, one: Inertia) -> str:
+        """``F_I4 = -m_4 a_S4 = 22.4 kg x 2.11 m/s2 = 47.4 N; M_I4 = ...; h_4 = ...``."""
+        units, link = self.sheet.scene.units, one.link
+        mass, push = amount(one.mass / units.kilograms, MOST), amount(abs(one.push), MOST)
+        size = product(mass, push, amount(units.kilograms / units.newtons, 12), carried=MOST)
+        mass_of = next(m for m in self.sheet.scene.loading.masses if m.link == link)
+        point = next((p for p, z in self.sheet.scene.by_name[link].points.items() if z == mass_of.at), f"S{link}")
+        letter = "A" if self.letters.convention == "us" else "a"
+        said = [f"{self.name(Symbol('Fi', link=link))} = $m_{{{link}}}$ ${letter}_{{{point}}}$ = "
+                f"{written(mass)} {units.mass} × {written(push)} m/s² = {written(size)} {units.force}"]  # fmt: skip
+        if one.inertia:
+            turned = f"{number(one.moment / units.newtons, MOST)} {units.force}·m"
+            said.append(f"{self.name(Symbol('Mi', link=link))} = −$J_{{{link}}}$ $α_{{{link}}}$ = {turned}")
+        if one.inertia and one.h is not None:
+            said.append(f"$h_{{{link}}}$ = {number(abs(one.h) / units.metres, MOST)} {units.length}")
+        return ";  ".join(said)
+
+    def springs(self) -> Iterator[Phrase]:
+        """The force of each spring from its length as it was measured."""
+        units = self.sheet.scene.units
+        for spring in self.sheet.scene.loading.springs:
+            name = Symbol("P", name=spring.name)
+            own, other = (one for one in self.forces.states[0].known if one.symbol == name)
+            length = abs(other.at - own.at) * self.sheet.scales.length
+            force = spring.preload + spring.rate * (length - spring.free)
+            start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
+            free, pull = amount(spring.free / units.metres), amount(force / units.newtons, MOST)
+
+            def as_written(told: str, start: str = start, rate: str = rate, free: str = free) -> str:
+                return amount(float(start) + float(rate) * (float(told) - float(free)), MOST)
+
+            tried = [amount(length / units.metres, carried) for carried in FINER]
+            told = next((one for one in tried if float(as_written(one)) == float(pull)), tried[0])
+            preload = f"{written(start)} + " if spring.preload else ""
+            stretch = f"{written(rate)} × ({written(told)} − {written(free)})"
+            total = Neutral(f"{self.name(name)} = {preload}{stretch} = {written(pull)} {units.force}")
+            key = "force spring" if force >= 0 else "force spring pushes"
+            ends = "".join(map(self.letters.point, spring.points))
+            yield Phrase(key, ends=ends, sum=total, link=spring.links[0])
+
+    # -- a group -------------------------------------------------------------------------------------------------------
+
+    def caption(self, group: ForceGroup, count: int) -> Phrase:
+        """``1. Links 5, 6 (RRP) cut free``."""
+        kind = {"driver": Phrase("force driver"), "drawn system": Phrase("force larger group")}
+        return Phrase(about("force group", group.links),
+                      (str(count), listed(group.links), kind.get(group.way, group.kind)))  # fmt: skip
+
+    def of_group(self, state: ForceState, group: ForceGroup) -> Iterator[ForceStep]:
+        """The steps by which the forces of a group are found."""
+        links, drawn = listed(group.links), [*chain(group.polygon, *group.inner.values())]
+        acting = [v.symbol for v in drawn if v.known and v.span]
+        acting += [t.symbol for t in state.known if t.moment and t.link in group.links]
+        names = [self.name(symbol) for symbol in dict.fromkeys(acting)]
+        cut = Phrase("force step cut", (links, listed(names))) if names else Phrase("force step cut bare", (links,))
+        yield ForceStep("cut", cut)
+        yield from self._moments(group)
+        read = self.read_off(state, group)
+
+        def own(vectors: Iterable[ForceVector]) -> tuple[Symbol, ...]:
+            return tuple(s for s in dict.fromkeys(v.symbol for v in vectors if not v.known) if s in read)
+
+        if group.way == "drawn system":
+            yield ForceStep("system", Phrase("force reason system", (links,)))
+        elif len(group.polygon) > 1:
+            if laid_off(group):
+                yield ForceStep("lay", Phrase("force step lay"), self._laid(group))
+            why = Phrase(about("force polygon closes", group.links), (links,))
+            by, found = self._closed_by(group), own(group.polygon)
+            why = why if by is None else Phrase("two sentences", (why, by))
+            yield ForceStep("close", why, [read.pop(s) for s in found], found)
+        for link, vectors in group.inner.items():
+            if found := own(vectors):
+                why = Phrase("force step inside", (link, listed([*map(self.name, found)])))
+                yield ForceStep("inside", why, [read.pop(s) for s in found], found, link)
+        yield from self._couples(group)
+
+    def _moments(self, group: ForceGroup) -> Iterator[ForceStep]:
+        """The moment equations that give parts of forces."""
+        held = next((v for v in group.polygon if v.part == "n"), None) if group.kind in ("RPP", "RPR") else None
+        if held is not None:
+            said = Phrase("force reason along", (held.link.split("/")[0], self.name(held.symbol, "n")))
+            yield ForceStep("moments", said, (), (held.symbol,), "n")
+        for one in group.moments:
+            symbol, part = one.unknown.symbol, one.unknown.part
+            links, point = _links(one.links), f"${self.letters.point(one.about)}$"
+            if not one.terms and group.way == "polygon" and group.kind != "RPR":
+                said = Phrase("force two-force member", (links, self.name(symbol), point))
+                yield ForceStep("moments", said, (), (symbol,), part)
+                continue
+            # a part, where both stand in the polygon, or where it is nought and the force lies along the bar
+            parts = sum(v.symbol == symbol and v.part != "" for v in group.polygon)
+            name = self.name(symbol, part if parts > 1 or not balance(self.sheet, one)[2] else "")
+            key = "driver" if group.way == "driver" else "guide" if group.kind == "RPR" else "pin"
+            said = Phrase(f"force reason {key}", (point, links, name))
+            yield ForceStep("moments", said, (*self._arms(one, name), self._equation(one, name)), (symbol,), part)
+
+    def _couples(self, group: ForceGroup) -> Iterator[ForceStep]:
+        """Couples of sliding pairs with the lines of their forces, and moments that balance."""
+        units = self.sheet.scene.units
+        for one in group.couples:
+            if not any(link in self.sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
+                continue
+            symbol = one.unknown.symbol
+            name = self.name(symbol)
+            if symbol.other and not one.value:
+                yield ForceStep("couples", Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), (symbol,))
+                continue
+            work: list[Wording] = [*self._arms(one, name), self._equation(one, name)]
+            for force, (_, shifted) in group.lines.items():
+                if (force.link, force.other) == (symbol.link, symbol.other):
+                    shift = number(abs(shifted) / units.metres, MOST)
+                    work.append(Phrase("force line shifted", (self.name(force), shift, units.length)))
+            key = "force reason couple" if symbol.other else "force reason balance"
+            yield ForceStep("couples", Phrase(key, (_links(one.links), name)), work, (symbol,))
+
+    def _arms(self, one: MomentEquation, name: str) -> list[Phrase]:
+        """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
+        of = [*((self.name(t.symbol), t.arm) for t in one.terms), (name, one.unknown.arm)]
+        arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
+        scale = Neutral(f"× {amount(self.sheet.scales.length, 12)} m/mm")
+        return [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+
+    def _equation(self, one: MomentEquation, name: str) -> str:
+        """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
+        scene = self.sheet.scene
+        point = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
+        terms, arm, total = balance(self.sheet, one)
+        whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
+        # its sense is that in which it comes out positive
+        whole += f" {'−' if arm and total < 0 else '+'} {name}" + (f"·{written(arm)}" if arm else "")
+        value = number(float(abs(total) if arm else total), MOST) if total else "0"
+        unit = scene.units.force + ("" if arm else "·m")
+        return f"$ΣM_{{{point}}}$ = {whole.strip().removeprefix('+ ')} = 0;  {name} = {value} {unit}"
+
+    def read_off(self, state: ForceState, group: ForceGroup) -> dict[Symbol, str]:
+        """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
+        force, found = self.sheet.scene.units.force, dict[Symbol, str]()
+        for vector in chain(group.polygon, *group.inner.values()):
+            symbol, back = vector.symbol, opposite(vector.symbol)
+            if vector.known or symbol in found or (symbol.other and back in found):
+                continue
+            span = state.vectors.get(symbol, state.vectors.get(back))
+            size = on_paper(abs(vector.span if span is None else span))
+            value = f"{written(product(size, self.per_mm))} {force}"
+            sum_ = f"{written(size)} mm × {written(self.per_mm)} {force}/mm = {value}"
+            nothing = abs(vector.span if span is None else span) < ZERO
+            found[symbol] = f"{self.name(symbol)} = {'0' if nothing else sum_}"
+        return found
+
+    def _laid(self, group: ForceGroup) -> list[str]:
+        """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each known force of a polygon."""
+        force, per_mm, lines = self.sheet.scene.units.force, self.forces.per_mm, []
+        per = per_mm / self.sheet.scene.units.newtons
+        for v in laid_off(group):
+            value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
+            of = (m for m in group.moments if m.unknown.symbol == v.symbol and (m.unknown.part == v.part or not v.part))
+            by_moments = next((m for m in of if abs(abs(m.value) / per_mm - abs(v.span)) < SAME), None)
+            if by_moments is not None:
+                # as their sum gave it
+                value = amount(float(abs(balance(self.sheet, by_moments)[2])), MOST)
+                length = length if is_quotient(length, value, self.per_mm) else on_paper(float(value) / per)
+            one, two = (corner_at(group, place) for place in (v.tail, v.tip))
+            ends = f"${one}{two}$ = " if one != two else ""  # "" where they bear one letter
+            sum_ = f"{written(value)} {force} ÷ {written(self.per_mm)} {force}/mm = {written(length)} mm"
+            lines.append(f"{ends}{self.name(v.symbol, v.part)} = {sum_},  {pointing(v.span)}°")
+        return lines
+
+    def _closed_by(self, group: ForceGroup) -> Phrase | None:
+        """Through which ends of the chain the lines of the unknown forces go; None where that is not so."""
+        known, unknown = laid_off(group), [v for v in group.polygon if v.by == "closing"]
+        if not known or not unknown or len(unknown) > 2:
+            return None
+
+        def at(*places: complex) -> list[str]:
+            return [f"${corner_at(group, place)}$" for place in places]
+
+        first, last = known[0], known[-1]
+        begins, ends = (self.name(v.symbol, v.part) for v in (first, last))
+        if len(unknown) == 1:
+            only = self.name(unknown[0].symbol, unknown[0].part)
+            return Phrase("force closes", (ends, begins, only, *at(last.tip, first.tail)))
+        behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
+        before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
+        if behind is None or before is None:
+            return None
+        frame, sought = self.sheet.scene.frame.name, (behind, before)
+        ways = [f"${way}$" for v in sought if (way := self.letters.direction(v.direction, frame))]
+        if len(ways) < 2:
+            return None
+        one, two = ((way, self.name(v.symbol, v.part)) for way, v in zip(ways, sought, strict=True))
+        return Phrase("force lines meet", (ends, *one, begins, *two, *at(last.tip, first.tail, behind.tip)))
+
+    def lever(self, state: ForceState, lever: Lever) -> tuple[Phrase, Phrase]:
+        """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
+        units, balances = self.sheet.scene.units, lever.unknown.symbol
+        name, moment = self.name(balances), balances.kind == "M"
+        total = added_up(row.moment for row in lever.rows) / units.newtons
+        if moment:
+            values = lever.value, float(state.moments.get(balances) or 0.0)
+        else:
+            values = abs(lever.value), abs(state.vectors.get(balances, 0j)) * self.sheet.scales.force
+        lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), MOST)}"
+        rest = f"{'+' if total >= 0 else '−'} {number(abs(total), MOST)}"
+        unit = units.force + ("·m" if moment else "")
+        by_lever, by_polygons = (f"{number(v / units.newtons, MOST)} {unit}" for v in values)
+        return (
+            Phrase("lever sum", (Neutral(f"{lead} {rest} = 0"),)),
+            Phrase("lever balance", (Neutral(f"{name} = {by_lever}"), Neutral(by_polygons))),
+        )
 
 
 def _links(names: Sequence[str]) -> object:
     """Links by name, blocks of pins left out where they are not alone."""
     return listed([name for name in names if "/" not in name] or names)
-
-
-def _parted(sheet: Sheet, group: ForceGroup, one: MomentEquation) -> bool:
-    """Whether what the moments give is a part of the force: both parts stand in the polygon, or this part is nought and
-    the force lies along the bar."""
-    parts = sum(v.symbol == one.unknown.symbol and v.part != "" for v in group.polygon)
-    return parts > 1 or not balance(sheet, one).value
-
-
-def couple_sentences(sheet: Sheet, group: ForceGroup, letters: Letters) -> list[ForceSentence]:
-    """Couples of sliding pairs with the lines of their forces, and moments that balance."""
-    lines = list[ForceSentence]()
-    units = sheet.scene.units
-    for one in group.couples:
-        if not any(link in sheet.scene.by_name for link in one.links):  # a pin in a slot has no couple
-            continue
-        symbol = one.unknown.symbol
-        name = f"${force_letters(letters.convention, symbol)}$"
-        if symbol.other and not one.value:
-            lines.append(ForceSentence(Phrase("force no couple", (Neutral(f"{name} = 0"),)), (), symbol))
-            continue
-        key = "force reason couple" if symbol.other else "force reason balance"
-        work: list[Wording] = [*arm_lines(sheet, one, letters, name), _equation(sheet, one, letters, name)]
-        for force, (_, shifted) in group.lines.items():
-            if (force.link, force.other) == (symbol.link, symbol.other):
-                shift = number(abs(shifted) / units.metres, DIGITS)
-                name_of = f"${force_letters(letters.convention, force)}$"
-                work.append(Phrase("force line shifted", (name_of, shift, units.length)))
-        lines.append(ForceSentence(Phrase(key, (_links(one.links), name)), tuple(work), symbol))
-    return lines
-
-
-def _equation(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> str:
-    """``ΣM_C = 0: F_G5 x 0.0488 m ... = 0, F^t_R45 = -10.7 N``."""
-    units = sheet.scene.units
-    scene = sheet.scene
-    about = f"({one.about})" if one.about in scene.by_name and one.about not in scene.holders else one.about
-    terms, arm, total = balance(sheet, one)
-    whole = " ".join(f"{'−' if sign == '-' else '+'} {'·'.join(map(written, factors))}" for sign, factors in terms)
-    unit = f"{units.force}·m"
-    if not arm:
-        whole += f" + {name}"
-    else:
-        # its sense is that in which it comes out positive
-        whole += f" {'−' if total < 0 else '+'} {name}·{written(arm)}"
-        total = abs(total)
-        unit = units.force
-    value = number(float(total), DIGITS) if total else "0"
-    shown = whole.strip().removeprefix("+ ")
-    return f"$ΣM_{{{about}}}$ = {shown} = 0;  {name} = {value} {unit}"
-
-
-def lever_sum(sheet: Sheet, state: ForceState, lever: Lever, letters: Letters) -> tuple[Phrase, Phrase]:
-    """The sum of the moments on a lever in numbers, and what balances by it beside the value of the polygons."""
-    units = sheet.scene.units
-    balance = lever.unknown.symbol
-    name = f"${force_letters(letters.convention, balance)}$"
-    moment = balance.kind == "M"
-    total = added_up(row.moment for row in lever.rows) / units.newtons
-    if moment:
-        values = lever.value, float(state.moments.get(balance) or 0.0)
-    else:
-        values = abs(lever.value), abs(state.vectors.get(balance, 0j)) * sheet.scales.force
-    lead = f"{'−' if lever.unknown.moment < 0 else ''}{name}·{number(abs(lever.unknown.moment), DIGITS)}"
-    rest = f"{'+' if total >= 0 else '−'} {number(abs(total), DIGITS)}"
-    unit = f"{units.force}·m" if moment else units.force
-    by_lever, by_polygons = (f"{number(v / units.newtons, DIGITS)} {unit}" for v in values)
-    return (
-        Phrase("lever sum", (Neutral(f"{lead} {rest} = 0"),)),
-        Phrase("lever balance", (Neutral(f"{name} = {by_lever}"), Neutral(by_polygons))),
-    )
-
-
-def read_off(
-    sheet: Sheet, forces: ForceSheet, state: ForceState, group: ForceGroup, letters: Letters
-) -> dict[Symbol, str]:
-    """``F_R45 = 43.33 mm x 200 N/mm = 8666.4 N``, for each force that was found here."""
-    units = sheet.scene.units
-    per = amount(forces.per_mm / units.newtons, 12)
-    found = dict[Symbol, str]()
-    seen: set[Symbol] = set()
-    vectors = [*group.polygon, *(v for polygon in group.inner.values() for v in polygon)]
-    for vector in vectors:
-        back = opposite(vector.symbol)
-        if vector.known or vector.symbol in seen or (vector.symbol.other and back in seen):
-            continue
-        seen.add(vector.symbol)
-        span = state.vectors.get(vector.symbol, state.vectors.get(back))
-        if span is None:
-            span = vector.span
-        size = abs(span)
-        name = f"${force_letters(letters.convention, vector.symbol)}$"
-        if size < ZERO:
-            found[vector.symbol] = f"{name} = 0"
-            continue
-        value = written(product(on_paper(size), per))
-        sum_ = f"{written(on_paper(size))} mm × {written(per)} {units.force}/mm"
-        found[vector.symbol] = f"{name} = {sum_} = {value} {units.force}"
-    return found
 
 
 # -- polygons ----------------------------------------------------------------------------------------------------------
@@ -242,76 +427,21 @@ def corners(group: ForceGroup) -> tuple[tuple[str, complex, ForceVector], ...]:
 
 
 def corner_at(group: ForceGroup, place: complex) -> str:
-    """The letter of a corner as markup."""
-    letter, _, _ = min(corners(group), key=lambda corner: abs(corner[1] - place))
-    return f"${letter}$"
+    """The letter of the corner at a place (mm)."""
+    return min(corners(group), key=lambda corner: abs(corner[1] - place))[0]
 
 
-def laid_lines(sheet: Sheet, forces: ForceSheet, group: ForceGroup, letters: Letters) -> list[str]:
-    """``ab = P = 9000 N ÷ 100 N/mm = 90.00 mm, 180.0°`` for each of them."""
-    units, lines = sheet.scene.units, []
-    per = forces.per_mm / units.newtons
-    scale = written(amount(per, 12))
-    for v in laid_off(group):
-        value, length = to_lay_off(abs(v.span) * per, per, abs(v.span))
-        of = (m for m in group.moments if m.unknown.symbol == v.symbol and (m.unknown.part == v.part or not v.part))
-        by_moments = next((m for m in of if abs(abs(m.value) / forces.per_mm - abs(v.span)) < SAME), None)
-        if by_moments is not None:
-            # as their sum gave it
-            value = amount(float(abs(balance(sheet, by_moments).value)), DIGITS)
-            length = length if is_quotient(length, value, amount(per, 12)) else on_paper(float(value) / per)
-        lines.append(
-            f"{_ends(group, v)}{_name(v, letters)} = {written(value)} {units.force} ÷ {scale} {units.force}/mm = "
-            f"{written(length)} mm,  {pointing(v.span)}°"
-        )
-    return lines
-
-
-def closed_by(group: ForceGroup, letters: Letters, frame: str) -> Phrase | None:
-    """Through which ends of the chain the lines of the unknown forces go; None where that is not so."""
-    chain, unknown = laid_off(group), [v for v in group.polygon if v.by == "closing"]
-    if not chain or not unknown or len(unknown) > 2:
-        return None
-    first, last = chain[0], chain[-1]
-    if len(unknown) == 1:
-        (one,) = unknown
-        joined = [_name(v, letters) for v in (last, first, one)]
-        lettered = [corner_at(group, place) for place in (last.tip, first.tail)]
-        return Phrase("force closes", (*joined, *lettered))
-    behind = next((v for v in unknown if abs(v.tail - last.tip) < SAME), None)
-    before = next((v for v in unknown if abs(v.tip - first.tail) < SAME and v is not behind), None)
-    if behind is None or before is None:
-        return None
-    ways = [f"${way}$" for v in (behind, before) if (way := letters.direction(v.direction, frame))]
-    if len(ways) < 2:
-        return None
-    ends = (_name(last, letters), ways[0], _name(behind, letters))
-    corner = [corner_at(group, place) for place in (last.tip, first.tail, behind.tip)]
-    names = (*ends, _name(first, letters), ways[1], _name(before, letters))
-    return Phrase("force lines meet", (*names, *corner))
-
-
-def _ends(group: ForceGroup, vector: ForceVector) -> str:
-    """``ab = ``: the corners between which a force stands; "" where they bear one letter."""
-    one, two = (corner_at(group, place).strip("$") for place in (vector.tail, vector.tip))
-    return f"${one}{two}$ = " if one != two else ""
-
-
-class Balance(NamedTuple):
-    """A moment equation in numbers: its terms, each a sign and factors, force and arm (m) or a couple; the arm of the
-    unknown ("" where it is a couple), and what the others give for it (in the file's force, or that times m)."""
-
-    terms: tuple[tuple[str, tuple[str, ...]], ...]
-    arm: str
-    value: Decimal
+Balance: TypeAlias = tuple[tuple[tuple[str, tuple[str, ...]], ...], str, Decimal]
+"""A moment equation in numbers: its terms, each a sign and factors, force and arm (m) or a couple; the arm of the
+unknown ("" where it is a couple), and what the others give for it (in the file's force, or that times m)."""
 
 
 def balance(sheet: Sheet, one: MomentEquation) -> Balance:
     """The equation with as many figures of its arms, at last of its forces, as it wants to give what is drawn; what it
     gives is true as it is written."""
-    drawn = amount(abs(one.value) / sheet.scene.units.newtons, DIGITS)
+    drawn = amount(abs(one.value) / sheet.scene.units.newtons, MOST)
     tried = [_balance(sheet, one, carried, of_forces) for of_forces in FINER for carried in FINER]
-    return next((b for b in tried if amount(float(abs(b.value)), DIGITS) == drawn), tried[0])
+    return next((b for b in tried if amount(float(abs(b[2])), MOST) == drawn), tried[0])
 
 
 def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) -> Balance:
@@ -326,20 +456,35 @@ def _balance(sheet: Sheet, one: MomentEquation, carried: int, of_forces: int) ->
         terms.append(("-" if turn < 0 else "+", tuple(filter(None, (size, metres(term))))))
     total = -sum((Decimal(f"{sign}1") * math.prod(map(Decimal, factors)) for sign, factors in terms), Decimal(0))
     arm = metres(one.unknown)
-    return Balance(tuple(terms), arm, total / Decimal(arm) if arm else total)
+    return tuple(terms), arm, total / Decimal(arm) if arm else total
 
 
-def arm_lines(sheet: Sheet, one: MomentEquation, letters: Letters, name: str) -> list[Phrase]:
-    """The arms of a moment equation as the ruler gives them on the mechanism; ``name`` is that of its unknown."""
-    of = [(f"${force_letters(letters.convention, t.symbol)}$", t.arm) for t in one.terms]
-    of.append((name, one.unknown.arm))
-    arms = [f"{force} {written(on_paper(abs(arm)))} mm" for force, arm in of if arm is not None]
-    scale = Neutral(f"× {amount(sheet.scales.length, 12)} m/mm")
-    return [Phrase("force arms", arms=Neutral(",  ".join(arms)), scale=scale)] if arms else []
+# -- the lever ---------------------------------------------------------------------------------------------------------
 
 
-def _name(vector: ForceVector, letters: Letters) -> str:
-    return f"${force_letters(letters.convention, vector.symbol, vector.part)}$"
+def lever_on_page(sheet: Sheet, lever: Lever) -> tuple[Lever, float]:
+    """A lever of a size that a page shows, and m/s for one of its mm: the sheet's own where it is no virtual one."""
+    extent = Extent.around(spots_of(lever), 1.0)
+    if not lever.virtual and extent.width <= LEVER_ROOM[0] and extent.height <= LEVER_ROOM[1]:
+        return lever, lever.per_mm
+    metres = sheet.scene.units.rates.metres
+    extent = Extent(extent.width * lever.per_mm, extent.height * lever.per_mm)
+    per_mm = fitting_scale(extent, LEVER_ROOM, 1.0 / metres) * metres
+    times = lever.per_mm / per_mm
+
+    def larger(row: MomentTerm) -> MomentTerm:
+        pair = None if row.pair is None else (row.pair[0] * times, row.pair[1] * times)
+        arm = None if row.arm is None else row.arm * times
+        return replace(row, at=row.at * times, arm=arm, moment=row.moment * times, pair=pair)
+
+    ends, rows = {name: z * times for name, z in lever.ends.items()}, tuple(map(larger, lever.rows))
+    return replace(lever, per_mm=per_mm, ends=ends, rows=rows, unknown=larger(lever.unknown)), per_mm
+
+
+def spots_of(lever: Lever) -> list[complex]:
+    """The pole, the end points and the places of the forces of a lever (mm)."""
+    spots = [0j, *(row.at for row in lever.rows), *(z for row in lever.rows for z in row.pair or ())]
+    return [*spots, *(z for z in lever.ends.values() if abs(z) > SHORT)]
 
 
 # -- loads as they are given ------------------------------------------------------------------------------------------
@@ -416,28 +561,3 @@ def _spring_given(scene: Mechanism, spring: SpringOn, letters: Letters) -> Phras
     return Phrase("given spring", told)
 
 
-def _pull(start: str, rate: str, length: str, free: str) -> float:
-    """What the numbers come to as they are written, to as many figures as computed numbers have."""
-    return float(amount(float(start) + float(rate) * (float(length) - float(free)), MOST))
-
-
-def spring_lines(sheet: Sheet, forces: ForceSheet, letters: Letters) -> Iterator[Phrase]:
-    """The force of each spring from its length as it was measured."""
-    units = sheet.scene.units
-    for spring in sheet.scene.loading.springs:
-        name = Symbol("P", name=spring.name)
-        own, other = (one for one in forces.states[0].known if one.symbol == name)
-        length = abs(other.at - own.at) * sheet.scales.length
-        force = spring.preload + spring.rate * (length - spring.free)
-        start, rate = amount(spring.preload / units.newtons), amount(spring.rate * units.metres / units.newtons)
-        free, pull = amount(spring.free / units.metres), amount(force / units.newtons, MOST)
-        tried = [amount(length / units.metres, carried) for carried in FINER]
-        told_length = next((one for one in tried if _pull(start, rate, one, free) == float(pull)), tried[0])
-        preload = f"{written(start)} + " if spring.preload else ""
-        stretch, rate = f"({written(told_length)} − {written(free)})", written(rate)
-        size = f"{written(pull)} {units.force}"
-        markup = force_letters(letters.convention, name)
-        ends = "".join(letters.point(p) for p in spring.points)
-        total = Neutral(f"${markup}$ = {preload}{rate} × {stretch} = {size}")
-        key = "force spring" if force >= 0 else "force spring pushes"
-        yield Phrase(key, ends=ends, sum=total, link=spring.links[0])

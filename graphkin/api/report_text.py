@@ -78,23 +78,21 @@ def _forces(checked: Checked, language: str) -> list[str]:
     """How the forces were found, group by group, with the reason of each step."""
     if checked.forces is None:
         return []
-    from graphkin.account.forces import couple_sentences, group_caption, inertia_line, moment_sentences
+    from graphkin.account.forces import ForceAccount
     from graphkin.account.notation import letters_of
 
     sheet, forces = checked.sheet, checked.forces
-    letters = letters_of(sheet, sheet.scene.question.sheet.convention)
+    account = ForceAccount(sheet, forces, letters_of(sheet, sheet.scene.question.sheet.convention))
     per = f"1 mm = {checked.scales['force']:g} {sheet.scene.units.force}"
     lines = [word("forces", language), per]
-    lines += [inertia_line(sheet, one, letters) for one in forces.inertias.values()]
+    lines += map(account.inertia, forces.inertias.values())
     for number, state in enumerate(forces.states):
         if len(forces.states) > 1:
             lines.append(word("force with load" if number else "force without load", language))
         for count, group in enumerate(state.groups, 1):
-            lines.append(say(group_caption(group, count), language))
-            lines += [f"    {say(x, language)}" for told in moment_sentences(sheet, group, letters) for x in told.lines]
-            if group.way == "drawn system":
-                lines.append(f"    {say(Phrase('force reason system', (', '.join(group.links),)), language)}")
-            lines += [f"    {say(x, language)}" for told in couple_sentences(sheet, group, letters) for x in told.lines]
+            lines.append(say(account.caption(group, count), language))
+            steps = (s for s in account.of_group(state, group) if s.kind in ("moments", "system", "couples"))
+            lines += [f"    {say(told, language)}" for step in steps for told in (step.why, *step.work)]
     return [*(re.sub(r"[${}]", "", line) for line in lines), ""]
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.account.account import Account
+from graphkin.account.forces import ForceAccount
 from graphkin.account.notation import Letters, letters_of
 from graphkin.api.arguments import asked_here, driver_values, hand_of, placed
 from graphkin.api.checked import checked, solved_here
@@ -22,7 +23,6 @@ from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
-from graphkin.drawing.force_stages import force_stages
 from graphkin.drawing.write.svg import svg_element
 from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
@@ -334,9 +334,9 @@ def _force_steps(drawn: Drawn, letters: Letters, spoken: str) -> list[dict[str, 
         return []
     sheet = replace(drawn.checked.sheet, scales=replace(drawn.checked.sheet.scales, force=forces.per_mm))
     return [
-        {"n": step.number, "figure": stage.figure, "html": words_html(step.words[0][1]),
-         "work": [words_html(line) for line in step.work]}
-        for stage in force_stages(sheet, forces, letters, spoken) for step in stage.steps
+        {"n": step.number, "figure": stage.figure, "html": words_html(step.words(spoken)[0][1]),
+         "work": [words_html(line) for line in step.lines(spoken)]}
+        for stage in ForceAccount(sheet, forces, letters).stages() for step in stage.steps
     ]  # fmt: skip
 
 

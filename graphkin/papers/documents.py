@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from graphkin import table
-from graphkin.account.forces import given_loads
+from graphkin.account.forces import ForceAccount, ForceStage, given_loads
 from graphkin.account.headings import FIGURE_WORDS, drivers, number, rolling_starts, titles, written
 from graphkin.account.notation import pole, scale_statement
 from graphkin.account.voice import whole_sentence
@@ -22,7 +22,6 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.figures.forces import group_equation, group_picture
 from graphkin.drawing.figures.lever import lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
-from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth
 from graphkin.drawing.write.drawing import Drawing
@@ -489,9 +488,9 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     statement = Paragraph(spoken(scale_statement(lesson.scaled, lesson.letters.convention, "force"), language))
     lead: tuple[Heading | Paragraph, ...] = (Heading(said("forces", language)), statement)
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
-    for turn, stage in enumerate(force_stages(lesson.scaled, forces, lesson.letters, language)):
-        steps = Steps(tuple(StepItem(step.number, step.words, step.work) for step in stage.steps))
-        title = stage.title
+    for turn, stage in enumerate(ForceAccount(lesson.scaled, forces, lesson.letters).stages()):
+        steps = Steps(tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps))
+        title = stage.heading(language)
         if len(forces.states) > 1 and stage.group is not None:
             load = said("force with load" if stage.again else "force without load", language)
             title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))

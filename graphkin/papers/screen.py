@@ -16,6 +16,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from markupsafe import Markup
 
+from graphkin.account.forces import ForceAccount, ForceStage, ForceStep
 from graphkin.account.headings import FIGURE_WORDS, drivers, number, term
 from graphkin.account.notation import Letters, scale_statement
 from graphkin.account.voice import capital
@@ -30,7 +31,6 @@ from graphkin.drawing.figures.centres import background
 from graphkin.drawing.figures.forces import group_equation, group_picture
 from graphkin.drawing.figures.lever import lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
-from graphkin.drawing.force_stages import ForceStage, ForceStep, force_stages
 from graphkin.drawing.ink.primitives import Group, Primitive
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
 from graphkin.drawing.parts.insets import polygon_with_insets, strip_height
@@ -226,7 +226,7 @@ def _frames(views: Sequence[Lesson], pieces: Sequence[tuple[Piece, Box]]) -> Fra
     return frames | ({"centres": (reduce(Box.joined, near).grown(ROOM), 0.0)} if near else {})
 
 
-StageTold: TypeAlias = tuple[dict[str, str], str, Sequence[tuple[StepItem | ForceStep, dict[str, Json]]]]
+StageTold: TypeAlias = tuple[dict[str, str], str, Sequence[tuple[StepItem, dict[str, Json]]]]
 """A stage with its title and equation (HTML, SVG), the name of its figure, and its steps with what each finds."""
 
 
@@ -347,8 +347,9 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         return
     sheet, first = lesson.scaled, languages(language)[0]
     scale = words_html(scale_statement(sheet, lesson.letters.convention, "force"), first)
-    for turn, stage in enumerate(force_stages(sheet, forces, lesson.letters, language)):
-        name, svg, title, group = str(stage.figure), "", said_html(stage.title), stage.group
+    for turn, stage in enumerate(ForceAccount(sheet, forces, lesson.letters).stages()):
+        name, svg, group = str(stage.figure), "", stage.group
+        title = said_html(stage.heading(language))
         if group is not None:
             name = f"force-{turn}"
             drawn = group_picture(sheet, forces, stage, group, lesson.letters, language, WIDE, f"-{turn}")
@@ -359,7 +360,8 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
         if len(forces.states) > 1 and group is not None:
             load = said("force with load" if stage.again else "force without load", language)
             title += f" <small>{said_html(load)}</small>"
-        yield {"title": title, "svg": svg}, name, [(one, _force_found(lesson, stage, one)) for one in stage.steps]
+        told = ((StepItem(s.number, s.words(language), s.lines(language)), s) for s in stage.steps)
+        yield {"title": title, "svg": svg}, name, [(item, _force_found(lesson, stage, step)) for item, step in told]
     lever = lever_figure(sheet, forces, language=language, convention=lesson.convention)
     if lever is not None:
         figures.append(_figure("lever", lever, said_html(said("lever", language))))

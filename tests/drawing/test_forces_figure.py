@@ -13,10 +13,9 @@ from typing import Any
 import pytest
 
 import graphkin
-from graphkin.account.forces import balance
+from graphkin.account.forces import ForceAccount, ForceStage, balance
 from graphkin.account.notation import force_letters, letters_of
 from graphkin.drawing import svg_bytes
-from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.scene.symbol import Symbol
 from graphkin.words.written import amount, is_quotient
 from tests.solver.test_forces import loaded, scene_of
@@ -39,7 +38,7 @@ def stages_of(name: Any) -> tuple[ForceStage, ...]:
     assert checked.forces is not None
     sheet = checked.sheet
     sheet = replace(sheet, scales=replace(sheet.scales, force=checked.forces.per_mm))
-    return force_stages(sheet, checked.forces, letters_of(sheet, "chinese"), "en")
+    return tuple(ForceAccount(sheet, checked.forces, letters_of(sheet, "chinese")).stages())
 
 
 def vectors(svg: bytes) -> dict[str, complex]:
@@ -129,7 +128,7 @@ def test_the_lever_tells_both_values() -> None:
 def test_what_a_sum_of_moments_gives_is_laid_off_as_it_stands_there(name: str) -> None:
     compared = 0
     for stage in stages_of(name):
-        lines = [line for step in stage.steps for line in step.work]
+        lines = [line for step in stage.steps for line in step.lines("en")]
         sums = [re.search(r"(\$F[^$]*\$) = ([\d.e-]+) k?N$", line) for line in lines if "ΣM" in line]
         given = {m[1]: m[2] for m in sums if m}
         for line in lines:
@@ -161,7 +160,7 @@ def test_a_part_of_a_force_that_is_nought_is_not_told_as_the_force() -> None:
     pin = at_pin["links"][links[-1]]["points"][-1]
     scene = {**at_pin, "loads": {"Q": {"on": links[-1], "at": pin, "force": 400, "angle": 200}},
              "balance": {"on": at_pin["driver"]["link"]}}  # fmt: skip
-    lines = [line for stage in stages_of(scene) for step in stage.steps for line in step.work]
+    lines = [line for stage in stages_of(scene) for step in stage.steps for line in step.lines("en")]
     nought = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = 0 k?N$", line))}
     read = {m[1] for line in lines if (m := re.search(r"(\$F[^$]*\$) = [\d.]+ mm × ", line))}
     assert nought

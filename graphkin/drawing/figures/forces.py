@@ -10,14 +10,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from graphkin.account.forces import (
+    ForceAccount,
+    ForceStage,
     corner_at,
     corners,
-    couple_sentences,
     given_loads,
-    inertia_line,
-    moment_sentences,
-    read_off,
-    spring_lines,
 )
 from graphkin.account.headings import figure_title, term
 from graphkin.account.notation import Letters, as_vector, force_letters
@@ -30,7 +27,6 @@ from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import MARGIN, Block, FigurePage, column, framed, pages, panel, prose, row, rows
 from graphkin.drawing.equations import write_sum
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.force_stages import ForceStage, force_stages
 from graphkin.drawing.ink import strokes, symbols
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, Text, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, JOINT_RADIUS, RESULTANT, arrow, vector_group
@@ -103,7 +99,7 @@ def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block
     """Group by group in the order in which forces are found; where loads begin or end here, without and with them."""
     names: Counter[str] = Counter()
     state = None
-    for stage in force_stages(page.sheet, forces, page.letters, page.language):
+    for stage in ForceAccount(page.sheet, forces, page.letters).stages():
         if stage.group is None:
             continue
         if len(forces.states) > 1 and stage.state is not state:
@@ -114,12 +110,12 @@ def _groups(page: FigurePage, forces: ForceSheet, room: float) -> Iterator[Block
 
 def _given(page: FigurePage, forces: ForceSheet) -> Block:
     """Masses and loads, inertia forces, springs."""
-    sheet, letters = page.sheet, page.letters
-    inertia = [inertia_line(sheet, one, letters) for one in forces.inertias.values()]
+    account = ForceAccount(page.sheet, forces, page.letters)
+    inertia = [*map(account.inertia, forces.inertias.values())]
     return column(
-        page.prose((page.term("given"),), bold=True), page.prose(given_loads(sheet, letters)),
+        page.prose((page.term("given"),), bold=True), page.prose(given_loads(page.sheet, page.letters)),
         page.prose((Phrase("force inertia"),) * bool(inertia), bold=True), page.prose(inertia),
-        page.prose(spring_lines(sheet, forces, letters)),
+        page.prose(account.springs()),
     )  # fmt: skip
 
 
@@ -128,7 +124,7 @@ def _group(
 ) -> Iterator[Block]:
     """A group: its caption, its sketch beside its polygon, and what is written below; in parts where a page does not
     hold it."""
-    caption = page.prose((text for _, text in stage.title), 3.2, bold=True)
+    caption = page.prose((text for _, text in stage.heading(page.language)), 3.2, bold=True)
     first, *more = _pictures(page, forces, stage, group, names)
     parts = column(caption, first, gap=CLOSE), *more, _below(page, forces, stage, group)
     whole = column(*parts, gap=CLOSE)
@@ -182,15 +178,12 @@ def _pictures(
 def _below(page: FigurePage, forces: ForceSheet, stage: ForceStage, group: ForceGroup) -> Block:
     """Moments with their reasons, the vector equation with its rows, and what was read off."""
     sheet, letters = page.sheet, page.letters
-    said = [line for told in moment_sentences(sheet, group, letters) for line in told.lines]
-    if group.way == "drawn system":
-        said.append(Phrase("force reason system", (listed(group.links),)))
-    elif len(group.polygon) > 1 and group.way == "polygon":
+    said = stage.told("moments", "system")
+    if len(group.polygon) > 1 and group.way == "polygon":
         said.append(Phrase(about("force reason polygon", group.links), (listed(group.links),)))
     equation = group_equation(sheet, group, letters, page.language, page.width)
     rows_of = equation and (Piece({"labels": (Group(equation.children, id=""),)}), equation.height)
-    couples = [line for told in couple_sentences(sheet, group, letters) for line in told.lines]
-    read = read_off(sheet, forces, stage.state, group, letters)
+    couples, read = stage.told("couples"), ForceAccount(sheet, forces, letters).read_off(stage.state, group)
     return column(
         page.prose(said), Block(*rows_of) if rows_of else None,
         page.prose((*couples, *([";  ".join(read.values())] if read else []))), gap=CLOSE,
@@ -359,7 +352,7 @@ def _arrows(
         radius = 4.2 + 2.0 * sum(abs(at - z) < NEAR for z in places)
         places.append(at)
         arc = symbols.sense_arc(on_page(at), radius, 0.9, 1 if moment > 0 else -1)
-        group_id, step = f"acts-{tag}-{named.id}", stage.couples.get(named, stage.known)
+        group_id, step = f"acts-{tag}-{named.id}", stage.number_of("couples", named) or stage.known
         drawn.append(Group(arc, id=group_id, classes=("acting",), step=step))
         labels.append(Label.of(symbol(force_letters(letters.convention, named), 3.0),
                                on_page(at + radius * 0.7 * (1 + 1j)), f"label-{group_id}", step=step))  # fmt: skip
@@ -414,7 +407,7 @@ def _arms(stage: ForceStage, group: ForceGroup, times: float) -> list[Primitive]
     arms: list[Primitive] = []
     for equation in (*group.moments, *(c for c in group.couples if not c.unknown.symbol.other)):
         sought = equation.unknown
-        step = stage.moments.get((sought.symbol, sought.part), stage.couples.get(sought.symbol))
+        step = stage.number_of("moments", sought.symbol, sought.part) or stage.number_of("couples", sought.symbol)
         found: list[Primitive] = []
         for one in equation.terms:
             if one.arm is None or abs(one.arm) * times < 1.0:
@@ -504,7 +497,7 @@ def _between(stage: ForceStage, link: str, vector: ForceVector) -> str:
     """The letters of the corners between which a force stands, of a polygon that has them."""
     if stage.group is None or link:
         return ""
-    ends = [corner_at(stage.group, place).strip("$") for place in (vector.tail, vector.tip)]
+    ends = [corner_at(stage.group, place) for place in (vector.tail, vector.tip)]
     return "→".join(ends) if all(ends) and ends[0] != ends[1] else ""
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from graphkin.account.forces import lever_sum
+from graphkin.account.forces import SHORT, ForceAccount, lever_on_page, spots_of
 from graphkin.account.headings import written
 from graphkin.account.notation import Letters, as_vector, force_letters, pole
 from graphkin.checking.report import Report
@@ -15,7 +15,6 @@ from graphkin.construction.sheet import Sheet
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, table
 from graphkin.drawing.figures import Figure
-from graphkin.drawing.force_stages import SHORT, lever_extent, lever_on_page
 from graphkin.drawing.ink import strokes
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Primitive, on_page
 from graphkin.drawing.ink.symbols import COMPONENT, RESULTANT, arrow
@@ -61,7 +60,7 @@ def lever_figure(
     for number, (k, state, lever) in enumerate(shown):
         if len(forces.states) > 1:
             body.append(page.prose((Phrase("force with load" if k else "force without load"),), bold=True))
-        body += _lever(page, state, lever, str(number or ""))
+        body += _lever(page, ForceAccount(sheet, forces, page.letters), state, lever, str(number or ""))
     per = lever_on_page(sheet, shown[0][2])[1] / sheet.scene.units.rates.metres
     return page.drawing(
         page.at_drivers(page.term("lever")), column(*body, gap=3.0), "", title="lever",
@@ -69,10 +68,12 @@ def lever_figure(
     )  # fmt: skip
 
 
-def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Iterator[Block]:
+def _lever(
+    page: FigurePage, account: ForceAccount, state: ForceState, lever: Lever, tag: str
+) -> Iterator[Block]:
     """A lever, its scale, the moment of each force, their sum, and what balances beside the value of the polygons."""
     scaled, per_mm = lever_on_page(page.sheet, lever)
-    box, units = lever_extent(scaled), page.sheet.scene.units
+    box, units = Box.around(map(on_page, spots_of(scaled))), page.sheet.scene.units
     yield page.panel(
         box.height + 2 * ROOM,
         lambda room: _drawn(page.sheet, scaled, page.letters, room, room.centre - box.centre, tag),
@@ -83,7 +84,7 @@ def _lever(page: FigurePage, state: ForceState, lever: Lever, tag: str) -> Itera
          f"{word('moment about pole', each)}, {units.force}·mm"] for each in languages(page.language)
     ]  # fmt: skip
     yield table(heads, [_row(row, units.newtons, page.letters) for row in scaled.rows if row.force], COLUMNS)
-    total, balance = lever_sum(page.sheet, state, scaled, page.letters)
+    total, balance = account.lever(state, scaled)
     yield column(page.prose((total,)), page.prose((balance,), bold=True))
 
 
