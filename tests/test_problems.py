@@ -8,17 +8,16 @@ import re
 import string
 import tomllib
 from collections.abc import Iterator
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 import graphkin
+import graphkin.scene.designs
 from graphkin.api.report_text import report_text
 from graphkin.errors import CallError, Problem
-from graphkin.scene.designs import KINDS
 from graphkin.scene.scene import library_text
-from graphkin.scene.tables import FileTable, clause_of, keys_of
+from graphkin.scene.tables import FileTable, key_of, keys_of, meaning
 from graphkin.words import Phrase, area, from_others, say, word
 from tests.command import run
 
@@ -60,14 +59,17 @@ def test_every_problem_has_other_words_in_chinese():
     assert [] == [key for key in same if re.search("[a-z]{3}", neutral.sub("", ENGLISH[key]))]
 
 
-def test_what_a_key_is_about_has_chinese():
-    about = {
-        clause_of(key.metadata.get("description", ""))
-        for table in FileTable.__subclasses__()
-        for key in keys_of(table)
-    }
-    about |= {key.metadata.get("description", "") for design in KINDS.values() for key in fields(design)}
-    assert [] == sorted(text for text in about if text and isinstance(from_others(text), str))
+def test_what_the_words_tell_of_keys_is_of_keys_that_there_are():
+    keys = {f"{table.__name__}.{key_of(key)}" for table in FileTable.__subclasses__() for key in keys_of(table)}
+    assert [] == sorted(area("keys").keys() - keys)
+
+
+def test_every_key_has_its_meaning_in_words_or_a_name_that_says_it():
+    telling = {"SceneTables.units", "SceneTables.frame", "SceneTables.sheet", "SheetWishes.paper",
+               "SheetWishes.orientation", "SheetWishes.convention", "SheetWishes.language"}  # fmt: skip
+    silent = {f"{table.__name__}.{key_of(key)}" for table in FileTable.__subclasses__() for key in keys_of(table)
+              if not meaning(table, key_of(key)) and table.__name__ != "_DesignTables"}  # fmt: skip
+    assert telling == silent
 
 
 @pytest.mark.parametrize(("chinese", "sentence"), [

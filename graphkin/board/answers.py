@@ -31,9 +31,9 @@ from graphkin.errors import CallError, GraphkinError, Problem, SceneError, did_y
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import LARGEST_FILE, NEW, new_scene, parsed, put, resolved, safe_name
-from graphkin.scene.tables import clause_of
+from graphkin.scene.tables import as_sentence
 from graphkin.structure import mobility_of
-from graphkin.words import LANGUAGES, Phrase, area, from_others, say
+from graphkin.words import LANGUAGES, Phrase, area, say
 
 __all__ = ["LINK", "QUESTIONS", "Desk", "answer", "scene_link", "text_of_link"]
 
@@ -251,9 +251,10 @@ def _keep(desk: Desk, asked: Message) -> Answer:
 
 def _complete(desk: Desk, asked: Message) -> Answer:
     language, found = asked.spoken, completions(asked.text, asked.line, asked.column)
-    if language != LANGUAGES[0]:
-        found = [{**key, "detail": say(from_others(clause_of(key["detail"])), language)} for key in found]
-    return {"options": found}
+    said = (say(key["detail"], language) for key in found)
+    details = (as_sentence(detail) if language == LANGUAGES[0] else detail for detail in said)
+    labels = (str(key["label"]) for key in found)
+    return {"options": [{"label": label, "detail": detail} for label, detail in zip(labels, details, strict=True)]}
 
 
 def _open(desk: Desk, asked: Message) -> Answer:

@@ -11,7 +11,7 @@ from graphkin.errors import CallError, Problem, SceneError
 from graphkin.files import Json
 from graphkin.scene.scene import LARGEST_FILE, parsed
 from graphkin.scene.tables import item_of
-from graphkin.words import Phrase
+from graphkin.words import Phrase, Wording
 
 __all__ = ["changed", "completions", "line_of", "places"]
 
@@ -223,7 +223,7 @@ def _named(where: str) -> Iterable[str]:
 # -- what may be written --------------------------------------------------------------------------------------------
 
 
-def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
+def completions(text: str, line: int, column: int) -> list[dict[str, Wording]]:
     """What may stand at a place of the text: keys of the table there, or names of tables, points, links, guides.
 
     Parameters
@@ -232,7 +232,7 @@ def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
 
     Returns
     -------
-    label and detail of each
+    label and detail of each, this as a clause in any language
     """
     from graphkin.scene.scene_tables import SCENE
 
@@ -251,7 +251,7 @@ def completions(text: str, line: int, column: int) -> list[dict[str, str]]:
     return [{"label": name, "detail": ""} for name in _names(text, _parts(entry[2])[-1], before.count('"') % 2 == 1)]
 
 
-def _keys_of(head: tuple[str, ...]) -> dict[str, str]:
+def _keys_of(head: tuple[str, ...]) -> dict[str, Wording]:
     from graphkin.scene.scene_tables import SCENE
 
     if head[:1] == ("driver",):

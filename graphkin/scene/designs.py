@@ -24,7 +24,7 @@ from graphkin.files import Json, OwnTables, Tables
 from graphkin.plane import degrees, direction
 from graphkin.scene.scene import file_text, files_named, library, parsed, safe_name, shelf
 from graphkin.scene.scene_tables import SMALLEST, List, Magnitude, NotNegative, Number, Place, SheetWishes, Text
-from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, key, plain, shown, xy
+from graphkin.scene.tables import FileTable, Form, Units, file_table, file_table_by_name, plain, shown, xy
 from graphkin.words import Phrase, Wording
 
 __all__ = [
@@ -50,9 +50,9 @@ class SliderCrankTask(FileTable):
     """A slider-crank for a stroke, an offset of the slide's line from the crank's pivot, and K."""
 
     kind: ClassVar = "slider-crank"
-    stroke: Magnitude = key("stroke of the slider")
-    offset: NotNegative = key("offset of its line from the pivot", default=0.0)
-    K: Magnitude = key("coefficient of travel-speed variation")
+    stroke: Magnitude
+    offset: NotNegative = 0.0
+    K: Magnitude
 
 
 @file_table_by_name
@@ -60,10 +60,10 @@ class CrankRockerTask(FileTable):
     """A crank-rocker for the swing of its rocker and K."""
 
     kind: ClassVar = "crank-rocker"
-    swing: Magnitude = key("swing of the rocker in degrees")
-    rocker: Magnitude = key("length CD of the rocker")
-    K: Magnitude = key("coefficient of travel-speed variation")
-    frame: Magnitude = key("distance AD of the fixed pivots")
+    swing: Magnitude
+    rocker: Magnitude
+    K: Magnitude
+    frame: Magnitude
 
 
 @file_table_by_name
@@ -71,10 +71,10 @@ class GuideBarTask(FileTable):
     """A swinging guide bar that moves a ram by a rod, for the ram's stroke and K."""
 
     kind: ClassVar = "guide-bar"
-    stroke: Magnitude = key("stroke of the ram")
-    centres: Magnitude = key("distance AC of the fixed pivots")
-    K: Magnitude = key("coefficient of travel-speed variation")
-    rod: Magnitude | None = key("length of the rod, as long as the stroke if left out", default=None)
+    stroke: Magnitude
+    centres: Magnitude
+    K: Magnitude
+    rod: Magnitude | None = None
 
     @property
     def rod_length(self) -> float:
@@ -86,10 +86,10 @@ class LimitsTask(FileTable):
     """A crank-rocker whose rocker stands at two angles in its limit positions."""
 
     kind: ClassVar = "limits"
-    A: Point = key("pivot of the crank, [x, y]")
-    D: Point = key("pivot of the rocker, [x, y]")
-    rocker: Magnitude = key("length CD of the rocker")
-    angles: Pair = key("two angles of DC in degrees")
+    A: Point
+    D: Point
+    rocker: Magnitude
+    angles: Pair
 
 
 @dataclass(frozen=True)
@@ -109,9 +109,9 @@ class BarPlace:
 class PlacedBar(FileTable):
     """Where a bar lies, as a file has it."""
 
-    B: Point = key("the first point of the bar, [x, y]")
-    C: Point | None = key("The other point of the bar, [x, y].", default=None)
-    angle: Number | None = key("Instead of C: degrees of the bar.", default=None)
+    B: Point
+    C: Point | None = None
+    angle: Number | None = None
 
 
 @file_table_by_name
@@ -119,10 +119,10 @@ class BarPositionsTask(FileTable):
     """A four-bar whose coupler lies in three given places, by its moving pivots B and C, or by its fixed pivots."""
 
     kind: ClassVar = "three-positions"
-    positions: Bars = key("three places of the bar")
-    BC: Magnitude | None = key("length of the bar, where its places are told by B and an angle", default=None)
-    A: Point | None = key("a fixed pivot, [x, y]", default=None)
-    D: Point | None = key("the other fixed pivot, [x, y]", default=None)
+    positions: Bars
+    BC: Magnitude | None = None
+    A: Point | None = None
+    D: Point | None = None
     angles: tuple[float, ...] = field(default=(), metadata={"beside": True})  # as given, degrees
 
 
@@ -131,10 +131,8 @@ class FunctionTask(FileTable):
     """A four-bar whose rocker stands at given angles for three angles of its crank."""
 
     kind: ClassVar = "function"
-    frame: Magnitude = key("distance AD of the fixed pivots", default=1.0)
-    pairs: Annotated[List[Pair], Rule(min_length=3, max_length=3)] = key(
-        "three of [crank angle, rocker angle] in degrees"
-    )
+    frame: Magnitude = 1.0
+    pairs: Annotated[List[Pair], Rule(min_length=3, max_length=3)]
 
 
 DesignTask = SliderCrankTask | CrankRockerTask | GuideBarTask | LimitsTask | BarPositionsTask | FunctionTask

@@ -1,4 +1,6 @@
-"""The scene file, table by table: every key that may stand in it, its meaning, its unit, what holds without it.
+"""The scene file, table by table: every key that may stand in it, its unit, what holds without it.
+
+What each key means stands in the tables of words (``[keys]``), by the names of its table and its own.
 
 What a table says is read where the mechanism gets it (`graphkin.scene.reading`).  Where the format leaves something
 open, the docstring of `graphkin.scene` says how it is read.
@@ -109,19 +111,19 @@ Stated = Annotated[
 class Polar(FileTable):
     """A point at a distance and an angle from another point of the link."""
 
-    origin: PointName = key("The point of the link from which r is measured.", name="from")
-    r: Magnitude = key("Distance.", unit="length")
-    angle: Number = key("Degrees from the link's own x axis, or from the direction given by toward.", default=0.0)
-    toward: PointName | None = key("The point of the link at which angle is 0.", default=None)
+    origin: PointName = key(name="from")
+    r: Magnitude = key(unit="length")
+    angle: Number = 0.0
+    toward: PointName | None = None
 
 
 @file_table
 class Compass(FileTable):
     """A point by its distances from two others of the link: the corner of a plate by its sides."""
 
-    origins: TwoPoints = key("The two points of the link.", name="from")
-    r: TwoLengths = key("The two distances.", unit="length")
-    side: Literal["left", "right"] = key("Side of the directed line from the first to the second.")
+    origins: TwoPoints = key(name="from")
+    r: TwoLengths = key(unit="length")
+    side: Literal["left", "right"]
 
 
 FramePlace = Annotated[
@@ -141,74 +143,53 @@ At = Annotated[
 class Guide(FileTable):
     """A straight guide: any point of it and its direction; or a slot along a circle: its centre and radius."""
 
-    through: NameOrPlace | None = key(
-        "A point of the link by name, or [x, y] in the link's own axes.", unit="length", default=None
-    )
-    angle: Number | None = key("Direction in degrees from the link's own x axis.", default=None)
-    toward: PointName | None = key(
-        "Instead of angle: the point that the guide points to (of the link, fixed or drawn).", default=None
-    )
-    centre: NameOrPlace | None = key(
-        "Of a circular slot: a point of the link, or [x, y] in the link's own axes.", unit="length", default=None
-    )
-    r: Magnitude | None = key("Radius of a circular slot.", unit="length", default=None)
-    ends: Place | None = key(
-        "Where a circular slot is drawn: from one to the other, degrees from the link's own x axis.", unit="angle",
-        default=None,
-    )  # fmt: skip
+    through: NameOrPlace | None = key(unit="length", default=None)
+    angle: Number | None = None
+    toward: PointName | None = None
+    centre: NameOrPlace | None = key(unit="length", default=None)
+    r: Magnitude | None = key(unit="length", default=None)
+    ends: Place | None = key(unit="angle", default=None)
 
 
 @file_table
 class Disc(FileTable):
     """A round outline that a link carries."""
 
-    centre: PointName = key("A point of the link.")
-    r: Number = key("Its radius; negative: hollow, the body lies outside (a ring).", unit="length")
+    centre: PointName
+    r: Number = key(unit="length")
 
 
 @file_table
 class Frame(FileTable):
     """The fixed link."""
 
-    name: LinkName = key('Name of the fixed link, "0" if not given.', default="0")
-    points: dict[PointName, FramePlace] = key(
-        "Fixed pivots, [x, y] each, or polar from another, or by the distances from two others.", unit="length",
-        closed=True, default_factory=dict,
-    )  # fmt: skip
-    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
+    name: LinkName = "0"
+    points: dict[PointName, FramePlace] = key(unit="length", closed=True, default_factory=dict)
+    guides: dict[LinkName, Guide] = key(closed=True, default_factory=dict)
+    discs: dict[LinkName, Disc] = key(closed=True, default_factory=dict)
 
 
 @file_table
 class Link(FileTable):
     """A moving link."""
 
-    points: PointNames = key(
-        "Own points: two for a bar, one for a bar of no fixed length or a block, or none.", default=()
-    )
-    length: Magnitude | None = key("Distance of the two own points.", unit="length", default=None)
-    on: GuideRefs | None = key(
-        'What the link slides on: "3" (own axis of link 3), "6.h" (a guide), or two of them.', default=None
-    )
-    angle_on: Numbers | None = key(
-        "Degrees from the guide to the link's own x axis; one number for each guide.", default=None
-    )
-    at: dict[PointName, At] = key("Further points.", unit="length", closed=True, default_factory=dict)
-    guides: dict[LinkName, Guide] = key("Straight guides by name.", closed=True, default_factory=dict)
-    discs: dict[LinkName, Disc] = key("Round outlines by name.", closed=True, default_factory=dict)
-    start: Number | None = key(
-        "Where rolling leaves it open: degrees of its own axis (of a link with on, its travel) at the "
-        "scene's own driver value; 0 if left out.", default=None,
-    )  # fmt: skip
-    redundant: Switch = key("The link only repeats what others already hold.", default=False)
+    points: PointNames = ()
+    length: Magnitude | None = key(unit="length", default=None)
+    on: GuideRefs | None = None
+    angle_on: Numbers | None = None
+    at: dict[PointName, At] = key(unit="length", closed=True, default_factory=dict)
+    guides: dict[LinkName, Guide] = key(closed=True, default_factory=dict)
+    discs: dict[LinkName, Disc] = key(closed=True, default_factory=dict)
+    start: Number | None = None
+    redundant: Switch = False
 
 
 @file_table
 class Pin(FileTable):
     """A pin that runs in slots."""
 
-    of: LinkName = key("The link that has the pin.")
-    slots: GuideRefs = key('The guide it runs in ("3.s"), or a list of guides.', name="in")
+    of: LinkName
+    slots: GuideRefs = key(name="in")
 
 
 # -- what touches, cams ------------------------------------------------------------------------------------------------
@@ -230,23 +211,18 @@ TwoTeeth = Annotated[
 class Contact(FileTable):
     """Two outlines that touch."""
 
-    between: TwoOutlines = key('Two discs ("1.k", "2.w"), or a disc and a straight guide (a flat face: "1.k", "2.f").')
-    side: Literal["left", "right", "outside", "inside"] | None = key(
-        "Of a face: the side of the directed guide on which the disc lies, left if left out. "
-        "Of two discs: outside (if left out), or inside, the smaller in the larger.", default=None,
-    )  # fmt: skip
-    rolling: Switch = key("true: rolls without slip; false: slides.", default=False)
+    between: TwoOutlines
+    side: Literal["left", "right", "outside", "inside"] | None = None
+    rolling: Switch = False
 
 
 @file_table
 class Gear(FileTable):
     """Two wheels with teeth, or a wheel and a rack."""
 
-    between: TwoOutlines = key('The two wheels ("2", "4"); a rack, second, or a guide of it ("3.r").')
-    teeth: TwoTeeth = key('Numbers of teeth; negative: internal teeth; "rack" for the second.')
-    carrier: LinkName | None = key(
-        "The link that holds both axes (the wheel's axis and the rack's slide); found if left out.", default=None
-    )
+    between: TwoOutlines
+    teeth: TwoTeeth
+    carrier: LinkName | None = None
 
 
 LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567", "3-4-5", "4-5-6-7"]
@@ -256,67 +232,53 @@ LawName = Literal["uniform", "parabolic", "harmonic", "cycloidal", "345", "4567"
 class LawPiece(FileTable):
     """A piece of the law of a follower or a driver, from where the piece before it ends: a rise, a fall, or a dwell."""
 
-    to: Number = key("Where it ends: degrees of the cam, the last piece at 360; seconds of a driver.")
-    rise: Number | None = key(
-        "By how much the follower rises (length, or degrees of one that swings), or the driver's value grows.",
-        default=None,
-    )  # fmt: skip
-    fall: Number | None = key("Instead of rise: by how much it falls.", default=None)
-    by: LawName | None = key("The law of a rise or fall.", default=None)
+    to: Number
+    rise: Number | None = None
+    fall: Number | None = None
+    by: LawName | None = None
 
 
 @file_table
 class DriverLaw(FileTable):
     """How a driver moves over the time, from 0 s on: by one law, by several one after the other, or by a table."""
 
-    origin: Number | None = key("The driver's value at 0 s: degrees, or travel.", name="from", default=None)
-    to: Number | None = key("The driver's value at the end.", default=None)
-    rise: Number | None = key("Instead of to: by how much the value grows; negative where it falls.", default=None)
-    duration: Magnitude | None = key("Seconds from the beginning to the end.", default=None)
-    by: LawName | None = key("The law by which it goes from one to the other.", default=None)
-    pieces: Annotated[List[LawPiece], Rule(max_length=1000)] = key(
-        'Several, with dwells: [{ to = 0.5, rise = 90, by = "cycloidal" }, { to = 0.8 }].', default=()
-    )
-    table: Annotated[List[Place], Rule(max_length=5000)] = key(
-        "Instead of laws: [[time, value], ...], joined by a cubic without acceleration at its ends.", default=()
-    )
+    origin: Number | None = key(name="from", default=None)
+    to: Number | None = None
+    rise: Number | None = None
+    duration: Magnitude | None = None
+    by: LawName | None = None
+    pieces: Annotated[List[LawPiece], Rule(max_length=1000)] = ()
+    table: Annotated[List[Place], Rule(max_length=5000)] = ()
 
 
 @file_table
 class BaseCircle(FileTable):
     """The base circle of a cam."""
 
-    r: Magnitude = key("Its radius.", unit="length")
-    of: Literal["profile", "pitch"] = key(
-        "Of the profile, or of the pitch curve, on which the roller's centre runs.", default="profile"
-    )
+    r: Magnitude = key(unit="length")
+    of: Literal["profile", "pitch"] = "profile"
 
 
 @file_table
 class AllowedPressure(FileTable):
     """Greatest pressure angles that are allowed."""
 
-    rise: Number | None = key("Degrees, while the follower rises.", unit="angle", default=None)
-    fall: Number | None = key("Degrees, while it falls.", unit="angle", default=None)
+    rise: Number | None = key(unit="angle", default=None)
+    fall: Number | None = key(unit="angle", default=None)
 
 
 @file_table
 class Cam(FileTable):
     """A cam that turns about its first point, given by the law of its follower."""
 
-    follower: LinkName = key("The link that it moves: on a guide of the frame, or swinging about a point of the frame.")
-    law: List[LawPiece] = key('Pieces of the law: [{ to = 60, rise = 28, by = "harmonic" }, ...].')
-    base: BaseCircle = key('The base circle: { r = 30, of = "profile" }.')
-    sense: Literal[1, -1] = key(
-        "The cam degree is sense times the cam's own angle; -1: a cam that turns clockwise.", default=1
-    )
-    offset: Number | None = key(
-        "Distance of a sliding follower's line from the axis, positive where the axis is to its left.", unit="length",
-        default=None,
-    )  # fmt: skip
-    roller: Magnitude | None = key("Radius of the roller; a knife edge if left out.", unit="length", default=None)
-    flat: Switch = key("A flat face square to the line of a sliding follower.", default=False)
-    allow: AllowedPressure | None = key("Greatest pressure angles, judged.", default=None)
+    follower: LinkName
+    law: List[LawPiece]
+    base: BaseCircle
+    sense: Literal[1, -1] = 1
+    offset: Number | None = key(unit="length", default=None)
+    roller: Magnitude | None = key(unit="length", default=None)
+    flat: Switch = False
+    allow: AllowedPressure | None = None
 
 
 # -- what drives -------------------------------------------------------------------------------------------------------
@@ -326,48 +288,35 @@ class Cam(FileTable):
 class Driver(FileTable):
     """A driven angle."""
 
-    link: LinkName = key("The driven link.")
-    angle: Number | None = key("Degrees, counter-clockwise; may be left out with [drawn].", unit="angle", default=None)
-    omega: Number | None = key("rad/s, counter-clockwise positive.", unit="angular velocity", default=None)
-    rpm: Number | None = key("Instead of omega: turns per minute.", default=None)
-    speed: Number | None = key(
-        "Instead of omega: the speed of the point named by of, with the sign of the driver's turning.",
-        unit="velocity", default=None,
-    )  # fmt: skip
-    of: PointName | None = key("The point whose speed is given.", default=None)
-    alpha: Number = key("rad/s2.", unit="angular acceleration", default=0.0)
-    sense: Literal["clockwise", "counter-clockwise"] | None = key(
-        "The sense of omega, rpm or speed, which then is a size, and in which alpha counts.", default=None
-    )
-    relative_to: LinkName | None = key("Angle from this link's own axis, not the frame's.", default=None)
-    origin: Literal["dead point"] | None = key(
-        '"dead point": the angle counts from a dead point of the mechanism.', name="from", default=None
-    )
-    near: Number | None = key("Degrees: which dead point, where there are several.", unit="angle", default=None)
-    position: ShownName | None = key("Instead of angle: the name of a position of [positions].", default=None)
-    law: DriverLaw | None = key("Instead of omega and alpha: how the driver moves over the time.", default=None)
-    time: Number | None = key("Instead of angle: the moment of the law that is asked, in s.", default=None)
+    link: LinkName
+    angle: Number | None = key(unit="angle", default=None)
+    omega: Number | None = key(unit="angular velocity", default=None)
+    rpm: Number | None = None
+    speed: Number | None = key(unit="velocity", default=None)
+    of: PointName | None = None
+    alpha: Number = key(unit="angular acceleration", default=0.0)
+    sense: Literal["clockwise", "counter-clockwise"] | None = None
+    relative_to: LinkName | None = None
+    origin: Literal["dead point"] | None = key(name="from", default=None)
+    near: Number | None = key(unit="angle", default=None)
+    position: ShownName | None = None
+    law: DriverLaw | None = None
+    time: Number | None = None
 
 
 @file_table
 class DrivenSlide(FileTable):
     """A driven sliding pair."""
 
-    slide: SlideRef = key('The sliding link ("2"), the pair ("2/3") or a pin in a slot ("B/3").')
-    travel: Number | None = key(
-        "From the guide's origin to the sliding link's own; may be left out with [drawn].", unit="length", default=None
-    )
-    velocity: Number | None = key("Unit of speed, along the guide's sense.", unit="velocity", default=None)
-    acceleration: Number = key("Unit of speed per s, along the guide's sense.", unit="acceleration", default=0.0)
-    relative_to: LinkName | None = key("The guiding link, where there are two.", default=None)
-    origin: Literal["dead point"] | None = key(
-        '"dead point": the travel counts from a dead point of the mechanism.', name="from", default=None
-    )
-    near: Number | None = key("Travel: which dead point, where there are several.", unit="length", default=None)
-    law: DriverLaw | None = key(
-        "Instead of velocity and acceleration: how the driver moves over the time.", default=None
-    )
-    time: Number | None = key("Instead of travel: the moment of the law that is asked, in s.", default=None)
+    slide: SlideRef
+    travel: Number | None = key(unit="length", default=None)
+    velocity: Number | None = key(unit="velocity", default=None)
+    acceleration: Number = key(unit="acceleration", default=0.0)
+    relative_to: LinkName | None = None
+    origin: Literal["dead point"] | None = key(name="from", default=None)
+    near: Number | None = key(unit="length", default=None)
+    law: DriverLaw | None = None
+    time: Number | None = None
 
 
 def _form_of_driver(value: object) -> str:
@@ -394,84 +343,72 @@ STANDARD_GRAVITY = 9.80665
 class Gravity(FileTable):
     """Where weights pull, and how much."""
 
-    g: Magnitude = key("Acceleration of gravity, m/s2.", default=STANDARD_GRAVITY)
-    angle: Number = key("Its direction in degrees in the frame.", default=-90.0)
+    g: Magnitude = STANDARD_GRAVITY
+    angle: Number = -90.0
 
 
 @file_table
 class Mass(FileTable):
     """Mass of a moving link."""
 
-    at: NameOrPlace = key("The centre of mass: a point of the link, or [x, y] in its own axes.", unit="length")
-    mass: Magnitude | None = key("Its mass.", unit="mass", default=None)
-    weight: Magnitude | None = key("Instead of mass: its weight, a force.", unit="force", default=None)
-    inertia: NotNegative = key("Moment of inertia about the centre of mass.", unit="inertia", default=0.0)
+    at: NameOrPlace = key(unit="length")
+    mass: Magnitude | None = key(unit="mass", default=None)
+    weight: Magnitude | None = key(unit="force", default=None)
+    inertia: NotNegative = key(unit="inertia", default=0.0)
 
 
 @file_table
 class LoadPhase(FileTable):
     """When a load acts: on a part of a stroke, or between two values of the driver."""
 
-    stroke: SlideRef | None = key("The sliding pair on whose stroke it acts.", default=None)
-    sense: Number = key("1: while it slides along the guide's sense; -1: against it.", default=1.0)
-    start: NotNegative = key("Part of that stroke at which it begins.", name="from", default=0.0)
-    end: NotNegative = key("Part of that stroke at which it ends.", name="to", default=1.0)
-    driver: Place | None = key("Instead of stroke: two values of the first driver, growing between them.", default=None)
+    stroke: SlideRef | None = None
+    sense: Number = 1.0
+    start: NotNegative = key(name="from", default=0.0)
+    end: NotNegative = key(name="to", default=1.0)
+    driver: Place | None = None
 
 
 @file_table
 class Load(FileTable):
     """A force or a moment on a moving link."""
 
-    on: LinkName = key("The link.")
-    at: NameOrPlace | None = key(
-        "Where a force acts: a point of the link, or [x, y] in its own axes.", unit="length", default=None
-    )
-    force: Number | None = key("Size of a force.", unit="force", default=None)
-    moment: Number | None = key("Instead of force: a moment, counter-clockwise positive.", unit="moment", default=None)
-    angle: Number | None = key(
-        "Direction of a force in degrees in the frame, or from the axis of follows.", default=None
-    )
-    follows: LinkName | None = key("The link with whose own axis the force turns.", default=None)
-    against: SlideRef | None = key(
-        "Instead of angle: along this pair's guide, opposite to its sliding velocity.", default=None
-    )
-    when: LoadPhase | None = key("When it acts; always if left out.", default=None)
+    on: LinkName
+    at: NameOrPlace | None = key(unit="length", default=None)
+    force: Number | None = key(unit="force", default=None)
+    moment: Number | None = key(unit="moment", default=None)
+    angle: Number | None = None
+    follows: LinkName | None = None
+    against: SlideRef | None = None
+    when: LoadPhase | None = None
 
 
 @file_table
 class Spring(FileTable):
     """A spring between points of two links; its force is preload + rate * (length - free), a pull where positive."""
 
-    between: PointNames = key("The two points that it joins, of two links.")
-    rate: Magnitude = key("Its rate: force unit per length unit of the scene.", unit="stiffness")
-    free: NotNegative = key("Its free length.", unit="length")
-    preload: Number = key("Its pull at the free length (wound-in tension).", unit="force", default=0.0)
-    links: LinkNames | None = key(
-        "The links of the two points, where several have them; the first that has it.", default=None
-    )
+    between: PointNames
+    rate: Magnitude = key(unit="stiffness")
+    free: NotNegative = key(unit="length")
+    preload: Number = key(unit="force", default=0.0)
+    links: LinkNames | None = None
 
 
 @file_table
 class Balance(FileTable):
     """What keeps the mechanism in its motion: a moment, or a force through a point along a known line."""
 
-    on: LinkName = key("The link.")
-    at: NameOrPlace | None = key(
-        "Where a balancing force acts; a moment balances if left out.", unit="length", default=None
-    )
-    angle: NumberOrSquare | None = key(
-        'Its line in degrees in the frame, or "square" to the link\'s own axis.', default=None
-    )
+    on: LinkName
+    at: NameOrPlace | None = key(unit="length", default=None)
+    angle: NumberOrSquare | None = None
 
 
 @file_table
 class Flywheel(FileTable):
     """A flywheel for a wished evenness of the turn."""
 
-    on: LinkName = key("The link that carries it.")
-    delta: Magnitude = key("Coefficient of speed fluctuation.")
-    driving: Literal["constant"] = key("The driving moment over the turn.", default="constant")
+    on: LinkName
+    delta: Magnitude
+    driving: Literal["constant"] = "constant"
 
 
 # -- what is asked and stated ------------------------------------------------------------------------------------------
@@ -481,9 +418,9 @@ class Flywheel(FileTable):
 class StrokeStart(FileTable):
     """A place on the stroke of a slide."""
 
-    stroke: SlideRef = key('The sliding pair: "5/6".')
-    at: Share = key("Part of the stroke that is done, 0 to 1.", default=0.0)
-    sense: Literal[1, -1] = key("1: of the stroke that goes along the guide's sense, -1: against it.", default=1)
+    stroke: SlideRef
+    at: Share = 0.0
+    sense: Literal[1, -1] = 1
 
 
 Start = Annotated[
@@ -496,21 +433,11 @@ Start = Annotated[
 class Positions(FileTable):
     """Positions with names."""
 
-    count: Count | None = key(
-        "So many positions over a turn, numbered from 1 in the sense of the driver.", default=None
-    )
-    first: Start | None = key(
-        "Position 1: a driver value, or the start of a stroke; the driver's own value.", default=None
-    )
-    also: dict[PositionName, Start] = key(
-        "Further positions by name, each a driver value or a place of a stroke.", closed=True, default_factory=dict
-    )
-    show: tuple[ShownName, ...] = key(
-        'On the figure: "limits", "all", or names of positions.', default=("limits", "all")
-    )
-    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = key(
-        "What is drawn and dimensioned there.", default=("theta", "stroke", "K", "gamma")
-    )
+    count: Count | None = None
+    first: Start | None = None
+    also: dict[PositionName, Start] = key(closed=True, default_factory=dict)
+    show: tuple[ShownName, ...] = ("limits", "all")
+    marks: tuple[Literal["theta", "stroke", "K", "gamma"], ...] = ("theta", "stroke", "K", "gamma")
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -529,10 +456,8 @@ class Positions(FileTable):
 class PrintedTable(FileTable):
     """A table of published values in a file beside the scene."""
 
-    file: Text = key("A CSV file: heads are symbols, one column is called at.")
-    by: Literal["drawing", "computation"] = key(
-        "How the values were found; computed ones are judged by their digits.", default="drawing"
-    )
+    file: Text
+    by: Literal["drawing", "computation"] = "drawing"
 
 
 # -- the sheet, pictures, sets of problems -----------------------------------------------------------------------------
@@ -557,34 +482,29 @@ class Tools(FileTable):
     A step is that to which a value is read or laid off; the others are standard deviations.
     """
 
-    line_width: Tool = key("Width of a pencil line (mm); a point is pricked within half of it.", default=0.2)
-    ruler: Tool = key("Step of the ruler (mm): 0.5, or 0.1 interpolated.", default=0.1)
-    compass: Tool = key("Standard deviation of a compass radius (mm).", default=0.1)
-    set_square: Tool = key("Standard deviation of a direction set (degrees).", default=0.1)
-    protractor: Tool = key("Step of the protractor (degrees).", default=0.5)
+    line_width: Tool = 0.2
+    ruler: Tool = 0.1
+    compass: Tool = 0.1
+    set_square: Tool = 0.1
+    protractor: Tool = 0.5
 
 
 @file_table
 class Background(FileTable):
     """A photograph or scan to lie under the mechanism."""
 
-    file: Text = key("A PNG or JPEG, by its path from the scene file.")
-    points: dict[PointName, Place] = key(
-        "Two points of the frame or of [drawn], with their pixels [x, y] from the left upper corner.", closed=True
-    )
+    file: Text
+    points: dict[PointName, Place] = key(closed=True)
 
 
 @file_table
 class ReadScan(FileTable):
     """A drawing that somebody made of a figure, with what was read off the scan of it, in pixels."""
 
-    points: dict[EndName, Place] = key(
-        "Two ends that lie right, and so set scale and direction: of a polygon pole, B, B@3 or the symbol of a "
-        "part whose tip it is (an_C/B); of the mechanism points. Pixels [x, y] from the left upper corner."
-    )
-    read: dict[EndName, Place] = key("The other ends as they were read off, in pixels.")
-    file: Text | None = key("The scan itself, under the exact figure: PNG or JPEG, from the scene file.", default=None)
-    within: Magnitude = key("What a line may be off, as a part of the longest: 0.01 if left out.", default=0.01)
+    points: dict[EndName, Place]
+    read: dict[EndName, Place]
+    file: Text | None = None
+    within: Magnitude = 0.01
 
 
 @file_table
@@ -593,15 +513,15 @@ class SheetWishes(FileTable):
 
     paper: Literal["A5", "A4", "A3", "A2", "A1", "A0"] = "A4"
     orientation: Literal["portrait", "landscape"] = "portrait"
-    length_scale: Magnitude | None = key("mm of mechanism per mm of paper.", default=None)
-    velocity_scale: Magnitude | None = key("Units of speed per mm of paper.", default=None)
-    acceleration_scale: Magnitude | None = key("(unit of speed/s) per mm of paper.", default=None)
-    force_scale: Magnitude | None = key("Force units per mm of paper.", default=None)
-    loops: bool = key("Vector loops as a further page of the sheet.", default=False)
+    length_scale: Magnitude | None = None
+    velocity_scale: Magnitude | None = None
+    acceleration_scale: Magnitude | None = None
+    force_scale: Magnitude | None = None
+    loops: bool = False
     convention: Convention = "chinese"
     language: Language = "en"
-    tools: Tools = key("Tools of a pencil drawing.", name="instrument", default=Tools())
-    background: Background | None = key("A photograph or scan under the mechanism, at true scale.", default=None)
+    tools: Tools = key(name="instrument", default=Tools())
+    background: Background | None = None
 
     @property
     def size(self) -> tuple[float, float]:
@@ -614,23 +534,17 @@ class SheetWishes(FileTable):
 class Vary(FileTable):
     """How a set of problems is drawn from a scene."""
 
-    ranges: dict[str, Range] = key(
-        'Least and greatest value by key of the scene: "links.2.length" = [80, 120].', default_factory=dict
-    )
-    only: bool = key("Nothing varies but what has a range or is tied to it.", default=False)
-    keep: Keys = key("Keys that stay as they are: driver.omega.", default=())
-    ratios: List[Keys] = key("Lists of keys that keep their ratios: the others follow the first.", default=())
-    find: Symbols = key("Quantities of which each variant asks some.", default=())
-    ask: Asked | None = key("How many of them; all if left out.", default=None)
-    level: Level = key(
-        "easy: lines cross well, transmission is good; hard: the lines may cross flatter.", default="usual"
-    )
-    crossing: Least | None = key("Degrees at which lines cross at least; that of the level if left out.", default=None)
-    transmission: Least | None = key("Least transmission angle of two bars at the position, degrees.", default=None)
-    pressure: Least | None = key("Greatest pressure angle of a slide at the position, degrees.", default=None)
-    tolerance: Part | None = key(
-        "Part of an answer that a drawing may miss it by at most; 0.05 if left out.", default=None
-    )
+    ranges: dict[str, Range] = key(default_factory=dict)
+    only: bool = False
+    keep: Keys = ()
+    ratios: List[Keys] = ()
+    find: Symbols = ()
+    ask: Asked | None = None
+    level: Level = "usual"
+    crossing: Least | None = None
+    transmission: Least | None = None
+    pressure: Least | None = None
+    tolerance: Part | None = None
 
 
 # -- the whole file ----------------------------------------------------------------------------------------------------
@@ -640,62 +554,35 @@ class Vary(FileTable):
 class SceneTables(FileTable):
     """A mechanism at one position, with what is asked of it: the whole file."""
 
-    title: Text = key("Title in English.", default="")
-    title_zh: Text = key("Title in Chinese.", default="")
-    source: Text = key("Where the problem comes from.", default="")
-    source_zh: Text = key("The same in Chinese.", default="")
-    find: Symbols | None = key(
-        "Quantities asked for: v_D, a_B@3, v_B@3/B@2, omega_3, theta_3, d_B/C, K_5/6, ... All motion if left out.",
-        default=None,
-    )
+    title: Text = ""
+    title_zh: Text = ""
+    source: Text = ""
+    source_zh: Text = ""
+    find: Symbols | None = None
     units: Units = Units()
     frame: Frame = dataclasses.field(default_factory=Frame)
-    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = key("The moving links by name.", closed=True)
-    pins: dict[PointName, Pin] = key("Pins in slots, by the point.", closed=True, default_factory=dict)
-    contacts: dict[PointName, Contact] = key(
-        "Outlines that touch, by the name of the point of contact.", closed=True, default_factory=dict
-    )
-    gears: dict[LinkName, Gear] = key("Wheels with teeth by name.", closed=True, default_factory=dict)
-    driver: Drivers = key("What drives: one table [driver], or several [[driver]].", default=())
-    sketch: dict[PointName, Place] = key(
-        "Roughly where points lie: picks the assembly.", unit="length", closed=True, default_factory=dict
-    )
-    drawn: dict[PointName, Place] = key(
-        "Exact places of points of moving links in this position.", unit="length", closed=True, default_factory=dict
-    )
-    printed: dict[str, Stated] = key(
-        "Values that somebody published, by symbol, in scene units, degrees, rad/s and rad/s2, as numbers or (with "
-        'their digits, a unit, a sense) texts; by = "drawing" or "computation".', default_factory=dict,
-    )  # fmt: skip
-    printed_rows: tuple[dict[str, Stated], ...] = key(
-        "The same over a turn: tables with at (driver value or name of a position).", default=()
-    )
-    printed_table: PrintedTable | None = key("The same from a CSV file.", default=None)
-    scans: dict[Drawing, ReadScan] = key(
-        "Drawings to be judged by what was read off their scans: mechanism, velocity, acceleration.",
-        default_factory=dict,
-    )
-    positions: Positions | None = key("Positions with names, and their figure.", default=None)
-    loops: dict[LinkName, PointNames] = key(
-        "Vector loops by name, each the points that it goes through.", closed=True, default_factory=dict
-    )
-    cams: dict[LinkName, Cam] = key(
-        "Cams by the law of their follower, by the link.", closed=True, default_factory=dict
-    )
-    gravity: Gravity | None = key("Weights pull where this table stands.", default=None)
-    masses: dict[LinkName, Mass] = key("Masses of moving links.", closed=True, default_factory=dict)
-    loads: dict[LinkName, Load] = key("Forces and moments by name.", closed=True, default_factory=dict)
-    springs: dict[LinkName, Spring] = key(
-        "Springs between points of two links, by name.", closed=True, default_factory=dict
-    )
-    balance: Balance | None = key(
-        "What is unknown besides the joint forces; a moment on the driver if left out.", default=None
-    )
-    flywheel: Flywheel | None = key("A flywheel that evens out the turn.", default=None)
-    vary: Vary | None = key("How a set of problems is drawn from the scene.", default=None)
-    grading: dict[str, NotNegative] = key(
-        "Points of a class: for equations, drawing, values, and for single quantities by symbol.", default_factory=dict
-    )
+    links: Annotated[dict[LinkName, Link], Rule(min_length=1)] = key(closed=True)
+    pins: dict[PointName, Pin] = key(closed=True, default_factory=dict)
+    contacts: dict[PointName, Contact] = key(closed=True, default_factory=dict)
+    gears: dict[LinkName, Gear] = key(closed=True, default_factory=dict)
+    driver: Drivers = ()
+    sketch: dict[PointName, Place] = key(unit="length", closed=True, default_factory=dict)
+    drawn: dict[PointName, Place] = key(unit="length", closed=True, default_factory=dict)
+    printed: dict[str, Stated] = key(default_factory=dict)
+    printed_rows: tuple[dict[str, Stated], ...] = ()
+    printed_table: PrintedTable | None = None
+    scans: dict[Drawing, ReadScan] = key(default_factory=dict)
+    positions: Positions | None = None
+    loops: dict[LinkName, PointNames] = key(closed=True, default_factory=dict)
+    cams: dict[LinkName, Cam] = key(closed=True, default_factory=dict)
+    gravity: Gravity | None = None
+    masses: dict[LinkName, Mass] = key(closed=True, default_factory=dict)
+    loads: dict[LinkName, Load] = key(closed=True, default_factory=dict)
+    springs: dict[LinkName, Spring] = key(closed=True, default_factory=dict)
+    balance: Balance | None = None
+    flywheel: Flywheel | None = None
+    vary: Vary | None = None
+    grading: dict[str, NotNegative] = key(default_factory=dict)
     sheet: SheetWishes = SheetWishes()
 
 

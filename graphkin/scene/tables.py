@@ -1,8 +1,9 @@
 """What the tables of a file have in common: kinds of values, keys, units, places by their path; and the form of a file,
 by which every wrong key and value in it is told at once.
 
-A table of the file is a class, a key a field of it, made by `key`, which tells what stands there and in which unit:
-reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  A table holds
+A table of the file is a class, a key a field of it, whose type tells what may stand there, and `key` in which unit:
+reading (`in_si`) and writing (`in_units`) take it from there, and so does the JSON schema for editors.  What a key
+means is said by the tables of words, by the names of table and key.  A table holds
 what a file says in the file's own names; what may stand in it is asked when a scene is made (`Form.checked`).
 
 A wrong entry is reported and taken out, a misspelt key is reported and read as the key that was meant, and what
@@ -39,12 +40,12 @@ from pydantic import PlainValidator, Tag, TypeAdapter, ValidationError
 
 from graphkin.errors import Problem, SceneError, did_you_mean
 from graphkin.files import Json, OwnTables, Tables
-from graphkin.words import Phrase, Wording, from_others
+from graphkin.words import Phrase, Wording, area, from_others, say
 
 __all__ = [
-    "FileTable", "Form", "KeyPath", "Measure", "Unit", "Units", "clause_of", "entries", "file_table",
-    "file_table_by_name", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "path_name", "path_of_key",
-    "plain", "put_at", "shown", "tidy", "value_at", "xy",
+    "FileTable", "Form", "KeyPath", "Measure", "Unit", "Units", "as_sentence", "entries", "file_table",
+    "file_table_by_name", "in_si", "in_units", "item_of", "key", "key_of", "keys_of", "meaning", "path_name",
+    "path_of_key", "plain", "put_at", "shown", "tidy", "value_at", "xy",
 ]  # fmt: skip
 
 
@@ -60,10 +61,9 @@ class FileTable:
 
 
 def key(
-    description: str, *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "",
-    closed: bool = False,
+    *, default: Any = MISSING, default_factory: Any = MISSING, name: str = "", unit: str = "", closed: bool = False
 ) -> Any:  # fmt: skip
-    """A key of a table.
+    """A key of a table of which more is to be said than its type and what holds without it.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def key(
     unit : the measure of its numbers, in whose unit the file has them; "" of what bears none or is left as written
     closed : of a table whose keys are names of a pattern: no others may stand in it
     """
-    about: dict[str, object] = {"description": description, "unit": unit}
+    about: dict[str, object] = {"unit": unit}
     if name:
         about["alias"] = name
     if closed:
@@ -167,18 +167,10 @@ MASSES: Mapping[str, float] = {"kg": 1.0, "g": 1e-3, "lb": 0.45359237}
 class Units(FileTable):
     """Units of the file."""
 
-    length: Literal["mm", "cm", "m", "in", "ft"] = key(
-        "The unit of every length; speeds are in it per second.", default="mm"
-    )
-    speed: Literal["mm/s", "cm/s", "m/s", "in/s", "ft/s"] | None = key(
-        "The unit of velocities, where it is not the length unit per second; accelerations are per s.", default=None
-    )
-    force: Literal["N", "kN", "kgf", "lbf"] = key(
-        "The unit of every force; moments are in it times metre.", default="N"
-    )
-    mass: Literal["kg", "g", "lb"] = key(
-        "The unit of every mass; inertias are in it times m2 (ft2 with lb).", default="kg"
-    )
+    length: Literal["mm", "cm", "m", "in", "ft"] = "mm"
+    speed: Literal["mm/s", "cm/s", "m/s", "in/s", "ft/s"] | None = None
+    force: Literal["N", "kN", "kgf", "lbf"] = "N"
+    mass: Literal["kg", "g", "lb"] = "kg"
 
     @property
     def metres(self) -> float:
@@ -402,15 +394,20 @@ class Form(Generic[AnyTable]):
         """
         return _within(self.whole, tuple(loc))
 
-    def keys_at(self, loc: Sequence[str | int]) -> dict[str, str]:
-        """The keys that may stand in the table at a place, with their descriptions."""
+    def keys_at(self, loc: Sequence[str | int]) -> dict[str, Wording]:
+        """The keys that may stand in the table at a place, with what the words tell of each."""
         table = self.table_at(loc)
-        return {} if table is None else {key_of(f): f.metadata.get("description", "") for f in keys_of(table)}
+        return {} if table is None else {key_of(f): meaning(table, key_of(f)) for f in keys_of(table)}
 
     def schema(self) -> dict[str, Json]:
         """The JSON schema (draft 2020-12) of such a file, for editors that complete and check TOML."""
         made = _without_null(_rules(self.whole, {}).json_schema(by_alias=True))
         assert isinstance(made, dict)
+        tables: Mapping[str, Any] = {self.whole.__name__: made, **made["$defs"]}
+        for table, node in tables.items():
+            for name, entry in node["properties"].items():
+                if said := as_sentence(say(meaning(table, name))):
+                    entry["description"] = said
         return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made, "title": self.title}
 
     def _meant(self, loc: KeyPath, raw: OwnTables) -> str | None:
@@ -428,7 +425,7 @@ class Form(Generic[AnyTable]):
         found: Wording = Phrase("found value", value=shown(value))
         wanted: Wording
         if kind == "missing":
-            wanted = from_others(clause_of(self.keys_at(loc[:-1]).get(str(loc[-1]), "")))
+            wanted = self.keys_at(loc[:-1]).get(str(loc[-1]), "")
             if loc == ("links",):
                 wanted = Phrase("a scene has moving links links.1 and so")
             elif loc[0] == "driver" and loc[-1] == "link":
@@ -640,9 +637,15 @@ def path_name(path: Iterable[str | int]) -> str:
     return ".".join(parts) or "the file"
 
 
-def clause_of(description: str) -> str:
-    """The description of a key as a clause of a problem."""
-    return description[:1].lower() + description[1:].rstrip(".")
+def meaning(table: type[FileTable] | str, key: str) -> Wording:
+    """What a key of a table means and what holds without it, as a clause; "" of one whose name and choices say all."""
+    said = f"{table if isinstance(table, str) else table.__name__}.{key}"
+    return Phrase(said) if said in area("keys") else ""
+
+
+def as_sentence(clause: str) -> str:
+    """A clause in English as a sentence."""
+    return clause and f"{clause[:1].upper()}{clause[1:]}."
 
 
 def _written_path(loc: KeyPath) -> KeyPath:

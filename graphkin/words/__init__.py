@@ -218,26 +218,18 @@ def alternatives(names: Iterable[str]) -> Wording:
 
 
 def from_others(sentence: Wording) -> Wording:
-    """A sentence of another program (the operating system, the TOML parser, the command line), or the description of a
-    file's key, known by its words in the table of English; one that is not there stays as it is.
+    """A sentence of another program (the operating system, the TOML parser, the command line), known by its words in
+    the table of English; one that is not there stays as it is.
 
     >>> say(from_others("No such command 'drw'."), "zh")
     '没有命令“drw”'
     """
     if isinstance(sentence, Phrase):
         return sentence
-    if key := _descriptions().get(sentence):
-        return Phrase(key)
     for key, pattern in _sentences_of_others():
         if match := pattern.fullmatch(sentence):
             return Phrase(key, **{name: from_others(gap) for name, gap in match.groupdict().items()})
     return sentence
-
-
-@cache
-def _descriptions() -> Mapping[str, str]:
-    """The keys of the descriptions of a file's keys, by their English."""
-    return {text.format(): key for key, text in area("keys").items()}
 
 
 @cache
