@@ -19,16 +19,7 @@ from graphkin.api.answers import Answers, AnswersLike, Unread, as_answers
 from graphkin.api.arguments import At, SceneLike, as_scene, driver_values, known_words, placed
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
-from graphkin.checking.audit import (
-    Judged,
-    computing_errors,
-    exact_rows,
-    explained,
-    explained_by_digits,
-    judge,
-    judged_by_digits,
-    with_gaps,
-)
+from graphkin.checking.audit import Judged, judge, judge_table, with_gaps
 from graphkin.checking.report import Known
 from graphkin.checking.scans import JudgedScan, judge_scans
 from graphkin.checking.slips import Evidence, ValuesElsewhere
@@ -40,7 +31,7 @@ from graphkin.plane import added_up
 from graphkin.scene.asked import spelling_of
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol, Value
-from graphkin.solver import Motion, as_drawn, driver_range, exact_values, senses_along, structure_of, value_of
+from graphkin.solver import Motion, as_drawn, driver_range, exact_values, structure_of
 from graphkin.words import Phrase, say, word
 
 if TYPE_CHECKING:
@@ -50,8 +41,6 @@ __all__ = ["Audited", "audit"]
 
 POSITIONS = 72
 MOST_DRAWN = 6  # rows of a table that are drawn each
-MOST_PREDICTED = 4  # positions of a longer one that are
-MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values look like
 MOST_LOOPS = 24  # rows of a table of which wrong angles are told with the gaps of their loops
 
 FULL = ("right", "within drafting accuracy", "right from own values")
@@ -324,7 +313,7 @@ def audit(
     if len(table) <= MOST_DRAWN and all(who.by == "drawing" for who in table):
         judged = tuple((who, judge(case(who.at, who.variant), who.values) if who.values else ()) for who in people)
     else:
-        rows = judged_table(given, table, at, case)
+        rows = dict(zip(map(id, table), judged_table(given, table, at, case), strict=True))
         judged = tuple(
             (who, rows[id(who)] if id(who) in rows else judge(case(who.at, who.variant), who.values)) for who in people
         )
@@ -424,92 +413,32 @@ def _stated(scene: Mechanism) -> tuple[Answers, ...]:
     return tuple(found)
 
 
-def judged_table(
-    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
-) -> dict[int, tuple[Judged, ...]]:
-    """Rows of a table: all positions solved at once, judged by their digits; only what is wrong is looked into, and of
-    a table that was drawn some positions are drawn to see what a pencil keeps within."""
-    symbols = list(dict.fromkeys(p.symbol for who in table for p in who.values))
+def _over_places(scene: Mechanism, table: Sequence[Answers], at: At) -> Motion:
+    """The exact motion at the positions of some answers."""
     reach = driver_range(structure_of(scene))
-    key = scene.drivers[0].key
-    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(key) for who in table]
-    own = scene.drivers[0].values[0]
+    driver = scene.drivers[0]
+    places = [(driver_values(scene, at if who.at is None else who.at) or {}).get(driver.key) for who in table]
+    own = driver.values[0]
     motion = reach.motion(reach.offsets(np.array([own if place is None else place for place in places])))
     if not motion.ok.all():
         k = int(np.argmin(motion.ok))
-        where = scene.unit_of(scene.drivers[0]).said(float(motion.values[k, 0]))
-        status = str(motion.status[k])
-        raise Unsolvable(
-            status,
-            Problem(
-                Phrase("driver at", key=key, where=where),
-                motion.said(k),
-            ),
-        )
-    turning = [s for s in symbols if s.scope in ("turn", "cycle")]
-    value = exact_values(solved_here(scene, None), turning)
-    exact = exact_rows(motion, symbols, {s: float(value(s).real) for s in turning})
-    signed = _signed_columns(table, motion)
-    computed = any(who.by == "computation" for who in table)
-    errors = computing_errors(motion, [s for s in symbols if s not in turning]) if computed else {}
+        where = Phrase("driver at", key=driver.key, where=scene.unit_of(driver).said(float(motion.values[k, 0])))
+        raise Unsolvable(str(motion.status[k]), Problem(where, motion.said(k)))
+    return motion
+
+
+def judged_table(
+    scene: Mechanism, table: Sequence[Answers], at: At, case: Callable[[float | str | None], Evidence]
+) -> list[tuple[Judged, ...]]:
+    """Rows of a table: all positions solved at once, judged by their digits."""
+    turning = {p.symbol for who in table for p in who.values if p.symbol.scope in ("turn", "cycle")}
+    value = exact_values(solved_here(scene, None), tuple(turning))
+    motion = _over_places(scene, table, at)
     names = [_named(scene, who.at, motion.values[row, 0]) for row, who in enumerate(table)]
-    made: dict[int, tuple[Judged, ...]] = {}
-    looked_into = 0
-    for row, who in enumerate(table):
-        judged = []
-        for stated in who.values:
-            by_line = who.by == "computation" and stated.symbol in signed and stated.direction is None
-            printed = replace(stated, signed=True) if by_line else stated
-            right = exact(row, printed)
-            error = errors.get(printed.symbol) if who.by == "computation" else None
-            one = judged_by_digits(printed, right, who.by, 0.0 if error is None else float(error[row]))
-            if one.verdict != "right" and who.by == "drawing":
-                near = case(table[_nearest(row, len(table))].at).held(printed.symbol)
-                one = judged_by_digits(printed, right, who.by, near.bound)
-            if one.verdict == "wrong":
-                one = explained_by_digits(one, exact, row, symbols, names)
-            judged.append(one)
-        if any(one.verdict == "wrong" and not one.looks_like for one in judged) and looked_into < MOST_EXPLAINED:
-            looked_into += 1
-            evidence, values = case(who.at), {p.symbol: p.value for p in who.values}
-            if who.by == "drawing":  # by what a pencil keeps within here, not near by
-                judged = [
-                    j if j.verdict == "right" or j.looks_like
-                    else judged_by_digits(j.printed, j.exact, who.by, evidence.held(j.printed.symbol).bound)
-                    for j in judged
-                ]  # fmt: skip
-            wrong = [one.printed.symbol for one in judged if one.verdict == "wrong"]
-            drawn = who.by == "drawing"
-            judged = [
-                explained(evidence, j, values, wrong, drawn) if j.verdict == "wrong" and not j.looks_like else j
-                for j in judged
-            ]
-        made[id(who)] = tuple(judged)
-    return made
-
-
-def _signed_columns(table: Sequence[Answers], motion: Motion) -> set[Symbol]:
-    """The vectors whose computed values are signed, as a program prints them: those along a guide, unless no sign
-    stands in the column although the motion goes both ways, which tells that sizes are meant."""
-    rows: dict[Symbol, list[int]] = {}
-    for row, who in enumerate(table):
-        for printed in who.values:
-            if who.by == "computation" and printed.symbol.is_vector and len(printed.texts) == 1:
-                rows.setdefault(printed.symbol, []).append(row)
-    signed = set()
-    for symbol, own in rows.items():
-        lines = senses_along(motion, symbol)
-        if lines is not None:
-            along = (value_of(motion, symbol) * lines.conjugate()).real[own]
-            if not (along.min() < 0.0 < along.max()):
-                signed.add(symbol)
-    return signed
-
-
-def _nearest(row: int, count: int) -> int:
-    """The row of a long table whose drawing tells what a pencil keeps within at another: some of them are drawn."""
-    step = max(1, math.ceil(count / MOST_PREDICTED))
-    return min(count - 1, step * round(row / step))
+    return judge_table(
+        motion, [(who.values, who.by) for who in table], {s: float(value(s).real) for s in turning}, names,
+        lambda row: case(table[row].at),
+    )  # fmt: skip
 
 
 def evidence_at(

@@ -12,9 +12,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
-from typing import Literal
 
 import numpy as np
 
@@ -23,11 +22,11 @@ from graphkin.checking.slip_likelihood import (
     CHANCE,
     COMPUTED,
     NEVER,
+    Judged,
     Suspect,
     Suspects,
-    Weighing,
+    Verdict,
     comparable,
-    likelihood,
     transcription_errors,
 )
 from graphkin.checking.slips import CANCELLING, NOTHING, Evidence
@@ -36,12 +35,7 @@ from graphkin.solver import Motion, forces_of, listed_points, senses_along, valu
 from graphkin.solver.pose import Array
 from graphkin.words import Phrase
 
-__all__ = [
-    "Judged", "Value", "computing_errors", "exact_rows", "explained", "explained_by_digits", "judge",
-    "judged_by_digits", "with_gaps",
-]  # fmt: skip
-
-Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
+__all__ = ["Judged", "Row", "Value", "computing_errors", "explained", "judge", "judge_table", "with_gaps"]
 
 RIGHT_SHARE = 0.7  # drawn values that are right but for drafting errors
 SURER = 10.0  # so much likelier must a slip be than drafting errors, to call a value in their reach wrong
@@ -50,28 +44,8 @@ FAR, FEW_DIGITS = 0.1, 3  # but so far off, to this many digits, they do
 COMPUTED_SHARE = 1e-4  # a computed value may be off by so much of itself, for inputs that were rounded
 LEAST_TURN = math.radians(1.5)  # directions are read off with a protractor
 TELLING = 4  # digits from which a number can be told to be another
-
-
-@dataclass(frozen=True)
-class Judged:
-    """One stated value with its verdict.
-
-    ``exact`` is what it is held against: signed where it has a sense, a complex number against two components, else
-    the size of the vector (SI).  ``deviation`` is the relative one, None where the exact value is zero; ``bound`` what
-    a pencil drawing keeps within (0 where nothing can be predicted, infinite where it keeps within nothing: then a
-    value that is not right is "not judged", unless a slip explains it to the digit).  ``follows_from`` are earlier
-    wrong values of the same person from which it follows.  ``gap`` tells of a wrong angle or travel the vector loop
-    that gives it, and how far that stays open with all stated values in it (m).
-    """
-
-    printed: Printed
-    exact: Value
-    deviation: float | None
-    verdict: Verdict
-    bound: float
-    looks_like: Phrase | None = None
-    follows_from: tuple[Symbol, ...] = ()
-    gap: tuple[str, float] | None = None
+MOST_PREDICTED = 4  # positions of a long table that are drawn, to see what a pencil keeps within
+MOST_EXPLAINED = 3  # rows of which the drawing is asked what their wrong values look like
 
 
 def with_gaps(case: Evidence, judged: Sequence[Judged]) -> tuple[Judged, ...]:
@@ -92,34 +66,28 @@ def judge(case: Evidence, stated: Sequence[Printed]) -> tuple[Judged, ...]:
 
 
 def _judged(case: Evidence, printed: Printed) -> Judged:
-    symbol = printed.symbol
-    held = case.held(symbol)
-    bound, exact = held.bound, comparable(printed, held.right, held.line)
-    off = abs(difference(printed, exact))
-    share = deviation(printed, exact)
-    judged = Judged(printed, exact, share, "right", bound)
+    symbol, held = printed.symbol, case.held(printed.symbol)
+    judged = Judged(printed, comparable(printed, held.right, held.line), bound=held.bound, line=held.line)
+    off, size, bound = abs(judged.off), abs(judged.exact), judged.bound
     turned = _turned(case, judged, held.right)
-    nothing = NOTHING * held.largest if exact == 0 and symbol.scope in CANCELLING else 0.0
-    if off <= printed.rounding + max(1e-9 * abs(exact), nothing):
+    nothing = NOTHING * held.largest if judged.exact == 0 and symbol.scope in CANCELLING else 0.0
+    if off <= printed.rounding + max(1e-9 * size, nothing):
         return turned or judged
     if math.isinf(bound):
-        judged = replace(judged, verdict="not judged")
-        fits = [s for s, _ in _weighed(case, judged) if not s.copied and _fits_to_the_digit(judged, s, case)]
-        if printed.sure_digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * abs(exact):
-            return judged
+        fits = [s for s, _ in _weighed(case, judged) if not s.copied and judged.shows(s)]
+        if printed.sure_digits < DIGITS or not fits or off <= printed.coarse + COMPUTED * size:
+            return replace(judged, verdict="not judged")
         return replace(judged, verdict="wrong", looks_like=max(fits, key=lambda s: s.share).phrase)
     if off > bound + printed.coarse:
         return replace(judged, verdict="wrong")
-    judged = replace(judged, verdict="within drafting accuracy")
     if turned:
         return turned
-    far = printed.digits >= FEW_DIGITS and off > FAR * abs(exact)
-    if far or (printed.sure_digits >= DIGITS and off > NEVER * abs(exact)):
+    far = printed.digits >= FEW_DIGITS and off > FAR * size
+    if far or (printed.sure_digits >= DIGITS and off > NEVER * size):
         best = max(_weighed(case, judged), key=lambda w: w[1], default=None)
-        drawn = RIGHT_SHARE * likelihood(printed, off, bound / 3, exact)
-        if best and best[1] > SURER * drawn and _fits_to_the_digit(judged, best[0], case):
+        if best and best[1] > SURER * RIGHT_SHARE * judged.by_errors() and judged.shows(best[0]):
             return replace(judged, verdict="wrong", looks_like=best[0].phrase)
-    return judged
+    return replace(judged, verdict="within drafting accuracy")
 
 
 def _turned(case: Evidence, judged: Judged, right: Value) -> Judged | None:
@@ -155,18 +123,10 @@ def _angle_of(case: Evidence, line: Line) -> float | None:
     return cmath.phase((two - one) * (1j if line.square else 1.0))
 
 
-def difference(printed: Printed, exact: Value) -> Value:
-    """A printed value less the exact one; of an angle without whole turns."""
-    off = printed.value - exact
-    return math.remainder(off.real, math.tau) if printed.symbol.measure == "angle" else off
-
-
-def deviation(printed: Printed, exact: Value) -> float | None:
-    if exact == 0:
-        return None
-    if isinstance(exact, complex):
-        return abs(printed.value - exact) / abs(exact)
-    return difference(printed, exact).real / exact
+def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
+    """Every explanation that fits, with its weight."""
+    yield from judged.weighed(case.suspects(judged.printed.symbol))
+    yield from judged.copied()
 
 
 def explained(
@@ -177,16 +137,15 @@ def explained(
     ``drawn`` is whether it may have been drawn badly, which no computed value was.
     """
     symbol = judged.printed.symbol
+    judged = replace(judged, line=case.held(symbol).line)
     chance = CHANCE / max(abs(judged.printed.value), abs(judged.exact), judged.printed.step)
-    found = list(_weighed(case, judged))
-    others = [s for s in wrong if s != symbol and case.consequences.before(s, symbol)]
-    if others:
-        found += _following(case, judged, own, others, chance)
-    best = max(found, key=lambda w: w[1], default=None)
-    if (best is None or best[1] <= chance) and drawn:
+    others = [s for s in wrong if s != symbol and case.before(s, symbol)]
+    found = [*_weighed(case, judged), *(_following(case, judged, own, others, chance) if others else ())]
+    best = max((one for one in found if one[1] > chance), key=lambda w: w[1], default=None)
+    if best is None and drawn:
         every = Suspects((*case.suspects(symbol).all, *(s for s, _ in found if s.follows_from)))
-        best = _weighing(case, judged).drawn_badly(every)
-    if best is None or (not drawn and best[1] <= chance):
+        best = judged.drawn_badly(every)
+    if best is None:
         return judged
     verdict: Verdict = "right from own values" if best[0].follows_from else "wrong"
     return replace(judged, verdict=verdict, looks_like=best[0].phrase, follows_from=best[0].follows_from)
@@ -195,83 +154,129 @@ def explained(
 def _following(
     case: Evidence, judged: Judged, own: Mapping[Symbol, Value], others: Sequence[Symbol], chance: float
 ) -> Iterator[tuple[Suspect, float]]:
-    """What a value comes to when the drawing is gone on with from earlier wrong ones."""
+    """What a value comes to when the drawing is gone on with from earlier wrong ones: from each that, taken for
+    granted, moves it by more than drafting errors do."""
     symbol = judged.printed.symbol
-    line = case.held(symbol).line
-    for value in case.consequences.values(own, symbol):
-        if abs(comparable(judged.printed, value, line) - judged.exact) <= judged.bound / 3:
-            continue
+
+    def moved(value: Value) -> bool:
+        return abs(comparable(judged.printed, value, judged.line) - judged.exact) > judged.bound / 3
+
+    for value in filter(moved, case.following(own, symbol)):
         follows = Suspects((Suspect(Phrase("slip follows"), value, 0.5),))
-        for one, weight in _weighing(case, judged).weighed(follows):
-            names = tuple(s for s in others if _moves(case, own, s, symbol, judged)) if weight > chance else ()
-            if names:
-                phrase = Phrase("slip follows", (", ".join(str(s) for s in names),))
-                yield replace(one, phrase=phrase, follows_from=names), weight
-
-
-def _moves(case: Evidence, own: Mapping[Symbol, Value], one: Symbol, symbol: Symbol, judged: Judged) -> bool:
-    """Whether one wrong value, taken for granted, moves another by more than drafting errors do."""
-    line = case.held(symbol).line
-    moved = case.consequences.values({one: own[one]}, symbol)
-    return any(abs(comparable(judged.printed, v, line) - judged.exact) > judged.bound / 3 for v in moved)
-
-
-def _weighing(case: Evidence, judged: Judged) -> Weighing:
-    return Weighing(judged.printed, judged.exact, judged.bound, case.held(judged.printed.symbol).line)
-
-
-def _weighed(case: Evidence, judged: Judged) -> Iterator[tuple[Suspect, float]]:
-    """Every explanation that fits, with its weight."""
-    weighing = _weighing(case, judged)
-    yield from weighing.weighed(case.suspects(judged.printed.symbol))
-    yield from weighing.copied()
-
-
-def _fits_to_the_digit(judged: Judged, suspect: Suspect, case: Evidence) -> bool:
-    if suspect.copied:
-        return True
-    value = comparable(judged.printed, suspect.value, case.held(judged.printed.symbol).line)
-    return abs(judged.printed.value - value) <= judged.printed.rounding + COMPUTED * abs(value)
+        for one, weight in judged.weighed(follows):
+            if weight > chance:
+                names = tuple(s for s in others if any(map(moved, case.following({s: own[s]}, symbol))))
+                phrase = Phrase("slip follows", (", ".join(map(str, names)),))
+                yield from [(replace(one, phrase=phrase, follows_from=names), weight)] if names else ()
 
 
 # -- tables, by their digits -------------------------------------------------------------------------------------------
 
+Row = tuple[Sequence[Printed], str]
+"""What is stated of one position, and how it was found: by "drawing" or by "computation"."""
 Exact = Callable[[int, Printed], Value]
 """The exact value that a stated one is held against, by the number of the position in a motion."""
 
 
-def exact_rows(motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbol, float]) -> Exact:
-    """What gives the exact value that a stated one is held against, by the number of the position in a motion.
+def judge_table(
+    motion: Motion, rows: Sequence[Row], of_turn: Mapping[Symbol, float], names: Sequence[str],
+    case: Callable[[int], Evidence],
+) -> list[tuple[Judged, ...]]:  # fmt: skip
+    """Judge a table by its digits; only what is wrong is looked into, and of a table that was drawn some positions are
+    drawn to see what a pencil keeps within.
 
     Parameters
     ----------
+    motion : the exact motion, a position for each row
     of_turn : the quantities of the whole turn, which are the same at all positions
+    names : of the positions
+    case : what is known of the position of a row
     """
-    largest = computing_errors(motion, symbols)
-    columns = {}
-    for s in symbols:
-        if s not in of_turn:
-            column = value_of(motion, s)
-            nothing = NOTHING / COMPUTED_SHARE * largest[s] if s in largest else _rounding(motion, s)
-            columns[s] = np.where(np.abs(column) <= nothing, 0.0, column).tolist()
-    lines: dict[Symbol, Array | None] = {}
+    symbols = list(dict.fromkeys(p.symbol for values, _ in rows for p in values))
+    errors = computing_errors(motion, [s for s in symbols if s not in of_turn])
+    exact, signed = _exact_rows(motion, symbols, of_turn, errors), _signed_columns(motion, rows)
+    made: list[tuple[Judged, ...]] = []
+    looked_into = 0
+    for row, (values, by) in enumerate(rows):
+        judged = []
+        for stated in values:
+            by_line = by == "computation" and stated.symbol in signed and stated.direction is None
+            printed = replace(stated, signed=True) if by_line else stated
+            one, error = Judged(printed, exact(row, printed)), errors.get(printed.symbol)
+            one = _by_digits(one, by, 0.0 if error is None or by == "drawing" else float(error[row]))
+            if one.verdict != "right" and by == "drawing":
+                one = _by_digits(one, by, case(_nearest(row, len(rows))).held(printed.symbol).bound)
+            judged.append(_explained_by_digits(one, exact, row, symbols, names) if one.verdict == "wrong" else one)
+        if any(_unexplained(one) for one in judged) and looked_into < MOST_EXPLAINED:
+            looked_into += 1
+            judged = _looked_into(case(row), judged, by)
+        made.append(tuple(judged))
+    return made
+
+
+def _unexplained(judged: Judged) -> bool:
+    return judged.verdict == "wrong" and not judged.looks_like
+
+
+def _looked_into(case: Evidence, judged: Sequence[Judged], by: str) -> list[Judged]:
+    """The values of a row, those that are wrong with what they look like at its own position."""
+    if by == "drawing":  # by what a pencil keeps within here, not near by
+        judged = [
+            j if j.verdict == "right" or j.looks_like else _by_digits(j, by, case.held(j.printed.symbol).bound)
+            for j in judged
+        ]
+    own = {j.printed.symbol: j.printed.value for j in judged}
+    wrong = [j.printed.symbol for j in judged if j.verdict == "wrong"]
+    return [explained(case, j, own, wrong, by == "drawing") if _unexplained(j) else j for j in judged]
+
+
+def _nearest(row: int, count: int) -> int:
+    """The row of a long table whose drawing tells what a pencil keeps within at another: some of them are drawn."""
+    step = max(1, math.ceil(count / MOST_PREDICTED))
+    return min(count - 1, step * round(row / step))
+
+
+def _signed_columns(motion: Motion, rows: Sequence[Row]) -> set[Symbol]:
+    """The vectors whose computed values are signed, as a program prints them: those along a guide, unless no sign
+    stands in the column although the motion goes both ways, which tells that sizes are meant."""
+    places: dict[Symbol, list[int]] = {}
+    for row, (values, by) in enumerate(rows):
+        for printed in values if by == "computation" else ():
+            if printed.symbol.is_vector and len(printed.texts) == 1:
+                places.setdefault(printed.symbol, []).append(row)
+    signed = set()
+    for symbol, own in places.items():
+        lines = senses_along(motion, symbol)
+        if lines is not None:
+            along = (value_of(motion, symbol) * lines.conjugate()).real[own]
+            if not (along.min() < 0.0 < along.max()):
+                signed.add(symbol)
+    return signed
+
+
+def _exact_rows(
+    motion: Motion, symbols: Sequence[Symbol], of_turn: Mapping[Symbol, float], errors: Mapping[Symbol, Array]
+) -> Exact:
+    """What gives the exact values of a table, without what rounding leaves of those that are none."""
+    columns, lines = dict[Symbol, list[Value]](), dict[Symbol, Array | None]()
+    for symbol in symbols:
+        if symbol not in of_turn:
+            column, nothing = value_of(motion, symbol), np.zeros(len(motion))
+            if symbol in errors:
+                nothing = NOTHING / COMPUTED_SHARE * errors[symbol]
+            elif symbol.scope == "force":
+                nothing = np.nan_to_num(forces_of(motion).bound[symbol.measure == "moment"])
+            columns[symbol] = np.where(np.abs(column) <= nothing, 0.0, column).tolist()
+            lines[symbol] = senses_along(motion, symbol)
 
     def exact(row: int, printed: Printed) -> Value:
         symbol = printed.symbol
         if symbol in of_turn:
             return of_turn[symbol]
-        value = columns[symbol][row]
-        if symbol not in lines:
-            lines[symbol] = senses_along(motion, symbol)
         line = lines[symbol]
-        return comparable(printed, value, None if line is None else complex(line[row]))
+        return comparable(printed, columns[symbol][row], None if line is None else complex(line[row]))
 
     return exact
-
-
-def _rounding(motion: Motion, symbol: Symbol) -> Array | float:
-    """What rounding leaves of a force or a moment that is none (SI), shape (n,)."""
-    return np.nan_to_num(forces_of(motion).bound[symbol.measure == "moment"]) if symbol.scope == "force" else 0.0
 
 
 def computing_errors(motion: Motion, symbols: Sequence[Symbol]) -> dict[Symbol, Array]:
@@ -318,24 +323,23 @@ def _reach_of(motion: Motion, link: str) -> float:
     return max((abs(one - other) for places in bars for one, other in combinations(places, 2)), default=0.0)
 
 
-def judged_by_digits(printed: Printed, exact: Value, by: str, bound: float) -> Judged:
+def _by_digits(judged: Judged, by: str, bound: float) -> Judged:
     """A stated value judged by its digits: computed ones may be off by ``bound`` too, and by `COMPUTED_SHARE` of
     themselves, for numbers that were rounded on the way; drawn ones by what a pencil keeps within (``bound``, SI;
     infinite where nothing can be judged)."""
-    off = abs(difference(printed, exact))
-    share = deviation(printed, exact)
+    off, rounding, size = abs(judged.off), judged.printed.rounding, abs(judged.exact)
     if by == "computation":
-        near = off <= printed.rounding + max(bound, COMPUTED_SHARE * abs(exact))
-        return Judged(printed, exact, share, "right" if near else "wrong", 0.0)
-    if off <= printed.rounding + 1e-9 * abs(exact):
-        return Judged(printed, exact, share, "right", bound)
-    if math.isinf(bound):
-        return Judged(printed, exact, share, "not judged", bound)
-    near = off <= bound + printed.coarse
-    return Judged(printed, exact, share, "within drafting accuracy" if near else "wrong", bound)
+        near = off <= rounding + max(bound, COMPUTED_SHARE * size)
+        return replace(judged, verdict="right" if near else "wrong")
+    verdict: Verdict = "within drafting accuracy" if off <= bound + judged.printed.coarse else "wrong"
+    if off <= rounding + 1e-9 * size:
+        verdict = "right"
+    elif math.isinf(bound):
+        verdict = "not judged"
+    return replace(judged, verdict=verdict, bound=bound)
 
 
-def explained_by_digits(
+def _explained_by_digits(
     judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
 ) -> Judged:
     """A wrong value of a table with what its digits are: the right one with a slip of the pen or a sign, that of
@@ -345,31 +349,23 @@ def explained_by_digits(
     ----------
     symbols, names : of the columns and rows of the table
     """
-    printed = judged.printed
+    printed, right = judged.printed, judged.exact
     if printed.digits < TELLING or isinstance(printed.value, complex):
         return judged
-    ways = _ways(judged, exact, row, symbols, names)
-    near = COMPUTED_SHARE * abs(printed.value) / 10
-    phrase = next((phrase for phrase, value in ways if abs(printed.value - value) <= printed.rounding + near), None)
-    return judged if phrase is None else replace(judged, looks_like=phrase)
 
-
-def _ways(
-    judged: Judged, exact: Exact, row: int, symbols: Sequence[Symbol], names: Sequence[str]
-) -> Iterator[tuple[Phrase, Value]]:
-    printed, right = judged.printed, judged.exact
-    value: Value = -right
-    yield Phrase("slip sign"), value
-    for power in (1, 2, 3):
-        for factor in (10.0**power, 0.1**power):
+    def ways() -> Iterator[tuple[Phrase, Value]]:
+        yield Phrase("slip sign"), -right
+        for factor in (sign for power in (1, 2, 3) for sign in (10.0**power, 0.1**power)):
             yield Phrase("slip factor", (f"{factor:g}",)), right * factor
-    for text, _, value in transcription_errors(printed):
-        if abs(value - right) <= printed.rounding + 0.1 * COMPUTED_SHARE * abs(right):
-            yield Phrase("slip pen", (text,)), printed.value
-    others = sorted((k for k in range(len(names)) if k != row), key=lambda k: abs(k - row))
-    for k in others:
-        yield Phrase("slip position", (names[k],)), exact(k, printed)
-    for symbol in symbols:
-        if symbol != printed.symbol and (symbol.is_vector or not isinstance(printed.value, complex)):
-            value = exact(row, replace(printed, symbol=symbol))
-            yield Phrase("slip other", (str(symbol),)), value
+        for text, _, value in transcription_errors(printed):
+            if abs(value - right) <= printed.rounding + 0.1 * COMPUTED_SHARE * abs(right):
+                yield Phrase("slip pen", (text,)), printed.value
+        for k in sorted(range(len(names)), key=lambda k: abs(k - row))[1:]:
+            yield Phrase("slip position", (names[k],)), exact(k, printed)
+        for symbol in symbols:
+            if symbol != printed.symbol:
+                yield Phrase("slip other", (str(symbol),)), exact(row, replace(printed, symbol=symbol))
+
+    near = printed.rounding + COMPUTED_SHARE * abs(printed.value) / 10
+    phrase = next((phrase for phrase, value in ways() if abs(printed.value - value) <= near), None)
+    return replace(judged, looks_like=phrase)

@@ -1,15 +1,16 @@
 """How likely each known slip is to have given a stated value: how often it is made, times how well its value fits the
-digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation); and how a number may
-have been copied wrong: digits swapped, misread, missed."""
+digits stated, as a number computed (to its last digit) or drawn (with the predicted deviation); the stated values with
+their verdicts; and how a number may have been copied wrong: digits swapped, misread, missed."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,11 +20,12 @@ from graphkin.scene.tables import Units
 from graphkin.words import Phrase
 
 __all__ = [
-    "CHANCE", "COMPUTED", "NEVER", "Slipped", "Suspect", "Suspects", "Weighing", "comparable", "likelihood",
+    "CHANCE", "COMPUTED", "NEVER", "Judged", "Suspect", "Suspects", "Verdict", "comparable", "likelihood",
     "transcription_errors",
 ]  # fmt: skip
 
 Reals = NDArray[np.float64]
+Verdict = Literal["right", "within drafting accuracy", "right from own values", "wrong", "not judged"]
 
 CHANCE = 0.15  # a wrong value lies anywhere, within its own size
 BAD = 3.0  # bounds of drafting: so far off a drawn value may lie that still shows what it was meant for
@@ -46,16 +48,6 @@ def comparable(printed: Printed, value: Value, line: complex | None) -> Value:
     # a signed number for a vector has a sense: along its line, if it has one
     signed = (complex(value) * complex(line).conjugate()).real if line is not None else -abs(value)
     return signed if isinstance(value, complex) else float(value)
-
-
-@dataclass(frozen=True)
-class Slipped:
-    """A mechanism drawn or computed with one slip, its share among wrong values (rough, from experience), and what
-    each quantity comes to with it (SI; None: nothing)."""
-
-    phrase: Phrase
-    share: float
-    value: Callable[[Symbol], Value | None]
 
 
 @dataclass(frozen=True)
@@ -111,30 +103,49 @@ class Suspects:
 
 
 @dataclass(frozen=True)
-class Weighing:
-    """A stated value against the exact one (SI), in the form of which it is stated.
+class Judged:
+    """One stated value with its verdict.
 
-    ``bound`` is what a pencil keeps within (infinite where it keeps within nothing), ``line`` the positive sense of a
-    vector that has one.
+    ``exact`` is what it is held against: signed where it has a sense, a complex number against two components, else
+    the size of the vector (SI).  ``bound`` is what a pencil drawing keeps within (0 where nothing can be predicted,
+    infinite where it keeps within nothing: then a value that is not right is "not judged", unless a slip explains it to
+    the digit), ``line`` the positive sense of a vector that has one.  ``follows_from`` are earlier wrong values of the
+    same person from which it follows.  ``gap`` tells of a wrong angle or travel the vector loop that gives it, and how
+    far that stays open with all stated values in it (m).
     """
 
     printed: Printed
     exact: Value
-    bound: float
-    line: complex | None
+    verdict: Verdict = "right"
+    bound: float = 0.0
+    line: complex | None = None
+    looks_like: Phrase | None = None
+    follows_from: tuple[Symbol, ...] = ()
+    gap: tuple[str, float] | None = None
+
+    @property
+    def off(self) -> Value:
+        """The stated value less the exact one; of an angle without whole turns."""
+        off = self.printed.value - self.exact
+        return math.remainder(off.real, math.tau) if self.printed.symbol.measure == "angle" else off
+
+    @property
+    def deviation(self) -> float | None:
+        """The relative deviation, None where the exact value is zero."""
+        if self.exact == 0:
+            return None
+        return abs(self.off) / abs(self.exact) if isinstance(self.exact, complex) else self.off.real / self.exact
+
+    def by_errors(self) -> float:
+        """How likely (per unit of the value) the right value comes out as stated, by errors of drawing alone."""
+        return float(likelihood(self.printed, abs(self.off), self.bound / 3, abs(self.exact)))
 
     def weighed(self, suspects: Suspects) -> Iterator[tuple[Suspect, float]]:
         """The explanations that fit, each with its weight: share times likelihood (per unit of the value)."""
         values = suspects.comparable(self.printed, self.line)
         size = np.abs(values)
-        off = np.abs(self.printed.value - values)
         spread = np.where(suspects.drawn, self._relative * size, 0.0)
-        half = 0.5 * self.printed.step + COMPUTED * size
-        density = np.where(off <= half, 0.25 / half, 0.0)
-        wide = np.hypot(spread, self.printed.step / math.sqrt(12))
-        with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
-            bell = 0.5 * np.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
-        weights = suspects.shares * (density + np.where(spread > 0.0, bell, 0.0))
+        weights = suspects.shares * likelihood(self.printed, np.abs(self.printed.value - values), spread, size)
         weights[self._changes_nothing(values)] = 0.0
         if not self.printed.value:  # nobody writes 0 for what is small
             weights[size > NEVER * abs(self.exact)] = 0.0
@@ -149,9 +160,8 @@ class Weighing:
             return
         best = 0.0, "", 0.0
         for text, share, other in transcription_errors(self.printed, self.exact, reach):
-            weight = share * likelihood(self.printed, abs(other - self.exact), spread, self.exact)
-            if weight > best[0]:
-                best = weight, text, share
+            fits = likelihood(self.printed, abs(other - self.exact), spread, abs(self.exact))
+            best = max(best, (share * float(fits), text, share), key=lambda found: found[0])
         weight, text, share = best
         if weight:
             yield Suspect(Phrase("slip pen", (text,)), self.exact, share, copied=True), weight
@@ -176,6 +186,11 @@ class Weighing:
         best = int(np.argmax(weights))
         return suspects.all[best], float(weights[best])
 
+    def shows(self, suspect: Suspect) -> bool:
+        """Whether the stated value is that of an explanation to the digit."""
+        value = comparable(self.printed, suspect.value, self.line)
+        return suspect.copied or abs(self.printed.value - value) <= self.printed.rounding + COMPUTED * abs(value)
+
     @property
     def _relative(self) -> float:
         """The deviation of a drawing, as a part of the value."""
@@ -186,14 +201,14 @@ class Weighing:
         return np.asarray(np.abs(values - self.exact) <= NEVER * abs(self.exact))
 
 
-def likelihood(printed: Printed, off: float, spread: float, value: Value) -> float:
-    """Density of a stated value at a distance from what it should be: half of them computed, half of them drawn."""
-    half = 0.5 * printed.step + COMPUTED * abs(value)
-    computed = 0.5 / (2 * half) if off <= half else 0.0
-    if spread <= 0.0:
-        return computed
-    wide = math.hypot(spread, printed.step / math.sqrt(12))
-    return computed + 0.5 * math.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+def likelihood(printed: Printed, off: float | Reals, spread: float | Reals, size: float | Reals) -> Reals:
+    """Density of a stated value at a distance ``off`` from what it should be, for each of some explanations: half of
+    them computed, half of them drawn, with a deviation ``spread`` of a value of this size; 0: not drawn."""
+    half = 0.5 * printed.step + COMPUTED * size
+    wide = np.hypot(spread, printed.step / math.sqrt(12))
+    with np.errstate(under="ignore", divide="ignore", invalid="ignore"):
+        bell = 0.5 * np.exp(-0.5 * (off / wide) ** 2) / (wide * math.sqrt(math.tau))
+        return np.where(off <= half, 0.25 / half, 0.0) + np.where(np.greater(spread, 0.0), bell, 0.0)
 
 
 _DOUBLE_ZERO = re.compile(r"[+-]?0\d")  # nobody writes so

@@ -3,78 +3,51 @@ somebody's own values, the drawing gone on with from them in place of the drawn 
 
 The slips are those that teachers of the graphical method name (Sun Huan, Mechanical Principles, ch. 3; Norton, Design
 of Machinery, ch. 6 and 7): a sign, a unit, the Coriolis term, one component in place of the whole, the scale of the
-other polygon, another vector of the same polygon, the other assembly.
+other polygon, another vector of the same polygon, the other assembly.  A slip in what leads to a value is one change:
+of a term, a branch, a load, a mesh; the same drawing or the same solver then says what every quantity comes to.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from typing import TypeVar
 
 import numpy as np
 
 from graphkin.checking.readings import read_off
-from graphkin.checking.slip_likelihood import Slipped, Suspect, Suspects
+from graphkin.checking.slip_likelihood import Suspect, Suspects
 from graphkin.checking.uncertainty import Uncertainty
-from graphkin.construction import GoneOn, Plan, Sheet, Slip, execute
+from graphkin.construction import NO_SLIP, GoneOn, Plan, Sheet, Slip, execute
 from graphkin.construction.polygons import Component
 from graphkin.construction.steps import Order
 from graphkin.errors import GraphkinError
 from graphkin.plane import added_up, unit
-from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedGear, SpringOn
+from graphkin.scene.model import LinkMass, Loading, LoadOn, Mechanism, PlacedGear, PlacedLink
 from graphkin.scene.symbol import PointRef, Symbol, Value
-from graphkin.solver import Forces, Motion, forces_of, solve, value_of
-from graphkin.structure import Pair
+from graphkin.solver import Motion, as_drawn, forces_of, senses_along, solve, value_of
 from graphkin.words import Phrase
 
-__all__ = ["CANCELLING", "NOTHING", "Consequences", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
-
-def _line_of(sheet: Sheet, symbol: Symbol) -> complex | None:
-    """Unit vector of the positive sense of a vector symbol, None where nothing gives it one.
-
-    A point that slides in the frame, and one that slides relative to a coincident one: the guide's sense.  A tangential
-    acceleration: counter-clockwise.
-    """
-    if symbol.of is None:
-        return None
-    if symbol.kind == "at":
-        start = sheet.points.get(PointRef(symbol.to.point)) if symbol.to else _pivot(sheet, symbol.of)
-        end = sheet.points.get(PointRef(symbol.of.point))
-        return 1j * unit(end - start) if start is not None and end is not None and end != start else None
-    if symbol.kind not in ("v", "a", "ar"):
-        return None
-    for slide in sheet.structure.slides:
-        if _along(sheet, slide, symbol):
-            pose = sheet.poses.get(slide.b)
-            return pose.axis * slide.guide.direction if pose else None
-    return None
-
-
-def _along(sheet: Sheet, slide: Pair, symbol: Symbol) -> bool:
-    """Whether a vector lies along a guide."""
-    of, to, frame = symbol.of, symbol.to, sheet.scene.frame.name
-    assert of is not None
-    if to is not None:
-        both = {of.link, to.link} - {""}
-        return slide.pin == of.point == to.point and both <= {slide.a, slide.b}
-    slider = sheet.structure.links[slide.a]
-    return slide.b == frame and (of.link == slide.a or (not of.link and of.point in slider.points))
-
-
-def _pivot(sheet: Sheet, of: PointRef) -> complex | None:
-    scene = sheet.scene
-    for link in scene.links:
-        if of.point in link.points and of.link in ("", link.name):
-            fixed = next((p for p in link.points if p in scene.frame.points and p != of.point), None)
-            if fixed:
-                return sheet.points.get(PointRef(fixed))
-    return None
-
+__all__ = ["CANCELLING", "NOTHING", "Evidence", "ExpectedValue", "ValuesElsewhere", "slipped_forces"]
 
 NOTHING = 1e-9  # of the greatest value of its sort: what is smaller is zero
 CANCELLING = ("motion", "position", "force")  # scopes of what may be a difference that leaves nothing
+RPM = 60.0 / math.tau
+DEGREE = 180.0 / math.pi
+LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
+INCHES = ("in", "ft")
+
+T = TypeVar("T")
+ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
+"""Exact values of a symbol elsewhere, with the names of the places."""
+Values = Callable[[Symbol], Value | None]
+Alteration = tuple[Phrase, float, Callable[[], Values]]
+"""A slip in words, its share among wrong values (rough, from experience), and what makes everything with it."""
+Slipped = tuple[Phrase, float, Values]
+"""A slip in words, its share, and what each quantity comes to with it (SI; None: nothing)."""
 
 
 @dataclass(frozen=True)
@@ -87,13 +60,6 @@ class ExpectedValue:
     largest: float
     bound: float
     line: complex | None
-
-
-ValuesElsewhere = Callable[[Symbol], Sequence[tuple[str, Value]]]
-RPM = 60.0 / math.tau
-LENGTHS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}
-INCHES = ("in", "ft")
-DEGREE = 180.0 / math.pi
 
 
 @dataclass(frozen=True)
@@ -112,19 +78,9 @@ class Evidence:
     motion: Motion | None = None
 
     @cached_property
-    def slipped(self) -> tuple[Slipped, ...]:
-        """The forces with each of their usual slips, and the motion with each of those in its wheels."""
-        return (*slipped_forces(self.motion), *slipped_gears(self.motion)) if self.motion is not None else ()
-
-    @cached_property
     def sheet(self) -> Sheet:
         """The plan drawn without a slip."""
         return execute(self.plan)
-
-    @cached_property
-    def consequences(self) -> Consequences:
-        """What follows from somebody's own values."""
-        return Consequences(self.plan, self.sheet)
 
     @cached_property
     def others(self) -> Mapping[Symbol, Value]:
@@ -132,16 +88,14 @@ class Evidence:
         return {r.symbol: self.exact(r.symbol) for r in read_off(self.sheet)}
 
     @cached_property
+    def slipped(self) -> tuple[Slipped, ...]:
+        """The forces with each of their usual slips, and the motion with each of those in its wheels."""
+        return (*slipped_forces(self.motion), *_made(_gear_slips(self.motion))) if self.motion is not None else ()
+
+    @cached_property
     def altered(self) -> tuple[Slipped, ...]:
         """The drawing with each slip in a term, and in each other assembly."""
-        found = []
-        for phrase, share, drawn in (*_assemblies(self.plan), *_terms(self.plan, self.sheet)):
-            try:
-                values = {r.symbol: r.value for r in read_off(drawn())}
-            except (GraphkinError, ArithmeticError):
-                continue  # with this slip nothing can be drawn, so nobody's value comes from it
-            found.append(Slipped(phrase, share, values.get))
-        return tuple(found)
+        return _made((*_assemblies(self.plan), *_terms(self.plan, self.sheet)))
 
     @cached_property
     def _held(self) -> dict[Symbol, ExpectedValue]:
@@ -151,15 +105,27 @@ class Evidence:
         """What stated values of a symbol are held against; worked out once."""
         if symbol not in self._held:
             exact = self.exact(symbol)
-            alike = [abs(v) for s, v in self.others.items() if dimension(s) == dimension(symbol)]
+            alike = [abs(v) for s, v in self.others.items() if _sort(s) == _sort(symbol)]
             largest = max([abs(exact), *alike]) or math.inf
             residue = symbol.scope in CANCELLING and abs(exact) <= NOTHING * largest
             uncertainty = self.predicted.get(symbol)
             bound = uncertainty.bound if uncertainty else 0.0
             bound = math.inf if symbol.scope == "motion" and bound > largest else bound
             right = type(exact)(0.0) if residue else exact
-            self._held[symbol] = ExpectedValue(right, largest, bound, _line_of(self.sheet, symbol))
+            self._held[symbol] = ExpectedValue(right, largest, bound, self._line(symbol))
         return self._held[symbol]
+
+    def _line(self, symbol: Symbol) -> complex | None:
+        """Unit vector of the positive sense of a vector symbol, None where nothing gives it one: along a guide its
+        sense, of a tangential acceleration counter-clockwise."""
+        of, scene, points = symbol.of, self.sheet.scene, self.sheet.points
+        if symbol.kind == "at" and of is not None:
+            pivots = (p for k in _links_of(scene, of) for p in k.points if p in scene.frame.points and p != of.point)
+            about = symbol.to.point if symbol.to else next(pivots, "")
+            start, end = points.get(PointRef(about)), points.get(PointRef(of.point))
+            return 1j * unit(end - start) if start is not None and end is not None and end != start else None
+        lines = None if self.motion is None else senses_along(as_drawn(self.motion, self.plan.structure), symbol)
+        return None if lines is None else complex(lines[0])
 
     @cached_property
     def _explanations(self) -> dict[Symbol, Suspects]:
@@ -171,28 +137,88 @@ class Evidence:
             self._explanations[symbol] = Suspects(tuple(_suspects(self, symbol)))
         return self._explanations[symbol]
 
+    # -- what follows from somebody's own values
 
-Altered = tuple[Phrase, float, Callable[[], Sheet]]
+    @cached_property
+    def _gone_on(self) -> GoneOn:
+        return GoneOn(self.plan, self.plan.scales, lambda own: _own_values(self.plan, self.sheet, own))
+
+    def following(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
+        """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
+
+        Parameters
+        ----------
+        own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
+            direction stays as drawn
+        of : what is asked; its own value is not used
+
+        Returns
+        -------
+        The value of the drawing, then for a sum of terms the sum of these
+        """
+        try:
+            polygons = self._gone_on.to(of, {s: v for s, v in own.items() if self.before(s, of)})
+        except (GraphkinError, ArithmeticError):
+            return ()  # a drawing that cannot be gone on with
+        if polygons is None:
+            return ()
+        order: Order = "velocity" if of.kind in ("v", "omega") else "acceleration"
+        if not of.is_vector:
+            return (polygons.rates[order][of.link].value,)
+        drawn, scale = polygons.drawn[order], self.sheet.scales.of(order)
+        values: list[Value] = [drawn[of].span * scale]
+        for equation in polygons.board.equations:
+            if not any(len(side) == 1 and side[0].symbol == of for side in equation.sides):
+                continue
+            for side in equation.sides:
+                spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
+                if len(side) > 1 and len(spans) == len(side):
+                    values.append(added_up(spans, 0j) * scale)
+        return tuple(values)
+
+    def before(self, one: Symbol, other: Symbol) -> bool:
+        """Whether a quantity is known on the drawing before another, which can then follow from it."""
+        return _step(self.sheet, one) < _step(self.sheet, other)
 
 
-def _assemblies(plan: Plan) -> Iterator[Altered]:
+def _made(alterations: Iterable[Alteration]) -> tuple[Slipped, ...]:
+    """Everything with each of some slips."""
+    found = []
+    for phrase, share, values in alterations:
+        with suppress(GraphkinError, ArithmeticError):  # with it nothing can be drawn, so nobody's value comes from it
+            found.append((phrase, share, values()))
+    return tuple(found)
+
+
+def _drawn(plan: Plan, slip: Slip = NO_SLIP) -> Values:
+    """What is read off a plan drawn with a slip."""
+    return {r.symbol: r.value for r in read_off(execute(plan, slip=slip))}.get
+
+
+def _assemblies(plan: Plan) -> Iterator[Alteration]:
     for i, branch in plan.branches.items():
         other = {**plan.branches, i: 1 - branch}
-        yield Phrase("slip assembly"), 0.05, lambda other=other: execute(plan.with_branches(other))  # type: ignore[misc]
+        yield Phrase("slip assembly"), 0.05, lambda other=other: _drawn(plan.with_branches(other))  # type: ignore[misc]
 
 
-def _terms(plan: Plan, sheet: Sheet) -> Iterator[Altered]:
-    roles = {"coriolis": [("left out", 0.0, 0.1), ("reversed", -1.0, 0.08), ("factor", 0.5, 0.04)],
-             "normal": [("left out", 0.0, 0.05), ("reversed", -1.0, 0.04)]}  # fmt: skip
-    for role, ways in roles.items():
-        names = [v.symbol for v in sheet.vectors("acceleration").values() if v.role == role]
-        groups = [(n,) for n in names] + ([tuple(names)] if len(names) > 1 else [])
+OF_TERMS = (
+    ("coriolis", "left out", 0.0, 0.1), ("coriolis", "reversed", -1.0, 0.08), ("coriolis", "factor", 0.5, 0.04),
+    ("normal", "left out", 0.0, 0.05), ("normal", "reversed", -1.0, 0.04),
+)  # fmt: skip
+"""What is done wrong with terms of a role: in words, by what factor they change, and its share."""
+
+
+def _terms(plan: Plan, sheet: Sheet) -> Iterator[Alteration]:
+    """Each slip in one term, and in all of its role."""
+    drawn = sheet.vectors("acceleration").values()
+    names = {role: [v.symbol for v in drawn if v.role == role] for role, *_ in OF_TERMS}
+    for role, own in names.items():
+        groups = [(n,) for n in own] + ([tuple(own)] if len(own) > 1 else [])
         for group in groups:
-            for way, factor, share in ways:
-                shown = ", ".join(str(n) for n in group)
-                phrase = Phrase(f"slip {role} {way}", (shown,))
+            shown = ", ".join(map(str, group))
+            for key, factor, share in (slip[1:] for slip in OF_TERMS if slip[0] == role):
                 slip = Slip(term=_times(group, factor))
-                yield phrase, share / len(groups), lambda slip=slip: execute(plan, slip=slip)  # type: ignore[misc]
+                yield Phrase(f"slip {role} {key}", (shown,)), share / len(groups), partial(_drawn, plan, slip)
 
 
 def _times(symbols: tuple[Symbol, ...], factor: float) -> Callable[[Component], Component]:
@@ -232,32 +258,36 @@ def _suspects(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
 
 def _slipped(slips: Sequence[Slipped], symbol: Symbol, exact: Value) -> Iterator[Suspect]:
     """The values of a symbol with each slip that changes it."""
-    for slip in slips:
-        value = slip.value(symbol)
+    for phrase, share, values in slips:
+        value = values(symbol)
         if value is not None and abs(value - exact) > 1e-6 * abs(exact):
-            yield Suspect(slip.phrase, value, slip.share)
+            yield Suspect(phrase, value, share)
 
 
 def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
+    """The value in another unit, doubled or halved, or by the scale of the other polygon."""
     second = symbol.measure in ("acceleration", "angular acceleration")
-    for power in (1, 2, 3):
-        for factor in (10.0**power, 0.1**power):
-            yield Suspect(Phrase("slip factor", (f"{factor:g}",)), exact * factor, 0.02)
+    scene, scales = case.plan.structure.scene, case.plan.scales
+    units = [(f"{factor:g}", factor) for power in (1, 2, 3) for factor in (10.0**power, 0.1**power)]
+    own = scene.units.length
+    if own in INCHES and symbol.measure in ("velocity", "acceleration", "length"):  # no powers of ten
+        lengths = (LENGTHS[own] / metres for unit, metres in LENGTHS.items() if unit != own)
+        units += [(f"{factor:.4g}", factor) for factor in lengths]
+    for shown, factor in units:
+        yield Suspect(Phrase("slip factor", (shown,)), exact * factor, 0.02)
     for name, factor in (("rpm", RPM), ("degrees", DEGREE)):
         for way in (factor, 1 / factor):
             yield Suspect(Phrase(f"slip {name}"), exact * way, 0.01 if symbol.is_vector else 0.03)
             if second:
                 yield Suspect(Phrase(f"slip {name}"), exact * way**2, 0.01)
-    by_rpm = any(d.rpm for d in case.plan.structure.scene.drivers)
+    by_rpm = any(d.rpm for d in scene.drivers)
     for factor in (60.0, 1 / math.tau):  # n taken for n/60, or n/60 for omega
         yield Suspect(Phrase("slip rpm"), exact * factor, 0.02 if by_rpm else 0.005)
-    for factor in _other_lengths(case, symbol):
-        yield Suspect(Phrase("slip factor", (f"{factor:.4g}",)), exact * factor, 0.02)
     yield Suspect(Phrase("slip double"), exact * 2, 0.02)
     yield Suspect(Phrase("slip half"), exact / 2, 0.02)
-    scales, wanted = case.plan.scales, case.plan.structure.scene.question.sheet
     if symbol.scope != "motion":
         return
+    wanted = scene.question.sheet
     if wanted.velocity_scale and wanted.acceleration_scale:
         ratio = scales.velocity / scales.acceleration
         phrase = Phrase("slip velocity scale") if second else Phrase("slip acceleration scale")
@@ -268,11 +298,9 @@ def _factors(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
         yield Suspect(Phrase("slip millimetres"), exact / given, 0.05)
 
 
-def _other_lengths(case: Evidence, symbol: Symbol) -> Iterator[float]:
-    """What a value is multiplied by in another unit of length, where powers of ten do not say it: in and ft."""
-    own = case.plan.structure.scene.units.length
-    if own in INCHES and symbol.measure in ("velocity", "acceleration", "length"):
-        yield from (LENGTHS[own] / metres for unit, metres in LENGTHS.items() if unit != own)
+def _links_of(scene: Mechanism, of: PointRef) -> Iterator[PlacedLink]:
+    """The links that have a point."""
+    return (link for link in scene.links if of.point in link.points and of.link in ("", link.name))
 
 
 def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
@@ -283,12 +311,9 @@ def _relative(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]
         for name in beside:
             value = exact - case.exact(Symbol(symbol.kind, link=name))
             yield Suspect(Phrase("slip relative rate", (name,)), value, 0.08 / len(beside))
-        return
     if symbol.kind not in ("v", "a") or symbol.of is None or symbol.to is not None:
         return
-    for link in scene.links:
-        if symbol.of.point not in link.points or symbol.of.link not in ("", link.name):
-            continue
+    for link in _links_of(scene, symbol.of):
         others = [Symbol(symbol.kind, symbol.of, PointRef(p)) for p in link.points if p != symbol.of.point]
         for other in others:
             if other not in case.others and other.to and other.to.point not in scene.frame.points:
@@ -303,33 +328,27 @@ def _beside(scene: Mechanism, link: str) -> tuple[str, ...]:
     return tuple(k.name for k in scene.links if k.name != link and (k.name in carriers or set(k.points) & set(own)))
 
 
+COMPONENTS = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}
+
+
 def _own_parts(case: Evidence, symbol: Symbol) -> Iterator[Suspect]:
-    """One component of an acceleration in place of the whole."""
-    if symbol.kind != "a":
+    """One component of an acceleration in place of the whole: one that is drawn, or about a fixed pivot where the point
+    was found by the image."""
+    if symbol.kind != "a" or symbol.of is None:
         return
-    for other, value in case.others.items():
-        key = {"an": "normal", "at": "tangential", "ak": "coriolis", "ar": "sliding"}.get(other.kind)
-        if key and other.of == symbol.of:
-            yield Suspect(Phrase(f"slip {key} only", (str(other),)), value, 0.05)
-    for other in _about_pivots(case, symbol):
-        key = "normal" if other.kind == "an" else "tangential"
-        yield Suspect(Phrase(f"slip {key} only", (str(other),)), case.exact(other), 0.05)
-
-
-def _about_pivots(case: Evidence, symbol: Symbol) -> Iterator[Symbol]:
-    """The components about a fixed pivot of a point found by the image, where no such vector is drawn."""
-    if symbol.of is None or symbol.to is not None:
-        return
-    scene = case.plan.structure.scene
-    for link in scene.links:
-        if symbol.of.link in ("", link.name) and symbol.of.point in link.points:
+    parts = [other for other in case.others if other.of == symbol.of]
+    if symbol.to is None:
+        scene = case.plan.structure.scene
+        for link in _links_of(scene, symbol.of):
             for pivot in sorted(set(link.points) & set(scene.frame.points) - {symbol.of.point}):
-                about = (Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at"))
-                yield from (other for other in about if other not in case.others)
+                parts += [Symbol(kind, symbol.of, PointRef(pivot)) for kind in ("an", "at")]
+    for other in dict.fromkeys(parts):
+        if other.kind in COMPONENTS:
+            yield Suspect(Phrase(f"slip {COMPONENTS[other.kind]} only", (str(other),)), case.exact(other), 0.05)
 
 
 def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
-    alike = [(o, v) for o, v in case.others.items() if o != symbol and dimension(o) == dimension(symbol)]
+    alike = [(o, v) for o, v in case.others.items() if o != symbol and _sort(o) == _sort(symbol)]
     for other, value in alike:
         relative = symbol.to is None and other.to is not None and other.of is not None and symbol.of is not None
         if relative and other.of and symbol.of and other.of.point == symbol.of.point and other.kind == symbol.kind:
@@ -346,68 +365,12 @@ def _others(case: Evidence, symbol: Symbol, exact: Value) -> Iterator[Suspect]:
                 yield Suspect(Phrase(key, (axis, str(other))), part, 0.05 if own else 0.05 / len(alike))
 
 
-def dimension(symbol: Symbol) -> str:
-    """Quantities of one dimension bear one name."""
-    if symbol.scope != "motion":
-        return symbol.measure
-    if not symbol.is_vector:
-        return symbol.kind
-    return "v" if symbol.kind == "v" else "a"
+def _sort(symbol: Symbol) -> str:
+    """Quantities of one sort bear one name; an arm of the lever, which is a velocity on paper, is of its own."""
+    return "arm" if symbol.kind == "arm" else symbol.measure
 
 
-# -- what follows from somebody's own values ---------------------------------------------------------------------------
-
-
-class Consequences:
-    """What follows on a drawing from somebody's own values of what is drawn before; ``base`` is the plan drawn without
-    them."""
-
-    def __init__(self, plan: Plan, base: Sheet) -> None:
-        self.base = base
-        self.drawing = GoneOn(plan, plan.scales, lambda own: _own_values(plan, base, own))
-        self.steps: dict[Symbol, float] = {}
-
-    def values(self, own: Mapping[Symbol, Value], of: Symbol) -> tuple[Value, ...]:
-        """What a symbol comes to, drawn on from somebody's own values of other symbols (SI).
-
-        Parameters
-        ----------
-        own : the values taken for granted, those of them that are drawn before it; of a vector given by its size the
-            direction stays as drawn
-        of : what is asked; its own value is not used
-
-        Returns
-        -------
-        The value of the drawing, then for a sum of terms the sum of these
-        """
-        try:
-            polygons = self.drawing.to(of, {s: v for s, v in own.items() if self.before(s, of)})
-        except (GraphkinError, ArithmeticError):
-            return ()  # a drawing that cannot be gone on with
-        if polygons is None:
-            return ()
-        order: Order = "velocity" if of.kind in ("v", "omega") else "acceleration"
-        if not of.is_vector:
-            return (polygons.rates[order][of.link].value,)
-        drawn, scale = polygons.drawn[order], self.base.scales.of(order)
-        values: list[Value] = [drawn[of].span * scale]
-        for equation in polygons.board.equations:
-            if not any(len(side) == 1 and side[0].symbol == of for side in equation.sides):
-                continue
-            for side in equation.sides:
-                spans = [drawn[t.symbol].span for t in side if t.symbol in drawn]
-                if len(side) > 1 and len(spans) == len(side):
-                    values.append(added_up(spans, 0j) * scale)
-        return tuple(values)
-
-    def before(self, one: Symbol, other: Symbol) -> bool:
-        """Whether a quantity is known on the drawing before another, which can then follow from it."""
-        return self._step(one) < self._step(other)
-
-    def _step(self, symbol: Symbol) -> float:
-        if symbol not in self.steps:
-            self.steps[symbol] = _step(self.base, symbol)
-        return self.steps[symbol]
+# -- somebody's own values ---------------------------------------------------------------------------------------------
 
 
 def _step(sheet: Sheet, symbol: Symbol) -> float:
@@ -481,84 +444,92 @@ def _guide_turns(plan: Plan, of: PointRef, to: PointRef | None) -> Symbol | None
 
 # -- slips in forces and gears -----------------------------------------------------------------------------------------
 
+OF_MASSES = (
+    ("slip inertia force with", 0.15, -1.0, -1.0), ("slip inertia force left out", 0.1, 0.0, 0.0),
+    ("slip inertia left out", 0.12, 1.0, 0.0), ("slip arm side", 0.1, 1.0, -1.0),
+)  # fmt: skip
+"""What is done wrong with inertia: in words, its share, and by what factors forces and couples change."""
+
 
 def slipped_forces(motion: Motion) -> tuple[Slipped, ...]:
     """The forces at the one position of a motion with each slip."""
+    return _made(_force_slips(motion))
+
+
+def _force_slips(motion: Motion) -> Iterator[Alteration]:
     if not motion.scene.loading or not motion.ok[0]:
-        return ()
-    made = []
-    for phrase, share, loading in _force_slips(motion):
-        scene = replace(motion.scene, loading=loading)
-        there = replace(motion, structure=replace(motion.structure, scene=scene))
-        made.append(Slipped(phrase, share, partial(_force_value, forces_of(there))))
-    return tuple(made)
-
-
-def _force_value(forces: Forces, symbol: Symbol) -> Value | None:
-    """A force (N) or moment (N m), None for what there is not."""
-    found = forces.value(str(symbol.here))
-    if found is None or not np.isfinite(found[0]):
-        return None
-    return complex(found[0]) if symbol.is_vector else float(found[0].real)
-
-
-def _force_slips(motion: Motion) -> Iterator[tuple[Phrase, float, Loading]]:
+        return
     loading = motion.scene.loading
-    masses, loads, idle = loading.masses, *_standing(motion)
-    down = loading.gravity
+    masses, springs, (loads, idle), down = loading.masses, loading.springs, _standing(motion), loading.gravity
     weights = tuple(_weight(mass, mass.mass * down) for mass in masses) if down else ()
+    right = Loading(0j, masses, (*weights, *loads), loading.balance, springs=springs)
 
-    def with_all(
-        masses: Sequence[LinkMass] = masses, weights: Sequence[LoadOn] = weights, loads: Sequence[LoadOn] = loads,
-        springs: Sequence[SpringOn] = loading.springs,
-    ) -> Loading:  # fmt: skip
-        return Loading(0j, tuple(masses), (*weights, *loads), loading.balance, springs=tuple(springs))
+    def slip(key: str, of: str | None, share: float, **changes: Sequence[object]) -> Alteration:
+        wrong = replace(right, **{name: tuple(things) for name, things in changes.items()})  # type: ignore[arg-type]
+        return Phrase(key, () if of is None else (of,)), share, partial(_forces, motion, wrong)
 
-    some = [(mass.link,) for mass in masses]
-    every = [tuple(mass.link for mass in masses)] if len(masses) > 1 else []
-    for links in (*some, *every):
-        shown, share = ", ".join(links), 1.0 / len((*some, *every))
+    every = [tuple(mass.link for mass in masses)] if masses else []
+    groups = [*((mass.link,) for mass in masses), *(every if len(masses) > 1 else ())]
+    for links in groups:
+        shown, each = ", ".join(links), 1.0 / len(groups)
         if down:
-            without = [weight for weight in weights if weight.link not in links]
-            yield Phrase("slip weight left out", (shown,)), 0.15 * share, with_all(weights=without)
-        turned = [_scaled(mass, links, -1.0, -1.0) for mass in masses]
-        yield Phrase("slip inertia force with", (shown,)), 0.15 * share, with_all(turned)
-        none = [_scaled(mass, links, 0.0, 0.0) for mass in masses]
-        yield Phrase("slip inertia force left out", (shown,)), 0.1 * share, with_all(none)
-        if any(mass.inertia for mass in masses if mass.link in links):
-            flat = [_scaled(mass, links, 1.0, 0.0) for mass in masses]
-            yield Phrase("slip inertia left out", (shown,)), 0.12 * share, with_all(flat)
-            other = [_scaled(mass, links, 1.0, -1.0) for mass in masses]
-            yield Phrase("slip arm side", (shown,)), 0.1 * share, with_all(other)
+            pulled = [load for load in right.loads if load not in weights or load.link not in links]
+            yield slip("slip weight left out", shown, 0.15 * each, loads=pulled)
+        turns = any(mass.inertia for mass in masses if mass.link in links)
+        for key, share, force, couple in OF_MASSES:
+            if turns or force != 1.0:
+                yield slip(key, shown, share * each, masses=[_scaled(mass, links, force, couple) for mass in masses])
     if down:
-        small = tuple(replace(weight, size=weight.size / abs(down)) for weight in weights)
-        yield Phrase("slip kg for N"), 0.08, with_all(weights=small)
-        heavy = [_scaled(mass, every[0] if every else some[0], abs(down), 1.0) for mass in masses]
-        yield Phrase("slip N for kg"), 0.08, with_all(heavy)
+        small = (replace(weight, size=weight.size / abs(down)) for weight in weights)
+        yield slip("slip kg for N", None, 0.08, loads=(*small, *loads))
+        heavy = [_scaled(mass, every[0], abs(down), 1.0) for mass in masses]
+        yield slip("slip N for kg", None, 0.08, masses=heavy)
     for load in loads:
-        others = [one for one in loads if one is not load]
-        phrase = Phrase("slip load left out", (load.name,))
-        yield phrase, 0.1 / len(loads), with_all(loads=others)
-        turned_round = [*others, replace(load, size=-load.size)]
-        yield Phrase("slip load reversed", (load.name,)), 0.06 / len(loads), with_all(loads=turned_round)
-    for spring in loading.springs:
-        besides, each = [one for one in loading.springs if one is not spring], 1.0 / len(loading.springs)
-        yield Phrase("slip spring left out", (spring.name,)), 0.1 * each, with_all(springs=besides)
-        pushing = replace(spring, rate=-spring.rate, preload=-spring.preload)
-        yield Phrase("slip spring reversed", (spring.name,)), 0.06 * each, with_all(springs=[*besides, pushing])
-        whole = replace(spring, free=0.0)
-        yield Phrase("slip free length", (spring.name,)), 0.1 * each, with_all(springs=[*besides, whole])
+        each, reversed_load = 1.0 / len(loads), replace(load, size=-load.size)
+        yield slip("slip load left out", load.name, 0.1 * each, loads=_instead(right.loads, load))
+        yield slip("slip load reversed", load.name, 0.06 * each, loads=_instead(right.loads, load, reversed_load))
+    for spring in springs:
+        each, pushing = 1.0 / len(springs), replace(spring, rate=-spring.rate, preload=-spring.preload)
+        for key, share, instead in (
+            ("slip spring left out", 0.1, ()), ("slip spring reversed", 0.06, (pushing,)),
+            ("slip free length", 0.1, (replace(spring, free=0.0),)),
+        ):  # fmt: skip
+            yield slip(key, spring.name, share * each, springs=_instead(springs, spring, *instead))
     for load in idle:
-        yield Phrase("slip load not here", (load.name,)), 0.15 / len(idle), with_all(loads=(*loads, load))
+        yield slip("slip load not here", load.name, 0.15 / len(idle), loads=(*right.loads, load))
+
+
+def _instead(things: Sequence[T], one: T, *others: T) -> tuple[T, ...]:
+    """Things with others in place of one of them."""
+    return tuple(kept for thing in things for kept in (others if thing is one else (thing,)))
+
+
+def _forces(motion: Motion, loading: Loading) -> Values:
+    """The forces (N) and moments (N m) at a motion's position under other loads."""
+    scene = replace(motion.scene, loading=loading)
+    forces = forces_of(replace(motion, structure=replace(motion.structure, scene=scene)))
+
+    def value(symbol: Symbol) -> Value | None:
+        found = forces.value(str(symbol.here))
+        return None if found is None else _finite(symbol, found[0])
+
+    return value
+
+
+def _finite(symbol: Symbol, value: complex) -> Value | None:
+    """The value of a symbol as it is, a vector or a number; None where it has none."""
+    if not np.isfinite(value):
+        return None
+    return complex(value) if symbol.is_vector else float(value.real)
 
 
 def _standing(motion: Motion) -> tuple[tuple[LoadOn, ...], tuple[LoadOn, ...]]:
     """The loads that act at the position, and those that do not, each as it stands there."""
     scene = motion.scene
     here = forces_of(motion)
-    always = Loading(
-        0j, scene.loading.masses, tuple(replace(load, phase=None) for load in scene.loading.loads),
-        scene.loading.balance, springs=scene.loading.springs,
+    always = replace(
+        scene.loading, gravity=0j, loads=tuple(replace(load, phase=None) for load in scene.loading.loads),
+        flywheel=None,
     )  # fmt: skip
     there = forces_of(replace(motion, structure=replace(motion.structure, scene=replace(scene, loading=always))))
     acting: list[LoadOn] = []
@@ -586,60 +557,49 @@ def _scaled(mass: LinkMass, links: Sequence[str], force: float, couple: float) -
     return replace(mass, mass=mass.mass * force, inertia=mass.inertia * couple)
 
 
-def slipped_gears(motion: Motion) -> tuple[Slipped, ...]:
-    """The one position of a motion with each slip."""
+def _gear_slips(motion: Motion) -> Iterator[Alteration]:
+    """The slips in the teeth and the carrier of each mesh, at the one position of a motion."""
     if not motion.scene.gears or not motion.ok[0]:
-        return ()
-    here = _standing_here(motion)
-    made = []
-    for phrase, share, gears in _gear_slips(here):
-        try:
-            other = solve(replace(here, gears=gears))
-        except (GraphkinError, ArithmeticError):
-            continue  # with this slip nothing moves, so nobody's value comes from it
-        if other.ok[0]:
-            made.append(Slipped(phrase, share, partial(_gear_value, other)))
-    return tuple(made)
+        return
+    scene, each = _standing_here(motion), 1.0 / len(motion.scene.gears)
+
+    def slip(key: str, gear: PlacedGear, share: float, gears: Iterable[PlacedGear]) -> Alteration:
+        return Phrase(key, (gear.name,)), share * each, partial(_motions, replace(scene, gears=tuple(gears)))
+
+    for gear in scene.gears:
+        one, two = gear.teeth
+        if two is not None:
+            turned = replace(gear, teeth=(math.copysign(two, one), math.copysign(one, two)))
+            outside = replace(gear, teeth=(one, -two))
+            yield slip("slip teeth exchanged", gear, 0.08, _instead(scene.gears, gear, turned))
+            yield slip("slip teeth sense", gear, 0.1, _instead(scene.gears, gear, outside))
+        if scene.frame.name not in (gear.carrier, *gear.wheels):
+            standing = replace(gear, carrier=scene.frame.name)
+            yield slip("slip carrier", gear, 0.1, _instead(scene.gears, gear, standing))
+        if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
+            swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
+            yield slip("slip teeth exchanged", gear, 0.08, (_with(g, swapped) for g in scene.gears))
 
 
-def _gear_value(motion: Motion, symbol: Symbol) -> Value | None:
-    """A velocity, an acceleration or a rate (SI), None for anything else."""
-    if symbol.scope != "motion":
-        return None
-    found = value_of(motion, symbol)[0]
-    if not np.isfinite(found):
-        return None
-    return complex(found) if symbol.is_vector else float(found.real)
+def _motions(scene: Mechanism) -> Values:
+    """Velocities, accelerations and rates (SI) of a scene; no values where it cannot move."""
+    motion = solve(scene)
+
+    def value(symbol: Symbol) -> Value | None:
+        there = motion.ok[0] and symbol.scope == "motion"
+        return _finite(symbol, value_of(motion, symbol)[0]) if there else None
+
+    return value
 
 
 def _standing_here(motion: Motion) -> Mechanism:
     """The scene with its drivers and wheels where the motion has them."""
     scene = motion.scene
     places = (float(value) for value in motion.values[0])
-    drivers = tuple(
-        replace(d, value=value) for d, value in zip(scene.drivers, places, strict=True)
-    )
+    drivers = tuple(replace(d, value=value) for d, value in zip(scene.drivers, places, strict=True))
     angles = {name: float(np.angle(motion.poses[name].u[0])) for name in scene.by_name if name in motion.poses}
     starts = {**scene.starts, **{wheel: angles[wheel] for g in scene.gears for wheel in g.wheels if wheel in angles}}
     return replace(scene, drivers=drivers, starts=starts)
-
-
-def _gear_slips(scene: Mechanism) -> Iterator[tuple[Phrase, float, tuple[PlacedGear, ...]]]:
-    frame, each = scene.frame.name, 1.0 / len(scene.gears)
-    for gear in scene.gears:
-        ways: list[tuple[str, float, PlacedGear]] = []
-        one, two = gear.teeth
-        if two is not None:
-            turned = replace(gear, teeth=(math.copysign(two, one), math.copysign(one, two)))
-            ways = [("slip teeth exchanged", 0.08, turned), ("slip teeth sense", 0.1, replace(gear, teeth=(one, -two)))]
-        if frame not in (gear.carrier, *gear.wheels):
-            ways.append(("slip carrier", 0.1, replace(gear, carrier=frame)))
-        for key, share, other in ways:
-            yield Phrase(key, (gear.name,)), share * each, tuple(other if g is gear else g for g in scene.gears)
-        if two is not None and len(scene.gears) > 1:  # of the wheels themselves, where they mesh with others too
-            swapped = {(gear.wheels[0], abs(one)): abs(two), (gear.wheels[1], abs(two)): abs(one)}
-            gears = tuple(_with(g, swapped) for g in scene.gears)
-            yield Phrase("slip teeth exchanged", (gear.name,)), 0.08 * each, gears
 
 
 def _with(gear: PlacedGear, numbers: Mapping[tuple[str, float], float]) -> PlacedGear:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
 import graphkin
 from graphkin.api.audited import evidence_at
 from graphkin.checking.slip_likelihood import transcription_errors
-from graphkin.checking.slips import Consequences
 from graphkin.errors import CallError
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol, stated
@@ -111,18 +111,18 @@ def test_what_follows_from_an_earlier_wrong_value_is_told_with_it():
 @pytest.mark.parametrize("name", ["two-coriolis", "hydraulic-cylinder", "triad-slider", "gears-epicyclic"])
 def test_what_follows_does_not_depend_on_what_somebody_else_took_before(name):
     case = evidence_at(mechanism_of("sixbar-guide-40deg" if name == "two-coriolis" else name), [], None)
-    together, symbols = case.consequences, [s for s in case.others if s.scope == "motion" and case.exact(s)]
+    together, symbols = case, [s for s in case.others if s.scope == "motion" and case.exact(s)]
     for number, symbol in enumerate(symbols):
         own = {s: 1.1 * case.exact(s) for s in symbols[number % 3 :: 3]}
-        together.values({s: 1.3 * case.exact(s) for s in symbols}, symbol)
-        alone = Consequences(case.plan, case.sheet).values(own, symbol)
-        assert alone == together.values(own, symbol)
+        together.following({s: 1.3 * case.exact(s) for s in symbols}, symbol)
+        alone = replace(case).following(own, symbol)
+        assert alone == together.following(own, symbol)
 
 
 def test_a_normal_component_follows_the_square_of_a_wrong_velocity():
     case = evidence_at(mechanism_of("fourbar-150-500-300-400"), [], None)
     speed, normal = Symbol.parse("v_C"), Symbol.parse("an_C/D")
-    (followed,) = case.consequences.values({speed: 1.1 * abs(case.exact(speed))}, normal)
+    (followed,) = case.following({speed: 1.1 * abs(case.exact(speed))}, normal)
     assert 1.21 == pytest.approx(abs(followed / case.exact(normal)))
 
 
@@ -142,10 +142,10 @@ def test_a_wrong_value_that_nothing_explains_has_no_name():
 
 def test_slips_drawn_out_in_any_mechanism_are_found_again():
     scene = mechanism_of("shaper-scheme-2")
-    for slip in evidence_at(scene, [], None).altered:
-        wrong = abs(slip.value(Symbol.parse("a_C"))) * 1e3
-        if "coriolis" in slip.phrase.key and abs(wrong - 4137.5) > 300:
-            assert say(slip.phrase) == judged(scene, a_C=f"{wrong:.5g}")["looks_like"]
+    for phrase, _, values in evidence_at(scene, [], None).altered:
+        wrong = abs(values(Symbol.parse("a_C"))) * 1e3
+        if "coriolis" in phrase.key and abs(wrong - 4137.5) > 300:
+            assert say(phrase) == judged(scene, a_C=f"{wrong:.5g}")["looks_like"]
 
 
 def test_half_a_unit_of_the_last_digit_is_right_and_more_is_not():

@@ -43,7 +43,7 @@ SLIPS = {
 @pytest.mark.parametrize("slip", SLIPS)
 def test_a_slip_gives_what_the_scene_with_it_gives(slip):
     motion = solver.solve(mechanism_of(SHAPER), at={"2": math.radians(AT["10"])})
-    values = [one.value(Symbol.parse("M_2")) for one in slipped_forces(motion) if one.phrase.key == slip]
+    values = [of(Symbol.parse("M_2")) for phrase, _, of in slipped_forces(motion) if phrase.key == slip]
     wrong = by_hand(**SLIPS[slip])
     assert any(wrong == pytest.approx(value, rel=1e-8) for value in values)
 
