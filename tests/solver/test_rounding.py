@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import random
 from decimal import Decimal, localcontext
+
+import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.solver import structure_of
-from graphkin.solver.drivers import cos_sin, meant
+from graphkin.solver.assemblies import choose_forms
+from graphkin.solver.drivers import cos_sin, meant, working
 from graphkin.solver.engine import discriminant_of
+from tests.mechanisms import random_scene
 from tests.scenes import four_bar
 
 
@@ -48,3 +53,22 @@ def test_a_discriminant_is_told_as_well_as_the_digits_of_the_file_tell_it() -> N
         moved = max(abs(exact(long1 + sign * off) - exact(long1)) for sign in (1, -1))
     assert abs(value - exact(long1)) < Decimal("1e-16")
     assert moved <= doubt <= 10 * moved
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_no_change_of_all_open_numbers_together_moves_a_discriminant_farther_than_its_doubt(seed: int) -> None:
+    chance = random.Random(seed)
+    kinds = [chance.choice(["RRR", "RRP", "RPR"]) for _ in range(3)]
+    structure = structure_of(mechanism_of(random_scene(seed, tuple(kinds), "crank")))
+    signs = choose_forms(structure)
+    told = 0
+    with working():
+        for i in structure.dyads:
+            discriminant = discriminant_of(structure, i, signs)
+            value, doubt = discriminant.with_doubt(0)
+            numbers = discriminant._numbers(0, ())
+            for _ in range(20):
+                moved = {name: number + chance.choice([1, -1]) * error for name, (number, error) in numbers.items()}
+                assert abs(discriminant._row(moved)[0] - value) <= doubt
+            told += doubt > 0
+    assert told
