@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -31,16 +31,15 @@ from graphkin.drawing.place.obstacles import (
     sides_around,
     touching,
 )
-from graphkin.plane import cross
+from graphkin.drawing.text import box_about
 
 __all__ = [
-    "FORBIDDEN", "LED_RINGS", "LOTS", "RINGS", "TANGLED", "InkRaster", "Label", "LabelPanel", "LabelPosition",
-    "LabelPositions", "Mark", "Placed", "leader_forms", "least_cost",
+    "FORBIDDEN", "RINGS", "TANGLED", "InkRaster", "Label", "LabelPanel", "LabelPosition", "LabelPositions", "Mark",
+    "Placed", "least_cost", "meeting",
 ]  # fmt: skip
 
 LOTS = (0, 40, 120, 240, 720)
 """First places of the lots in which places are judged, the cheapest first."""
-T = TypeVar("T", float, Floats)
 
 LEADER_SPACE = 0.25  # mm between a leader and the box of any other label
 Mark: TypeAlias = complex | Segment
@@ -117,41 +116,34 @@ class LabelRequests:
         self.liked = np.array([page_direction(toward[0] if toward else _LIKED) for toward in liked])
 
 
-class Candidates(NamedTuple):
-    """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, distances
-    from them (mm), and which of the labels asked for it."""
-
-    centres: Points
-    costs: Floats
-    feet: Points
-    gaps: Floats
-    owners: Indices
-
-
-class Columns(NamedTuple):
-    """Places, of one label or of several, as arrays: centres, costs, feet and tips of leaders, whether there is one."""
+class Places(NamedTuple):
+    """Places of several labels, as arrays of one length: centres of boxes, costs (mm), feet on the marks, tips of
+    leaders (the feet where there is none), distances from the marks (mm), and the requests for which they are."""
 
     centres: Points
     costs: Floats
     feet: Points
     tips: Points
-    led: Flags
+    gaps: Floats
+    owners: Indices
+
+    @classmethod
+    def of(cls, centres: Points, costs: Floats, feet: Points, gaps: Floats, owners: Indices) -> Places:
+        """Places without leaders from columns of any shapes that go with that of the centres."""
+        columns = costs, feet, feet, gaps, owners
+        whole: Any = (np.broadcast_to(column, centres.shape).ravel() for column in columns)
+        return cls(centres.ravel(), *whole)
+
+    def picked(self, some: Flags | Indices | slice) -> Places:
+        """Some of the places."""
+        columns: Any = (column[some] for column in self)
+        return Places(*columns)
 
 
-Table = TypeVar("Table", Candidates, Columns)
-
-
-def picked(table: Table, some: Flags | Indices | slice) -> Table:
-    """Some of the places."""
-    columns: Any = [column[some] for column in table]
-    return type(table)(*columns)
-
-
-def stacked(tables: Iterable[Table]) -> Table:
+def stacked(tables: Iterable[Places]) -> Places:
     """The places of several tables, one after the other."""
-    first, *others = tables
-    columns: Any = map(np.concatenate, zip(first, *others, strict=True))
-    return type(first)(*columns)
+    columns: Any = map(np.concatenate, zip(*tables, strict=True))
+    return Places(*columns)
 
 
 def ends(mark: Mark) -> Segment:
@@ -160,73 +152,59 @@ def ends(mark: Mark) -> Segment:
     return complex(round(start.real, 3), round(start.imag, 3)), complex(round(end.real, 3), round(end.imag, 3))
 
 
-def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -> Candidates:
-    """All places of some labels at some distances (mm) from their marks; owners are places in ``who``."""
+def candidates(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -> Places:
+    """All places for some requests at some distances (mm) from their marks."""
     is_point = requests.is_point[who]
-    points, segments = np.flatnonzero(is_point), np.flatnonzero(~is_point)
+    points, segments = who[is_point], who[~is_point]
     parts = []
     if points.size:
-        at = requests.start[who[points]]
-        parts.append(_off_points(requests, who, points, at, gaps))
+        parts.append(_off_points(requests, points, requests.start[points], gaps))
     if segments.size:
-        parts.append(_off_segments(requests, who, segments, gaps))
+        parts.append(_off_segments(requests, segments, gaps))
         far = tuple(gap for gap in gaps if gap >= LEADER_LEAST)
         if far:
             # Far from a vector there is more room all round its middle than square to it.
-            middles = (requests.start[who[segments]] + requests.end[who[segments]]) / 2
-            parts.append(_off_points(requests, who, segments, middles, far))
+            middles = (requests.start[segments] + requests.end[segments]) / 2
+            parts.append(_off_points(requests, segments, middles, far))
     return stacked(parts)
 
 
-def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ...]) -> Candidates:
-    """Further places of labels that want leaders, at some distances (mm): at more angles from a point, or from more
+def led_candidates(requests: LabelRequests, who: Indices, rings: tuple[float, ...]) -> Places:
+    """Further places for requests that want leaders, at some distances (mm): at more angles from a point, or from more
     places of a vector."""
     gaps = np.array(rings)[:, None]
     parts = []
-    for i, label in enumerate(who):
-        ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[label] else (_WAYS, _FEET)
-        start, end, half = requests.start[label], requests.end[label], requests.half[label]
+    for request in who:
+        ways, shares = (_MANY_WAYS, _SHARES[:1]) if requests.is_point[request] else (_WAYS, _FEET)
+        start, end, half = requests.start[request], requests.end[request], requests.half[request]
         hold = np.clip(1.6 * ways.real, -1, 1) * half.real + 1j * np.clip(1.6 * ways.imag, -1, 1) * half.imag
         feet = (start + shares * (end - start))[:, None, None]
-        centres = feet + gaps * ways + hold
         costs = gaps + 2.0 * np.abs(shares - 0.5)[:, None, None]
-        whole = (np.broadcast_to(column, centres.shape).ravel() for column in (centres, costs, feet, gaps))
-        columns: Any = (*whole, np.full(centres.size, i))
-        parts.append(Candidates(*columns))
+        parts.append(Places.of(feet + gaps * ways + hold, costs, feet, gaps, request))
     return stacked(parts)
 
 
-def _off_points(
-    requests: LabelRequests, who: Indices, some: Indices, points: Points, gaps: tuple[float, ...]
-) -> Candidates:
-    """Columns of places all round some points, at an angle each."""
+def _off_points(requests: LabelRequests, who: Indices, points: Points, gaps: tuple[float, ...]) -> Places:
+    """Places all round some points, at an angle each."""
     rings, angles, away, hold_x, hold_y = _around(gaps)
-    half, at = requests.half[who[some]][:, None], points[:, None]
+    half, at = requests.half[who][:, None], points[:, None]
     centres = at + away + hold_x * half.real + 1j * (hold_y * half.imag)
-    costs = rings + requests.dislikes[who[some]].take(angles, axis=1)
-    return Candidates(centres.ravel(), costs.ravel(), points.repeat(len(rings)), *_rings_of(rings, some))
+    return Places.of(centres, rings + requests.dislikes[who].take(angles, axis=1), at, rings, who[:, None])
 
 
-def _off_segments(requests: LabelRequests, who: Indices, some: Indices, gaps: tuple[float, ...]) -> Candidates:
-    """Columns of places on both sides of some segments, square to them."""
+def _off_segments(requests: LabelRequests, who: Indices, gaps: tuple[float, ...]) -> Places:
+    """Places on both sides of some segments, square to them."""
     rings, side, share, dear = _along(gaps)
-    start, end, half, liked = (
-        column[who[some]] for column in (requests.start, requests.end, requests.half, requests.liked)
-    )
+    columns = (requests.start, requests.end, requests.half, requests.liked)
+    start, end, half, liked = (column[who][:, None] for column in columns)
     way = end - start
     normal = 1j * way / np.abs(way)
-    sides = normal[:, None] * _SIDES
-    disliked = 0.4 * (1.0 - (sides * liked.conj()[:, None]).real)
+    sides = normal * _SIDES
+    disliked = 0.4 * (1.0 - (sides * liked.conj()).real)
     reach = np.abs(normal.real) * half.real + np.abs(normal.imag) * half.imag
-    feet = (start[:, None] + _SHARES * way[:, None]).take(share, axis=1)
-    centres = feet + (rings + reach[:, None]) * sides.take(side, axis=1)
-    costs = rings + disliked.take(side, axis=1) + dear
-    return Candidates(centres.ravel(), costs.ravel(), feet.ravel(), *_rings_of(rings, some))
-
-
-def _rings_of(rings: Floats, some: Indices) -> tuple[Floats, Indices]:
-    """The ring of each place, and who asked for it."""
-    return np.broadcast_to(rings, (len(some), len(rings))).ravel(), some.repeat(len(rings))
+    feet = (start + _SHARES * way).take(share, axis=1)
+    centres = feet + (rings + reach) * sides.take(side, axis=1)
+    return Places.of(centres, rings + disliked.take(side, axis=1) + dear, feet, rings, who[:, None])
 
 
 @lru_cache(maxsize=64)
@@ -263,58 +241,58 @@ def _apart(liked: float) -> Floats:
 
 
 class LabelPosition(NamedTuple):
-    """A place for a label: its box (mm), what it costs in looks (mm), its leader from mark to box, and left, top, right
-    and bottom of what both take."""
+    """A place for a label: the middle of its box and half its size (mm), what it costs in looks (mm), and its leader
+    from mark to box."""
 
-    left: float
-    top: float
-    right: float
-    bottom: float
+    centre: complex
+    half: complex
     cost: float
     leader: Segment | None
-    reach: tuple[float, float, float, float]
 
     @property
     def box(self) -> Box:
-        return Box(self.left, self.top, self.right, self.bottom)
+        low, high = self.centre - self.half, self.centre + self.half
+        return Box(low.real, low.imag, high.real, high.imag)
 
-    def meets(self, other: LabelPosition, space: complex) -> bool:
-        """Whether two labels come nearer than a space (mm, across and down), or one's leader crosses the other or its
-        leader."""
-        left, top, right, bottom, _, leader, reach = self
-        its_left, its_top, its_right, its_bottom, _, its_leader, its_reach = other
-        if (
-            left - space.real < its_right and its_left < right + space.real and top - space.imag < its_bottom
-            and its_top < bottom + space.imag
-        ):  # fmt: skip
-            return True
-        if leader is None and its_leader is None:
-            return False
-        left, top, right, bottom = reach
-        its_left, its_top, its_right, its_bottom = its_reach
-        if (
-            left > its_right + LEADER_SPACE or its_left > right + LEADER_SPACE or top > its_bottom + LEADER_SPACE
-            or its_top > bottom + LEADER_SPACE
-        ):  # fmt: skip
-            return False
-        if leader is not None and other.lies_under(leader):
-            return True
-        if its_leader is None:
-            return False
-        return self.lies_under(its_leader) or (leader is not None and _crosses(leader, its_leader))
+    @property
+    def forms(self) -> tuple[complex, complex, complex, complex]:
+        """Middle, half size, foot and tip, which is the foot where there is no leader."""
+        return self.centre, self.half, *(self.leader or (0j, 0j))
 
-    def lies_under(self, leader: Segment) -> bool:
-        """Whether a leader runs over the box, or nearly."""
-        a, b = leader
-        x1, x2, left, right = a.real, b.real, self.left - LEADER_SPACE, self.right + LEADER_SPACE
-        if (x1 < left and x2 < left) or (x1 > right and x2 > right):
-            return False
-        y1, y2, top, bottom = a.imag, b.imag, self.top - LEADER_SPACE, self.bottom + LEADER_SPACE
-        if (y1 < top and y2 < top) or (y1 > bottom and y2 > bottom):
-            return False
-        dx, dy = x2 - x1, y2 - y1
-        off = abs(dx * ((top + bottom) / 2 - y1) - dy * ((left + right) / 2 - x1))
-        return off <= (right - left) / 2 * abs(dy) + (bottom - top) / 2 * abs(dx)
+
+def meeting(ones: Points, others: Points, space: complex) -> Flags:
+    """Which of some positions, in rows, meet which others, in columns: their boxes come nearer than a space (mm, across
+    and down), or the leader of one runs over the box of the other, or nearly, or crosses its leader.
+
+    Positions come as arrays of shape (4, n): middles, half sizes, feet and tips of leaders.
+    """
+    centres, half, feet, tips = ones[:, :, None]
+    its_centres, its_half, its_feet, its_tips = others
+    its_reach = its_half + space
+    # copies lie side by side in memory, which halves the time
+    over: Flags = np.abs(centres.real - its_centres.real.copy()) < half.real + its_reach.real.copy()
+    over &= np.abs(centres.imag - its_centres.imag.copy()) < half.imag + its_reach.imag.copy()
+    rows, columns = np.flatnonzero(feet != tips), np.flatnonzero(its_feet != its_tips)
+    if rows.size:
+        over[rows] |= _under(feet[rows], tips[rows], its_centres, its_half)
+    if columns.size:
+        its_feet, its_tips = its_feet[columns], its_tips[columns]
+        over[:, columns] |= _under(its_feet, its_tips, centres, half)
+        if rows.size:
+            over[np.ix_(rows, columns)] |= crosses(feet[rows], tips[rows], its_feet, its_tips)
+    return over
+
+
+def _under(feet: Points, tips: Points, centres: Points, half: Points) -> Flags:
+    """Over which boxes leaders run, or nearly."""
+    along = tips - feet
+    middles, half = feet + along / 2, half + LEADER_SPACE * (1 + 1j)
+    x, y = centres.real - middles.real, centres.imag - middles.imag
+    along_x, along_y, wide, high = along.real.copy(), along.imag.copy(), half.real.copy(), half.imag.copy()
+    under: Flags = np.abs(x) < wide + np.abs(along_x) / 2
+    under &= np.abs(y) < high + np.abs(along_y) / 2
+    under &= np.abs(along_x * y - along_y * x) < wide * np.abs(along_y) + high * np.abs(along_x)
+    return under
 
 
 @dataclass(frozen=True)
@@ -331,80 +309,25 @@ class Placed:
     keyed: bool = False
 
 
-def leader_forms(x: T, y: T, along_x: T, along_y: T) -> tuple[tuple[T | float, ...], tuple[T | float, ...]]:
-    """For a leader from a foot along a way: the distances of a point from its middle, across and down, and from its
-    line, each as factors of 1 and the point, the last times its length; and below what distances it meets a box there,
-    as factors of 1, half width and half height.  No way meets none."""
-    wide, high, one, none = abs(along_x), abs(along_y), 1.0, 0.0
-    distances = (
-        -x - along_x / 2, one, none, -y - along_y / 2, none, one, along_y * x - along_x * y, -along_y, along_x
-    )  # fmt: skip
-    reaches = (
-        wide / 2 + LEADER_SPACE, one, none, high / 2 + LEADER_SPACE, none, one, (wide + high) * LEADER_SPACE, high, wide
-    )  # fmt: skip
-    return distances, reaches
-
-
 class LabelPositions:
-    """Places of one label, whose box has a half size, cheapest first; and their linear forms: in columns 1 and the
-    middles of boxes, feet and tips of leaders; and of each leader, by factor, form and place, what `leader_forms`
-    says."""
+    """Places of one label, whose box has a half size, cheapest first."""
 
-    def __init__(self, half: complex, columns: Columns) -> None:
-        self.half, self.columns, self.costs = half, columns, columns.costs
-        self._made: dict[int, LabelPosition] = {}
+    def __init__(self, half: complex, places: Places) -> None:
+        self.half, self.places, self.costs = half, places, places.costs
 
     def __len__(self) -> int:
         return len(self.costs)
 
     @cached_property
-    def middles(self) -> Floats:
-        return _points(self.columns.centres)
-
-    @cached_property
-    def feet(self) -> Floats:
-        return _points(self.columns.feet)
-
-    @cached_property
-    def tips(self) -> Floats:
-        return _points(self.columns.tips)
-
-    @cached_property
-    def leaders(self) -> tuple[Floats, Floats]:
-        _, x, y = self.feet
-        _, tip_x, tip_y = self.tips
-        distances, reaches = np.empty((2, 3, 3, len(x)))
-        for forms, found in zip((distances, reaches), leader_forms(x, y, tip_x - x, tip_y - y), strict=True):
-            for k, factor in enumerate(found):
-                forms[k % 3, k // 3] = factor
-        return distances, reaches
-
-    @cached_property
-    def _listed(self) -> tuple[list[complex], list[float], list[complex], list[complex], list[bool]]:
-        centres, costs, feet, tips, led = self.columns
-        return centres.tolist(), costs.tolist(), feet.tolist(), tips.tolist(), led.tolist()
-
-    @cached_property
-    def first_led(self) -> int:
-        """The index of the first place that has a leader."""
-        return int(self.columns.led.argmax()) if self.columns.led.any() else len(self)
+    def forms(self) -> Points:
+        """Middles, half sizes, feet and tips, as `meeting` wants them."""
+        half = np.full(len(self), self.half)
+        return np.array((self.places.centres, half, self.places.feet, self.places.tips))
 
     def position(self, index: int) -> LabelPosition:
         """The place of an index."""
-        made = self._made.get(index)
-        if made is None:
-            centres, costs, feet, tips, led = self._listed
-            centre, half, leader = centres[index], self.half, None
-            left, top, right, bottom = reach = (
-                centre.real - half.real, centre.imag - half.imag, centre.real + half.real, centre.imag + half.imag
-            )  # fmt: skip
-            if led[index]:
-                leader = foot, _ = feet[index], tips[index]
-                x, y = foot.real, foot.imag
-                reach = min(left, x), min(top, y), max(right, x), max(bottom, y)
-            made = LabelPosition(left, top, right, bottom, costs[index], leader, reach)
-            self._made[index] = made
-        return made
+        centre, foot, tip = (complex(z[index]) for z in (self.places.centres, self.places.feet, self.places.tips))
+        return LabelPosition(centre, self.half, float(self.costs[index]), None if foot == tip else (foot, tip))
 
     def cheaper(self, cost: float) -> int:
         """How many cost less."""
@@ -415,18 +338,6 @@ class LabelPositions:
         for first, last in zip(LOTS, (*LOTS[1:], len(self)), strict=True):
             if first < count:
                 yield first, min(last, len(self))
-
-
-def _crosses(one: Segment, other: Segment) -> bool:
-    """As `crosses`, for two lines."""
-    (a, b), (c, d) = one, other
-    apart = cross(b - a, c - a) * cross(b - a, d - a)
-    return apart < 0 and cross(d - c, a - c) * cross(d - c, b - c) < 0
-
-
-def _points(points: Points) -> Floats:
-    """1 and the points, across and down, in columns."""
-    return np.array((np.ones(len(points)), points.real, points.imag))
 
 
 CELL = 1.0  # mm
@@ -503,12 +414,15 @@ def least_cost(ring: int) -> float:
 
 
 class LabelPanel:
-    """A panel with what is drawn on it and all marks, which is asked for positions of labels."""
+    """A panel with what is drawn on it and all marks, which is asked for positions of labels, and of keys in their
+    place, ring by ring.  A request is the number of a label, or one behind them for the key of one."""
 
-    def __init__(
-        self, panel: Box, obstacles: Obstacles, marks: Sequence[Mark], asked: Sequence[tuple[Label, Box]]
-    ) -> None:
-        self.panel = panel
+    def __init__(self, labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
+        self.labels, self.panel = labels, panel
+        self.texts = [label.text for label in labels]
+        self.keys: dict[int, int] = {}  # the request for the key of a label
+        self.found: dict[int, LabelPositions] = {}
+        self.seen = [0] * len(labels)  # rings looked at
         self.over: dict[Segment, bool] = {}  # which leaders cross what they are to go round
         writing = set(obstacles.writing)
         areas = [area.grown(LEADER_SPACE) if area in writing else area for area in obstacles.areas]
@@ -526,46 +440,62 @@ class LabelPanel:
             + [1.0] * len(obstacles.dashed)
         )
         # Labels at the same place share one mark: coincident points are told apart by their letters.
-        distinct = list(dict.fromkeys(map(ends, (*(label.mark for label, _ in asked), *marks))))
+        distinct = list(dict.fromkeys(map(ends, (*(label.mark for label in labels), *marks))))
         self.index = {pair: i for i, pair in enumerate(distinct)}
         self.mark_start, self.mark_end = np.array(distinct, dtype=complex).reshape(-1, 2).T.copy()
         self.mark_reach = sides_around(self.mark_start, self.mark_end)
         self.mark_is_point = self.mark_start == self.mark_end
-        self.ask(asked)
+        self._ask()
 
-    def ask(self, asked: Sequence[tuple[Label, Box]]) -> None:
-        """Let labels with boxes of these sizes, at marks that are known, want places."""
-        self.requests = LabelRequests(asked)
+    def _ask(self) -> None:
+        """Take up the requests of all texts that there are."""
+        labels = [*self.labels, *(self.labels[i] for i in self.keys)]
+        self.boxes = [box_about(text.runs) for text in self.texts]
+        self.requests = LabelRequests([*zip(labels, self.boxes, strict=True)])
         self.own_mark = np.array([self.index[mark] for mark in self.requests.marks], dtype=int)
 
-    def free(
-        self, some: Sequence[int], first: int, last: int, known: Sequence[LabelPositions] = ()
-    ) -> list[LabelPositions]:
-        """Places without a fault in the rings from ``first`` up to ``last`` for each of some requests, with those that
-        are known of each."""
-        who = np.array(some)
-        return self._without_fault(who, candidates(self.requests, who, RINGS[first:last]), known)
+    def ask_for_keys(self, some: Sequence[int]) -> range:
+        """Let keys of some labels want places too; returns their requests."""
+        requests = range(len(self.texts), len(self.texts) + len(some))
+        for i in some:
+            text, key = self.labels[i].text, self.labels[i].key
+            assert key is not None
+            self.texts.append(replace(key, id=text.id, classes=("label", *key.classes), since=text.since))
+        self.keys |= zip(some, requests, strict=True)
+        self._ask()
+        return requests
 
-    def further(
-        self, some: Sequence[int], rings: tuple[float, ...], known: Sequence[LabelPositions]
-    ) -> list[LabelPositions]:
-        """Further places without a fault in some rings for each of some requests, with leaders, and those that are
-        known of each."""
-        who = np.array(some)
-        return self._without_fault(who, led_candidates(self.requests, who, rings), known)
+    def __getitem__(self, request: int) -> LabelPositions:
+        """The places of a request; those of a key, which may never be in question, are looked for here."""
+        if request not in self.found:
+            self._find(candidates(self.requests, np.array([request]), RINGS), [request])
+        return self.found[request]
 
-    def everywhere_free(self, some: Sequence[int]) -> list[LabelPositions]:
-        """Places without a fault in all rings, and further ones, for each of some requests."""
-        who = np.array(some)
-        led = led_candidates(self.requests, who, sum(LED_RINGS, ()))
-        return self._without_fault(who, stacked((candidates(self.requests, who, RINGS), led)))
+    def look(self, some: Sequence[int], last: int) -> None:
+        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
+        for first in sorted({self.seen[i] for i in some if self.seen[i] < last}):
+            who = [i for i in some if self.seen[i] == first]
+            self._find(candidates(self.requests, np.array(who), RINGS[first:last]), who)
+            for i in who:
+                self.seen[i] = last
+
+    def look_further(self, some: Sequence[int], rings: tuple[float, ...]) -> None:
+        """Look for places of some requests with leaders in further rings (mm)."""
+        self._find(led_candidates(self.requests, np.array(some), rings), some)
+
+    def look_everywhere(self, some: Sequence[int]) -> None:
+        """Look for places of some requests in all rings, and for further ones."""
+        if some:
+            who = np.array(some)
+            led = led_candidates(self.requests, who, sum(LED_RINGS, ()))
+            self._find(stacked((candidates(self.requests, who, RINGS), led)), some)
 
     def struck(self, place: LabelPosition) -> bool:
         """Whether a dashed line runs through a place."""
         if place.cost <= DASHED_COST:
             return False
-        half = complex(place.right - place.left, place.bottom - place.top) / 2 + complex(CLEARANCE, CLEARANCE)
-        _, what = self._touched(np.array([place.box.centre]), np.array([half]), len(self.start))
+        half = place.half + complex(CLEARANCE, CLEARANCE)
+        _, what = self._touched(np.array([place.centre]), np.array([half]), len(self.start))
         return bool((what >= self.solid).any())
 
     def tangled(self, place: LabelPosition) -> bool:
@@ -578,72 +508,62 @@ class LabelPanel:
             self.over[place.leader] = bool(self._crossed(foot, start, tip, self.weights * (self.weights > 1.0))[0] > 0)
         return self.over[place.leader]
 
-    def _without_fault(
-        self, who: Indices, places: Candidates, known: Sequence[LabelPositions] = ()
-    ) -> list[LabelPositions]:
-        half = self.requests.half[who][places.owners]
+    def _find(self, places: Places, some: Sequence[int]) -> None:
+        """Add those of some places that have no fault to those that are known of the requests."""
+        half = self.requests.half[places.owners]
         clear = half + complex(CLEARANCE, CLEARANCE)
         free = ~self._outside(places.centres, half)
         if len(half) * self.solid > MANY:
             free &= ~self.ink.meets(places.centres - clear, places.centres + clear)
         kept = free.nonzero()[0]
-        places, half, clear = picked(places, kept), half[kept], clear[kept]
+        places, half, clear = places.picked(kept), half[kept], clear[kept]
         which, what = self._touched(places.centres, clear, len(self.start))
         np.add.at(places.costs, which[what >= self.solid], DASHED_COST)
-        led = self._led(who, places, half)
+        led = self._led(places, half)
         free = ~led | (places.gaps >= LEADER_LEAST)
         free[which[what < self.solid]] = False
         kept = free.nonzero()[0]
-        places, led = picked(places, kept), led[kept]
-        self._charge_beyond(who, places, half[kept], led)
-        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
-        owners = places.owners
-        if known:
-            columns = stacked((*(one.columns for one in known), columns))
-            owners = np.concatenate((np.repeat(np.arange(len(known)), [len(one) for one in known]), owners))
-        order = np.lexsort((columns.costs, owners))
-        order = order[columns.costs[order] < FORBIDDEN]
-        columns, owners = picked(columns, order), owners[order]
-        bounds = np.searchsorted(owners, np.arange(len(who) + 1)).tolist()
-        return [
-            LabelPositions(half, picked(columns, slice(first, last)))
-            for half, first, last in zip(self.requests.half[who].tolist(), bounds[:-1], bounds[1:], strict=True)
-        ]
+        places, led = places.picked(kept), led[kept]
+        self._charge_beyond(places, half[kept], led)
+        places = stacked((*(self.found[i].places for i in some if i in self.found), self._led_to(places, led)))
+        order = np.lexsort((places.costs, places.owners))
+        places = places.picked(order[places.costs[order] < FORBIDDEN])
+        bounds = (np.searchsorted(places.owners, some, side) for side in ("left", "right"))
+        for i, first, last in zip(some, *bounds, strict=True):
+            self.found[i] = LabelPositions(complex(self.requests.half[i]), places.picked(slice(first, last)))
 
     def everywhere(self, request: int) -> tuple[LabelPositions, Indices]:
         """All places of all rings for one request, and the number of faults of each."""
-        who = np.array([request])
-        places = candidates(self.requests, who, RINGS)
-        half = self.requests.half[who][places.owners]
+        places = candidates(self.requests, np.array([request]), RINGS)
+        half = self.requests.half[places.owners]
         faults = OUTSIDE * self._outside(places.centres, half).astype(int)
         np.add.at(faults, self._touched(places.centres, half + complex(CLEARANCE, CLEARANCE), self.solid)[0], 1)
-        led = self._led(who, places, half)
-        columns = Columns(places.centres, places.costs, places.feet, self._tips(who, places, led), led)
-        order = np.argsort(columns.costs, kind="stable")
-        return LabelPositions(complex(half[0]), picked(columns, order)), faults[order]
+        places = self._led_to(places, self._led(places, half))
+        order = np.argsort(places.costs, kind="stable")
+        return LabelPositions(complex(half[0]), places.picked(order)), faults[order]
 
-    def _tips(self, who: Indices, places: Candidates, led: Flags) -> Points:
-        """The tips of the leaders of places that need one, which then cost more; of other places their feet."""
-        tips = places.feet.copy()
+    def _led_to(self, places: Places, led: Flags) -> Places:
+        """Places with the tips of the leaders of those that need one, which then cost more."""
         some = led.nonzero()[0]
         if not some.size:
-            return tips
-        centres, feet, owners = places.centres[some], places.feet[some], who[places.owners[some]]
+            return places
+        centres, feet, owners = places.centres[some], places.feet[some], places.owners[some]
         off, half = centres - feet, self.requests.half[owners]
         way = _held(off.real, half.real) + 1j * _held(off.imag, half.imag)
         length = np.maximum(np.abs(way), 1e-9)
+        tips = places.feet.copy()
         tips[some] = to = feet + way * np.maximum(0.0, 1.0 - LEADER_GAP / length)
         start = feet + way / length * FOOT_REACH
         nearest = np.minimum(np.abs(self.requests.start[owners] - feet), np.abs(self.requests.end[owners] - feet))
         places.costs[some] += LEADER_COST + CROSSED_COST * self._crossed(feet, start, to, self.weights)
         places.costs[some] += END_COST * (~self.requests.is_point[owners] & (nearest < NEAR_END))
-        return tips
+        return places._replace(tips=tips)
 
-    def _charge_beyond(self, who: Indices, places: Candidates, half: Points, led: Flags) -> None:
+    def _charge_beyond(self, places: Places, half: Points, led: Flags) -> None:
         """Let places of points cost more that have no leader though a vector runs between."""
         if not len(self.vectors[0]):
             return
-        some = (~led & (places.gaps > BESIDE) & self.requests.is_point[who[places.owners]]).nonzero()[0]
+        some = (~led & (places.gaps > BESIDE) & self.requests.is_point[places.owners]).nonzero()[0]
         off = places.centres[some] - places.feet[some]
         way = _held(off.real, half[some].real) + 1j * _held(off.imag, half[some].imag)
         feet = places.feet[some]
@@ -673,12 +593,12 @@ class LabelPanel:
             found.append((which[meeting], what[meeting]))
         return joined(found)
 
-    def _led(self, who: Indices, places: Candidates, half: Points) -> Flags:
+    def _led(self, places: Places, half: Points) -> Flags:
         """Which places need a leader: far ones, and those about as near to another mark of the same kind as to their
         own."""
         led: Flags = places.gaps > LEADER_FROM
         close = (~led).nonzero()[0]
-        centres, own = places.centres[close], self.own_mark[who[places.owners[close]]]
+        centres, own = places.centres[close], self.own_mark[places.owners[close]]
         reach = half[close] + (places.gaps[close] + NEARER) * (1 + 1j)
         for which, what in near(sides(centres - reach, centres + reach), self.mark_reach):
             others = (self.mark_is_point[own[which]] == self.mark_is_point[what]) & (own[which] != what)

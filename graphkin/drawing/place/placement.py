@@ -5,16 +5,13 @@ Each label has candidate places in rings of growing distance around its mark.  T
 out for all labels at once; then labels take places, the most constrained first, and labels left without one drive out
 others (greedy point labelling with repair, after Christensen, Marks and Shieber, An empirical study of algorithms for
 point-feature label placement, ACM Trans. Graphics 14, 1995).
-
-Whether boxes and leaders meet is asked of many at once as linear forms of the page: how far a point lies from a middle,
-across and down, or from the line of a leader, against what both take there (separating axes).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import islice
+from typing import TypeAlias
 
 import numpy as np
 
@@ -24,7 +21,6 @@ from graphkin.drawing.ink.primitives import Line, Text
 from graphkin.drawing.place.labels import (
     FORBIDDEN,
     LED_RINGS,
-    LOTS,
     RINGS,
     TANGLED,
     Label,
@@ -33,11 +29,10 @@ from graphkin.drawing.place.labels import (
     LabelPositions,
     Mark,
     Placed,
-    leader_forms,
     least_cost,
+    meeting,
 )
-from graphkin.drawing.place.obstacles import ON_LINE, Flags, Floats, Indices, Obstacles
-from graphkin.drawing.text import box_about
+from graphkin.drawing.place.obstacles import Flags, Floats, Indices, Obstacles, Points
 from graphkin.plane import added_up
 
 __all__ = ["Placement", "place"]
@@ -58,14 +53,10 @@ _DISPENSABLE = 4  # the rank from which labels may be missing
 _KEY_COST, _TOLD_COST, _MISSING_COST = 10.0, 70.0, TANGLED
 _TOLD = -1  # in place of a request
 _NOTHING = Obstacles()
-# Where it stands in the forms of a held position: as factors of 1, x, y the distances of a point from the middle of its
-# box, from the middle of its leader and from the line of that; as factors of 1, half width, half height of a box there
-# how near it must be to meet; 1 with middle, half size, foot and tip.
-_DISTANCES, _REACHES, _MIDDLE, _HALF = slice(15), slice(15, 30), slice(30, 33), slice(33, 36)
-_FOOT, _TIP, _NUMBERS = slice(36, 39), slice(39, 42), 42
-_BOX_DISTANCES, _NORMAL, _BOX_REACHES = slice(6), slice(12, 15), slice(15, 21)
-_NO_LEADER: tuple[float, ...] = (1.0, 0.0, 0.0) * 3
-_NOWHERE: tuple[float, ...] = (0.0, 0.0, 0.0) * 3
+Place: TypeAlias = tuple[int, int]
+"""A request and the index of one of its places, or ``_TOLD``."""
+NOWHERE = LabelPosition(complex(np.nan, np.nan), 0j, 0.0, None)
+"""Of a label that is told: it meets none."""
 
 
 def place(
@@ -83,64 +74,6 @@ def place(
     return Placement(labels, panel, obstacles, marks).placed
 
 
-class _Choices:
-    """What labels, and keys in their place, may choose from: a text, its box, and places as far as they have been
-    looked at.  A request is the number of a label, or one behind them for the key of one."""
-
-    def __init__(self, labels: Sequence[Label], panel: Box, obstacles: Obstacles, marks: Sequence[Mark]) -> None:
-        self.labels = labels
-        self.texts = [label.text for label in labels]
-        self.boxes = [box_about(text.runs) for text in self.texts]
-        self.asked = list(zip(labels, self.boxes, strict=True))
-        self.panel = LabelPanel(panel, obstacles, marks, self.asked)
-        self.found: dict[int, LabelPositions] = {}
-        self.seen = [0] * len(labels)  # rings looked at
-        self.keys: dict[int, int] = {}  # the request for the key of a label
-
-    def __getitem__(self, request: int) -> LabelPositions:
-        """The places of a request; those of a key, which may never be in question, are looked for here."""
-        if request not in self.found:
-            (self.found[request],) = self.panel.free([request], 0, len(RINGS))
-        return self.found[request]
-
-    def look(self, who: Sequence[int], last: int) -> None:
-        """Look for places in the rings up to ``last`` that some labels have not yet seen."""
-        for first in sorted({self.seen[i] for i in who if self.seen[i] < last}):
-            some = [i for i in who if self.seen[i] == first]
-            known = [self.found[i] for i in some] if first else ()
-            self.found |= zip(some, self.panel.free(some, first, last, known), strict=True)
-            for i in some:
-                self.seen[i] = last
-
-    def look_further(self, who: Sequence[int], rings: tuple[float, ...]) -> None:
-        """Look for places of some labels with leaders in further rings (mm)."""
-        self.found |= zip(who, self.panel.further(who, rings, [self.found[i] for i in who]), strict=True)
-
-    def look_everywhere(self, who: Sequence[int]) -> None:
-        """Look for places of some requests in all rings, and for further ones."""
-        if who:
-            self.found |= zip(who, self.panel.everywhere_free(who), strict=True)
-
-    def ask_for_keys(self, some: Sequence[int]) -> range:
-        """Let keys of some labels want places too; returns their requests."""
-        first = len(self.asked)
-        for i in some:
-            label = self.labels[i]
-            assert label.key is not None
-            classes = ("label", *label.key.classes)
-            self.texts.append(replace(label.key, id=label.text.id, classes=classes, since=label.text.since))
-            self.boxes.append(box_about(label.key.runs))
-            self.asked.append((label, self.boxes[-1]))
-        self.panel.ask(self.asked)
-        requests = range(first, len(self.asked))
-        self.keys |= zip(some, requests, strict=True)
-        return requests
-
-    def forms(self, i: int) -> list[tuple[int, float]]:
-        """The requests by which a label may stand, and what they cost beside their places."""
-        return [(i, 0.0), *((key, _KEY_COST) for key in (self.keys.get(i),) if key is not None)]
-
-
 class Placement:
     """Which label stands where; parameters as for `place`."""
 
@@ -148,7 +81,7 @@ class Placement:
         self, labels: Sequence[Label], panel: Box, obstacles: Obstacles = _NOTHING, marks: Sequence[Mark] = ()
     ) -> None:
         self.labels, self.ranks = labels, [label.rank for label in labels]
-        self.choices = _Choices(labels, panel, obstacles, marks)
+        self.choices = LabelPanel(labels, panel, obstacles, marks)
         self.held = HeldPositions(len(labels), _SPACE)
         self.forms = list(range(len(labels)))  # the request by which each label stands, or ``_TOLD``
         self.faulty: set[int] = set()  # labels that stand where they do least harm
@@ -176,7 +109,7 @@ class Placement:
         request = self.forms[i]
         text, box = self.choices.texts[request], self.choices.boxes[request]
         leader = None if position.leader is None else Line(*position.leader, strokes.LEADER)
-        at = complex(position.left - box.left, position.top - box.top)
+        at = complex(position.box.left - box.left, position.box.top - box.top)
         text = Text(at, text.runs, "start", text.colour, text.id, text.classes, text.step, text.since)
         return Placed(text, position.box, leader, i not in self.faulty, request != i)
 
@@ -281,12 +214,12 @@ class Placement:
 
     def _badly(self, i: int) -> bool:
         """Whether a dashed line runs through a label, or its leader crosses what leaders are to go round."""
-        return self._tangled(i) or self.choices.panel.struck(self.held.standing[i])
+        return self._tangled(i) or self.choices.struck(self.held.standing[i])
 
     def _tangled(self, i: int) -> bool:
         """Whether the leader of a label crosses what leaders are to go round."""
         position = self.held.standing[i]
-        return position.cost > TANGLED and self.choices.panel.tangled(position)
+        return position.cost > TANGLED and self.choices.tangled(position)
 
     def shorten(self) -> None:
         """Put keys in place of names that stand badly and of those in their way; else have them told by their ends."""
@@ -320,40 +253,36 @@ class Placement:
         here, best = self.held.standing.get(i), self._cost(i)
         if here is not None:
             self.held.leave(i)
-        chosen: dict[int, tuple[int, LabelPosition | None]] = {}
+        chosen: dict[int, tuple[int, LabelPosition]] = {}
         if self.telling and self.labels[i].between and best > _TOLD_COST:
-            chosen, best = {i: (_TOLD, None)}, _TOLD_COST
-        others: dict[int, list[tuple[float, int, int]]] = {}  # their places that are free but for this label and them
-        for form, extra in self.choices.forms(i):
+            chosen, best = {i: (_TOLD, NOWHERE)}, _TOLD_COST
+        others: dict[int, tuple[Floats, list[Place], Points]] = {}
+        for form, extra in self._forms(i):
             positions = self.choices[form]
-            free = self.held.first_known_free(positions, positions.cheaper(best - extra))
+            free = self.held.first_free(positions, positions.cheaper(best - extra))
             if free is not None:
                 position = positions.position(free)
                 chosen, best = {i: (form, position)}, position.cost + extra
-            nearly = self._nearly_free(positions, positions.cheaper(best - extra))
-            for position, meeting in islice(nearly, _TRIED):
+            nearly = [*islice(self._nearly_free(positions, positions.cheaper(best - extra)), _TRIED)]
+            there = np.array([position.forms for position, _ in nearly]).reshape(-1, 4).T
+            clear: dict[int, Flags] = {}  # which of the others' places these positions leave free
+            for n, (position, met) in enumerate(nearly):
                 cost = position.cost + extra
                 if cost >= best:
                     break
-                moved: dict[int, tuple[int, LabelPosition | None]] = {i: (form, position)}
-                taken = [position]
-                for j in meeting.nonzero()[0].tolist():
+                moved = {i: (form, position)}
+                for j in met.nonzero()[0].tolist():
                     if j not in others:
                         others[j] = self._others(j)
+                    if j not in clear:
+                        clear[j] = ~meeting(others[j][2], there, _SPACE)
                     rest = best - cost + self._cost(j)
-                    for dear, own, k in others[j]:
-                        if dear >= rest:
-                            break
-                        its = None if own == _TOLD else self.choices[own].position(k)
-                        if its is not None:
-                            if any(its.meets(one, _SPACE) for one in taken):
-                                continue
-                            taken.append(its)
-                        moved[j] = own, its
-                        cost += dear - self._cost(j)
+                    further = [one for label, (_, one) in moved.items() if label != i]
+                    elsewhere = self._elsewhere(others[j], clear[j][:, n], further, rest)
+                    if elsewhere is None:
                         break
-                    if j not in moved:
-                        break
+                    dear, moved[j] = elsewhere
+                    cost += dear - self._cost(j)
                 else:
                     if cost < best:
                         best, chosen = cost, moved
@@ -364,7 +293,7 @@ class Placement:
             if here is not None:
                 self.held.take(i, here)
         for label, (form, place) in chosen.items():
-            if place is not None:
+            if form != _TOLD:
                 self.held.take(label, place)
             elif label in self.held.standing:
                 self.held.leave(label)
@@ -407,18 +336,41 @@ class Placement:
         moves, keys, concerned = self.stuck.get(i, (-1, 0, set()))
         return moves == self.moves and concerned.isdisjoint(list(self.choices.keys)[keys:])
 
-    def _others(self, j: int) -> list[tuple[float, int, int]]:
-        """Places of a label that no other is in the way of: what they cost, their request and index."""
-        found = []
-        for form, extra in self.choices.forms(j):
+    def _forms(self, i: int) -> list[tuple[int, float]]:
+        """The requests by which a label may stand, and what they cost beside their places."""
+        key = self.choices.keys.get(i)
+        return [(i, 0.0), *([(key, _KEY_COST)] if key is not None else ())]
+
+    def _others(self, j: int) -> tuple[Floats, list[Place], Points]:
+        """Places of a label that no other is in the way of, the cheapest first: what they cost, which they are, and
+        where, as `meeting` wants it."""
+        found: list[tuple[float, Place]] = []
+        for form, extra in self._forms(j):
             positions = self.choices[form]
             met = self.held.met(positions, min(_LOOKED_AT, len(positions)))
             free = (met.sum(axis=0) == met[j]).nonzero()[0]
             costs = (positions.costs[free] + extra).tolist()
-            found += [(cost, form, k) for cost, k in zip(costs, free.tolist(), strict=True)]
+            found += [(cost, (form, k)) for cost, k in zip(costs, free.tolist(), strict=True)]
         if self.telling and self.labels[j].between:
-            found.append((_TOLD_COST, _TOLD, 0))
-        return sorted(found)
+            found.append((_TOLD_COST, (_TOLD, 0)))
+        found.sort()
+        where = [place for _, place in found]
+        stands = [NOWHERE.forms if form == _TOLD else self.choices[form].forms[:, k] for form, k in where]
+        return np.array([cost for cost, _ in found]), where, np.array(stands, dtype=complex).reshape(-1, 4).T
+
+    def _elsewhere(
+        self, places: tuple[Floats, list[Place], Points], free: Flags, moved: Sequence[LabelPosition], most: float
+    ) -> tuple[float, tuple[int, LabelPosition]] | None:
+        """The cheapest of some places, as far as they are free, that costs less than so much and meets none of the
+        labels that have moved, with its cost."""
+        costs, where, stands = places
+        free = free & (costs < most)
+        for position in moved:
+            free &= ~meeting(stands, np.array(position.forms)[:, None], _SPACE)[:, 0]
+        if not free.any():
+            return None
+        form, k = where[first := int(free.argmax())]
+        return float(costs[first]), (form, NOWHERE if form == _TOLD else self.choices[form].position(k))
 
     def _nearly_free(self, positions: LabelPositions, count: int) -> Iterator[tuple[LabelPosition, Flags]]:
         """Of the first places those that meet few other labels, cheapest first, with what they meet."""
@@ -429,7 +381,7 @@ class Placement:
 
     def _insist(self, i: int) -> None:
         """Put a label where it does least harm, and give up those in its way that may be given up."""
-        (positions, faults), important = self.choices.panel.everywhere(i), np.array(self.ranks) == 0
+        (positions, faults), important = self.choices.everywhere(i), np.array(self.ranks) == 0
         met = self.held.covered(positions)
         faults = faults + met[important].sum(axis=0)
         chosen = int(np.lexsort((positions.costs, met.sum(axis=0), faults))[0])
@@ -440,15 +392,6 @@ class Placement:
         self.held.take(i, positions.position(chosen))
 
 
-@dataclass
-class _Known:
-    """Which labels, at positions of these numbers (-1: not known), are met by which of the first places of a label."""
-
-    over: Flags
-    places: int
-    numbers: Indices
-
-
 class HeldPositions:
     """The positions that labels hold with a space (mm, across and down) between them, and which places meet them."""
 
@@ -456,31 +399,21 @@ class HeldPositions:
         self.space = space
         self.stands = np.zeros(count, dtype=bool)
         self.standing: dict[int, LabelPosition] = {}
-        self.leaders: dict[int, LabelPosition] = {}  # those of them that have one
-        self.last: dict[int, LabelPosition] = {}  # those that labels hold or have held
-        self.numbers = np.full(count, -1, dtype=np.intp)  # and their numbers
+        self.forms = np.zeros((4, count), dtype=complex)  # where labels stand or have stood
+        self.numbers = np.full(count, -1, dtype=np.intp)  # and the numbers of these positions
         self.number: dict[LabelPosition, int] = {}
-        self.forms = np.empty((2 * count, _NUMBERS))
-        self.known: dict[LabelPositions, _Known] = {}
+        # Of some of the first places of a label which others meet them, where these stand in positions of such numbers.
+        self.known: dict[LabelPositions, tuple[Flags, Indices]] = {}
 
     def take(self, label: int, position: LabelPosition) -> None:
         self.standing[label] = position
         self.stands[label] = True
-        if position.leader is not None:
-            self.leaders[label] = position
-        if self.last.get(label) is position:
-            return
-        self.last[label] = position
-        number = self.numbers[label] = self.number.setdefault(position, len(self.number))
-        if number == len(self.forms):
-            self.forms = np.concatenate((self.forms, np.empty_like(self.forms)))
-        if number == len(self.number) - 1:
-            self.forms[number] = _forms(position, self.space)
+        self.forms[:, label] = position.forms
+        self.numbers[label] = self.number.setdefault(position, len(self.number))
 
     def leave(self, label: int) -> None:
         del self.standing[label]
         self.stands[label] = False
-        self.leaders.pop(label, None)
 
     def put_back(self, standing: Mapping[int, LabelPosition]) -> None:
         """Let the labels hold positions that they have held at a time."""
@@ -490,101 +423,29 @@ class HeldPositions:
             self.take(label, position)
 
     def met(self, places: LabelPositions, count: int) -> Flags:
-        """Which labels stand where they are met by which of the first places, as `LabelPosition.meets` says: labels in
-        rows, places in columns."""
+        """Which labels stand where they are met by which of the first places: labels in rows, places in columns."""
         known = self.known.get(places)
-        if known is None:
+        if known is None or known[0].shape[1] < count:
+            last = max((last for _, last in places.lots(count)), default=0)
             none = np.full(len(self.stands), -1, dtype=np.intp)
-            known = self.known[places] = _Known(np.zeros((len(self.stands), len(places)), dtype=bool), 0, none)
-        if known.places:
-            some = (self.stands & (known.numbers != self.numbers)).nonzero()[0]
-            if some.size:
-                known.over[some, : known.places] = self._met(places, 0, known.places, some)
-                known.numbers[some] = self.numbers[some]
-        if known.places < count:
-            first, last = known.places, min(last for last in (*LOTS, len(places)) if last >= count)
-            some = self.stands.nonzero()[0]
-            if some.size:
-                known.over[some, first:last] = self._met(places, first, last, some)
-            known.numbers, known.places = np.where(self.stands, self.numbers, -1), last
-        return known.over[:, :count] & self.stands[:, None]
+            known = self.known[places] = np.zeros((len(self.stands), last), dtype=bool), none
+        over, numbers = known
+        some = (self.stands & (numbers != self.numbers)).nonzero()[0]
+        if some.size:
+            over[some] = meeting(self.forms[:, some], places.forms[:, : over.shape[1]], self.space)
+            numbers[some] = self.numbers[some]
+        return over[:, :count] & self.stands[:, None]
 
     def covered(self, places: LabelPositions) -> Flags:
         """As `met` of all places, but that labels may stand as near to each other as they like."""
-        near = HeldPositions(len(self.stands), 0j)
-        near.put_back(self.standing)
-        return near.met(places, len(places))
-
-    def _met(self, places: LabelPositions, first: int, last: int, labels: Indices) -> Flags:
-        """Which labels stand where they are met by which of the places from ``first`` to ``last``."""
-        held, half = self.forms[self.numbers[labels]], (1.0, places.half.real, places.half.imag)
-        distances = held[:, _DISTANCES].reshape(-1, 3) @ places.middles[:, first:last]
-        near = np.abs(distances, out=distances) < (held[:, _REACHES].reshape(-1, 3) @ half)[:, None]
-        box_x, box_y, leader_x, leader_y, line = near.reshape(len(labels), 5, -1).transpose(1, 0, 2)
-        over: Flags = box_x & box_y
-        over |= leader_x & leader_y & line
-        led = max(places.first_led, first)
-        if led < last:
-            over[:, led - first :] |= _met_by_leaders(held, places, slice(led, last))
+        over = np.zeros((len(self.stands), len(places)), dtype=bool)
+        over[self.stands] = meeting(self.forms[:, self.stands], places.forms, 0j)
         return over
 
     def first_free(self, places: LabelPositions, count: int) -> int | None:
         """The index of the cheapest of the first ``count`` places that meets no label; None where all do."""
-        for k in self._promising(places, count):
-            position = places.position(k)
-            for other in (self.standing if k == 0 or position.leader is not None else self.leaders).values():
-                if position.meets(other, self.space):
-                    break
-            else:
-                return k
-        return None
-
-    def _promising(self, places: LabelPositions, count: int) -> Iterator[int]:
-        """The cheapest of some places, which is mostly free, and those of them whose boxes overlap none."""
-        if count:
-            yield 0
-        held, half = self.forms[self.numbers[self.stands]], (1.0, places.half.real, places.half.imag)
-        for first, last in places.lots(count):
-            distances = held[:, _BOX_DISTANCES].reshape(-1, 3) @ places.middles[:, first:last]
-            near = np.abs(distances, out=distances) < (held[:, _BOX_REACHES].reshape(-1, 3) @ half)[:, None]
-            free = np.flatnonzero(~(near[::2] & near[1::2]).any(axis=0))
-            yield from (k for k in (first + free).tolist() if 0 < k < count)
-
-    def first_known_free(self, places: LabelPositions, count: int) -> int | None:
-        """As `first_free`, for places of which is asked again what they meet."""
         for first, last in places.lots(count):
             free = np.flatnonzero(~self.met(places, last)[:, first:].any(axis=0))
             if free.size:
-                found = first + int(free[0])
-                return found if found < count else None
+                return first + int(free[0]) if first + free[0] < count else None
         return None
-
-
-def _forms(position: LabelPosition, space: complex) -> tuple[float, ...]:
-    """The linear forms of a held position, as above; distances from no leader are too long."""
-    left, top, right, bottom = position[:4]
-    x, y, half_x, half_y = (left + right) / 2, (top + bottom) / 2, (right - left) / 2, (bottom - top) / 2
-    foot = tip = 0j
-    distances, reaches = _NO_LEADER, _NOWHERE
-    if position.leader is not None:
-        foot, tip = position.leader
-        distances, reaches = leader_forms(foot.real, foot.imag, tip.real - foot.real, tip.imag - foot.imag)
-    return (
-        -x, 1.0, 0.0, -y, 0.0, 1.0, *distances, half_x + space.real, 1.0, 0.0, half_y + space.imag, 0.0, 1.0, *reaches,
-        1.0, x, y, 1.0, half_x, half_y, 1.0, foot.real, foot.imag, 1.0, tip.real, tip.imag,
-    )  # fmt: skip
-
-
-def _met_by_leaders(held: Floats, places: LabelPositions, some: slice) -> Flags:
-    """Which positions are met by the leaders of some places."""
-    distances, reaches = (form[..., some].reshape(3, -1) for form in places.leaders)
-    apart = held[:, _MIDDLE] @ distances
-    near = np.abs(apart, out=apart) < held[:, _HALF] @ reaches
-    across, down, line = near.reshape(len(held), 3, -1).transpose(1, 0, 2)
-    under: Flags = across & down
-    under &= line
-    its_normal, own_normal = held[:, _NORMAL], places.leaders[0][:, 2, some]
-    crossed = (its_normal @ places.feet[:, some]) * (its_normal @ places.tips[:, some]) < -ON_LINE
-    crossed &= (held[:, _FOOT] @ own_normal) * (held[:, _TIP] @ own_normal) < -ON_LINE
-    under |= crossed
-    return under
