@@ -12,9 +12,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from heapq import heappop, heappush
 from itertools import combinations
 from typing import Literal
 
@@ -227,6 +228,11 @@ class Centres:
         """All pairs, each written in the order of the file, the frame last."""
         return tuple(self.pair(a, b) for a, b in combinations(self.names, 2))
 
+    @cached_property
+    def places(self) -> dict[LinkPair, int]:
+        """The place of each pair in their order."""
+        return {pair: place for place, pair in enumerate(self.pairs)}
+
     def pair(self, a: str, b: str) -> LinkPair:
         """Two links in the order in which their centre is written."""
         order = self.scene.order
@@ -379,7 +385,12 @@ class CircleDiagram:
     table : the centres so far, in their order
     lines : the lines known of each missing centre
     best : the crossing of two of them that errs least
-    ranks : of those that are sure the error in powers of ten
+    ranked : of those that are sure the error in powers of ten and the pair's place in the order of links, the least
+        first; those that the table has are passed over
+    reached : centres that two closed triangles of the circle diagram can give, one after the other, were no two lines
+        to fall together
+    joined : by link those with whose centres that is so
+    placed : by link the centres of known place with others
     """
 
     links: Centres
@@ -387,32 +398,46 @@ class CircleDiagram:
     table: dict[LinkPair, Centre]
     lines: dict[LinkPair, list[CentreRelation]]
     best: dict[LinkPair, Centre]
-    ranks: dict[LinkPair, int]
+    ranked: list[tuple[int, int, LinkPair]]
+    reached: set[LinkPair]
+    joined: dict[str, set[str]]
+    placed: dict[str, dict[str, Centre]]
 
-    def known(self, a: str, b: str) -> Centre | None:
-        """The centre of two links, where its place is known."""
-        centre = self.table.get(self.links.pair(a, b))
-        return centre if centre is not None and centre.place is not None else None
+    @classmethod
+    def empty(cls, links: Centres, normals: Sequence[CentreRelation]) -> CircleDiagram:
+        """The diagram in which nothing but the common normals is drawn."""
+        lines: dict[LinkPair, list[CentreRelation]] = {pair: [] for pair in links.pairs}
+        joined: dict[str, set[str]] = {name: set() for name in links.names}
+        diagram = cls(links, Counter(line.pair for line in normals), {}, lines, {}, [], set(), joined,
+                      {name: {} for name in links.names})  # fmt: skip
+        for line in normals:
+            diagram.draw(line)
+        diagram.reached |= diagram.reached_with([p for p in links.pairs if diagram.normals[p] >= 2], joined)
+        return diagram
 
     def take(self, centre: Centre) -> None:
         """Take in a centre, and with it all lines that it completes."""
         self.table[centre.pair] = centre
         if centre.place is None:
             return
-        self.ranks.pop(centre.pair, None)
+        if centre.pair not in self.reached:
+            self.reached |= self.reached_with([centre.pair], self.joined)
         for a, b in (centre.pair, centre.pair[::-1]):
-            for via in self.links.names:
-                # the triangle a, b, via: the side from a to via is missing
-                if via in (a, b) or self.known(a, via) is not None:
+            self.placed[a][b] = centre
+        for a, b in (centre.pair, centre.pair[::-1]):
+            # the triangles a, b, via: the side from a to via is missing
+            missing = self.placed[b].keys() - self.placed[a].keys() - {a}
+            for via in [name for name in self.links.names if name in missing]:
+                other, pair = self.placed[b][via], self.links.pair(a, via)
+                if len(self.lines[pair]) == MOST_LINES:
                     continue
-                other, missing = self.known(b, via), self.links.pair(a, via)
-                if other is None or other.place is None or len(self.lines[missing]) == MOST_LINES:
-                    continue
+                assert centre.place is not None
+                assert other.place is not None
                 line, sine = wedge(centre.place, other.place)
                 if sine > TOGETHER:
-                    ends = (centre.pair, other.pair) if missing[0] in centre.pair else (other.pair, centre.pair)
+                    ends = (centre.pair, other.pair) if pair[0] in centre.pair else (other.pair, centre.pair)
                     error = (centre.error + other.error + ROUNDING) / sine
-                    self.draw(CentreRelation(missing, line, error, ends))
+                    self.draw(CentreRelation(pair, line, error, ends))
 
     def draw(self, relation: CentreRelation) -> None:
         """A line for a missing centre: it crosses those that are there."""
@@ -430,51 +455,56 @@ class CircleDiagram:
                 place = -place[0], -place[1], -place[2]
             self.best[pair] = Centre(pair, "found", place, lines=(other, relation), error=error / sine)
             if error / sine <= SURE:
-                self.ranks[pair] = math.ceil(math.log10(error / sine))
+                heappush(self.ranked, (math.ceil(math.log10(error / sine)), self.links.places[pair], pair))
         lines.append(relation)
 
     def crossing(self) -> Centre | None:
         """The missing centre that is found best: the least error to be expected, counted in powers of ten, and among
         those the first in the order of the links.  None where no two lines cross so well that the place errs by no
         more than ``SURE`` (on the unit sphere)."""
-        sure = [pair for pair in self.links.pairs if pair in self.ranks]
-        return self.best[min(sure, key=lambda pair: self.ranks[pair])] if sure else None
+        while self.ranked and self.ranked[0][2] in self.table:
+            heappop(self.ranked)
+        return self.best[self.ranked[0][2]] if self.ranked else None
 
-    def reached(self, more: Iterable[LinkPair] = ()) -> set[LinkPair]:
-        """The centres that two closed triangles of the circle diagram can give, one after the other, lines never
-        falling together; ``more`` are supposed to be known."""
-        bit = {name: 1 << i for i, name in enumerate(self.links.names)}
-        joined = dict.fromkeys(bit, 0)  # for each link, a bit for every other whose centre with it is known
-        fresh = [*(pair for pair, centre in self.table.items() if centre.place is not None), *more]
+    def reached_with(self, fresh: list[LinkPair], joined: dict[str, set[str]]) -> set[LinkPair]:
+        """The pairs ``fresh``, and those that triangles give with them and with all that are ``joined``, which takes
+        them in."""
         have: set[LinkPair] = set()
         while fresh:
-            have.update(fresh)
-            for a, b in fresh:
-                joined[a] |= bit[b]
-                joined[b] |= bit[a]
-            fresh = [(a, b) for a, b in self.links.pairs if (a, b) not in have
-                     and self.normals[a, b] + (joined[a] & joined[b]).bit_count() >= 2]  # fmt: skip
+            pair = fresh.pop()
+            have.add(pair)
+            for a, b in (pair, pair[::-1]):
+                joined[a].add(b)
+                for via in joined[b]:
+                    if via != a and via not in joined[a]:
+                        missing = self.links.pair(a, via)
+                        if self.normals[missing] + len(joined[a] & joined[via]) >= 2 and missing not in have:
+                            fresh.append(missing)
+                            have.add(missing)
         return have
 
     def to_measure(self, motions: Mapping[str, LinkMotion]) -> LinkPair:
         """The missing centre that gives most others; measured ones before those that are not, then the frame's."""
-        reached, frame = self.reached(), self.links.scene.frame.name
-        missing = [pair for pair in self.links.pairs if pair not in self.table]
+        frame = self.links.scene.frame.name
 
         def gain(pair: LinkPair) -> tuple[bool, int, bool]:
-            more = 0 if pair in reached else len(self.reached((pair,))) - len(reached)
+            joined = {name: set(others) for name, others in self.joined.items()}
+            more = 0 if pair in self.reached else len(self.reached_with([pair], joined))
             return pair[0] in motions and pair[1] in motions, more, frame in pair
 
-        # of those that the triangles reach, if not surely, only the first: they give no more than the triangles do
-        return max([*(p for p in missing if p not in reached), *(p for p in missing if p in reached)], key=gain)
+        missing = [pair for pair in self.links.pairs if pair not in self.table]
+        sought = [pair for pair in missing if pair not in self.reached]
+        # those that the triangles reach, if not surely, give no more than the triangles do: the first of the best
+        # is enough
+        within = [pair for pair in missing if pair[0] in motions and pair[1] in motions] or missing
+        of_frame = [pair for pair in within if frame in pair]
+        return max([*sought, (of_frame or within)[0]], key=gain)
 
 
 def _with_table(links: Centres, instrument: Instrument) -> Centres:
     """The centres of links on paper."""
     normals, motions, chart = list(_normals(links)), measured(links.sheet), links.chart
-    diagram = CircleDiagram(links, Counter(line.pair for line in normals), {}, {p: [] for p in links.pairs}, {}, {})
-    for line in normals:
-        diagram.draw(line)
+    diagram = CircleDiagram.empty(links, normals)
     for centre in _permanent(links):
         if centre.pair not in diagram.table:
             diagram.take(centre)
