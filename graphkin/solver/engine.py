@@ -189,7 +189,8 @@ def positions(
     rates : False leaves out velocity and acceleration
     fine : False leaves 16 digits where they are rough: for curves, and on the way
     known : at one position, numbers of the formulas that are the same as in an earlier call, by the places of their
-        lines; filled, so that what comes after needs no formulas from the start again
+        lines; filled, so that what comes after needs no formulas from the start again.  The state then has the last
+        of the elements alone
 
     Returns
     -------
@@ -197,7 +198,7 @@ def positions(
     """
     with np.errstate(all="ignore"):
         run = _Run(structure, drive, forms, rates, fine, known)
-        return run.state(len(structure.elements) if upto is None else upto)
+        return run.state(len(structure.elements) if upto is None else upto, whole=known is None)
 
 
 def group_at(structure: Structure, drive: Drive, forms: Mapping[int, Array], which: int) -> GroupSolved:
@@ -258,17 +259,19 @@ class _Run:
             elif isinstance(element, Driven) and isinstance(element.driver, Rolled):
                 self._roll(i, element.driver)
 
-    def state(self, upto: int) -> State:
+    def state(self, upto: int, whole: bool = True) -> State:
+        """The mechanism up to an element, or of it the last element alone."""
         self.follow(upto)
         elements, drivers = self.structure.elements[:upto], self.structure.drivers
         program = self.dimensioned.program
-        names = [n for e in elements for n in e.members]
-        dyads = [i for i in self.structure.dyads if i < upto]
+        first = 0 if whole else upto - 1
+        names = [n for e in elements[first:] for n in e.members]
+        dyads = [i for i in self.structure.dyads if first <= i < upto]
         parts = ("discriminant", "sine", *(("e1", "e2", "right_side") if self.rates else ()))
         fields = FIELDS if self.rates else FIELDS[:2]
         asked = [getattr(program.poses[n], f) for n in names for f in fields]
         asked += [getattr(program.groups[i], p) for i in dyads for p in parts]
-        columns = self._values((upto, self.rates), asked)
+        columns = self._values((first, upto, self.rates), asked)
         values = iter(columns)
         poses = {self.structure.scene.frame.name: rest()}
         poses |= {n: _pose(dict(zip(fields, values, strict=False))) for n in names}
@@ -294,7 +297,7 @@ class _Run:
             again = exact | self._rough(state)
         if not again.any():
             return state
-        extended = self._extended(program.code((upto, self.rates), asked))
+        extended = self._extended(program.code((first, upto, self.rates), asked))
         return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
 
     def _lifted(self) -> dict[Name, Array]:

@@ -61,12 +61,12 @@ class ExpressionGraph:
         """A number that changes from position to position."""
         return self.line("input", name)
 
-    def needed(self, asked: Iterable[Real]) -> list[int]:
-        """The lines that lead to what is asked, each after those it needs, near to where it is used."""
-        done: set[int] = set()
+    def needed(self, asked: Iterable[int], known: Iterable[int] = ()) -> list[int]:
+        """The lines that lead to those asked from those known, each after those it needs, near to where it is used."""
+        done = set(known)
         order: list[int] = []
-        for real in asked:
-            stack = [(real.at, False)]
+        for line in asked:
+            stack = [(line, False)]
             while stack:
                 at, ready = stack.pop()
                 if ready:
@@ -416,8 +416,12 @@ class Code:
     ) -> None:
         self.graph = graph
         self.asked = [real.at for real in asked]
-        self.order = graph.needed(asked)
         self.fixed, self._open = fixed, open_
+
+    @cached_property
+    def order(self) -> list[int]:
+        """All lines that it computes, each after those it needs."""
+        return self.graph.needed(self.asked)
 
     @cached_property
     def leaves(self) -> list[Name]:
@@ -475,9 +479,7 @@ class Code:
         ZeroDivisionError, OverflowError : a singular position; of decimals any ArithmeticError
         """
         lines = self.graph.lines
-        for at in self.order:
-            if at in known:
-                continue
+        for at in self.graph.needed(self.asked, known) if known else self.order:
             kind, *of = lines[at]
             if kind == "const":
                 known[at] = operations[kind](of[0])
@@ -543,7 +545,7 @@ class Code:
         self, asked: Sequence[int], inputs: Mapping[Name, str], before: Mapping[int, str]
     ) -> tuple[list[str], dict[int, str]]:
         """The same for what changes, as far as some of the asked lines need it, after ``straight_same``."""
-        order = [at for at in self.graph.needed([Real(self.graph, at) for at in asked]) if at in self.varying]
+        order = [at for at in self.graph.needed(asked) if at in self.varying]
         return self._straight(order, inputs, set(), before)
 
     # many positions

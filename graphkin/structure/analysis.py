@@ -307,11 +307,13 @@ def _touches(structure: Structure, relation: RollingRelation, inside: set[str], 
 def _pairs(structure: Structure, members: list[str], known: set[str]) -> list[Pair]:
     """All pairs that hold the members: to known links, or among themselves."""
     found: list[Pair] = []
+    inside, rank = set(members), _ranks(structure)
     for point, names in structure.hinges.items():
-        mine = sorted((n for n in names if n in members), key=_ranks(structure))
+        if inside.isdisjoint(names):
+            continue
+        mine = sorted(inside.intersection(names), key=rank)
         base = [n for n in names if n in known]
         found += [Pair(point, n, base[0]) for n in mine] if base else [Pair(point, b, a) for a, b in pairwise(mine)]
-    inside = set(members)
     return found + [s for s in structure.slides if inside.intersection(s.links) and {*s.links} <= inside | known]
 
 
