@@ -82,12 +82,13 @@ def greatest_and_least(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Place and value of the greatest and of the least of a course that was sampled, each sought between the neighbours
     of its sample; not where these stand in another order, as where a turn begins anew."""
-    found, rounding = [], SAME_VALUE * float(np.ptp(values[np.isfinite(values)]))
+    found = []
     for sign in (-1.0, 1.0):
         k = int(np.nanargmin(sign * values))
         place, value = float(places[k]), float(values[k])
         low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, len(places) - 1)])
         if low < high and low <= place <= high:
+            rounding = SAME_VALUE * float(np.nanmax(np.abs(values[max(k - 1, 0) : k + 2])))
             near, least = least_value(lambda at, by=sign: by * function(at), low, high, within=within)  # type: ignore[misc]
             place, value = (near, sign * least) if least < sign * value - rounding else (place, value)
         found.append((place, value))

@@ -344,7 +344,8 @@ class PreparedMechanism:
         if self.loads:
             rows, of_loads, solved = force_rows(self.range, self.loads, way.values, self.bounded)
             ok = ok & solved & self._reached(way.values)
-            for row, value in zip([*out[count:], *bounds[len(self.wanted) :]], [*rows, *of_loads], strict=False):
+            rows_of_out = [*out[count : len(self.names)], *bounds[len(self.wanted) :]]
+            for row, value in zip(rows_of_out, [*rows, *of_loads], strict=True):
                 row[:] = value
         for k in range(0, n if self.bounded and self.wanted else 0, CHUNK):
             some = slice(k, k + CHUNK)

@@ -130,7 +130,9 @@ class Axis(ABC):
         (top, greatest), (bottom, least) = greatest_and_least(
             lambda at: self.values(quantity, at), places, values, within
         )
-        least = 0.0 if quantity.is_size and least < 10 * FINE * greatest else least
+        if quantity.is_size and least > 0.0:  # nought where it grows steadily to both sides, as an edge does
+            near, far = self.values(quantity, bottom + within * np.array([-1.0, 1.0, -10.0, 10.0])).reshape(2, 2)
+            least = 0.0 if np.nanmax([*near, least]) < 0.3 * np.nanmin([*far, np.inf]) else least
         return Extreme("max", top, self.driver(top), greatest), Extreme("min", bottom, self.driver(bottom), least)
 
     def driver(self, place: float) -> float:

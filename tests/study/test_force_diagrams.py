@@ -129,6 +129,23 @@ def test_a_force_that_grows_without_bound_is_said_to():
     assert "without bound" in high["why"]
 
 
+@pytest.mark.parametrize(
+    ("scene", "force", "least", "at"),
+    [
+        ("boom-lifted", "F_4/1", 0.728606, 758.589),  # beside ends of the motion where it grows without bound
+        ("boom-lifted", "F_1/2", 0.0329722, 750.700),
+        ("boom-lifted", "F_2", 0.0, 750.822),  # it changes its sign
+        ("toggle-press-force", "F_6/1", 0.140029, 350.146),  # it jumps
+        ("sine-mechanism-forces", "F_4/1", 2.85714, 90.0),  # so small at this position alone, where the load rests
+        ("shaper-forces", "F_1/2", 0.0, 269.589),
+    ],
+)
+def test_the_least_force_is_nought_only_where_it_is(scene, force, least, at):
+    _, low = graphkin.sweep(scene).data["forces"][force]["extremes"]
+    driver = at if scene == "boom-lifted" else np.radians(at)
+    assert (least, driver) == pytest.approx((low["value"], low["driver"]), rel=3e-6)
+
+
 def test_a_flywheel_asked_of_one_position_is_told_as_computed_over_the_turn():
     scene = graphkin.read("engine-gas-force").to_dict() | {"flywheel": {"on": "2", "delta": 0.05}}
     checked = graphkin.check(scene, find=["J_F", "M_2"])
