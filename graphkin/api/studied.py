@@ -174,7 +174,7 @@ def stability(
 
     Examples
     --------
-    >>> found = stability(["crossing height"], samples=2)
+    >>> found = stability(kinds=["crossing height"], samples=2)
     >>> round(found["crossing height"]["height by squares"].slope, 1)
     -1.0
     """
