@@ -317,14 +317,14 @@ def asked_here(asked: Sequence[Symbol]) -> tuple[Symbol, ...]:
 
 def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     """The instrument of a name.  Raises CallError for another name."""
-    from graphkin.construction import EXACT, Cad, pencil
+    from graphkin.construction import EXACT, cad, pencil
 
     if not isinstance(name, str):
         raise unfit("instrument", name, Phrase("known here", names=", ".join(INSTRUMENTS)))
     if name == "exact":
         return EXACT
     if name == "cad":
-        return Cad()
+        return cad()
     if name == "pencil":
         return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
     raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))

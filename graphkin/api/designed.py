@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from graphkin.api.arguments import MOST_SEED, ON_SHEETS, known_words, whole_number
 from graphkin.api.results import Result, named
 from graphkin.checking.closed_form import FoundLength, compare_lengths
-from graphkin.construction import EXACT, Cad, Instrument, pencil
+from graphkin.construction import EXACT, Instrument, cad, pencil
 from graphkin.construction.synthesis import DesignSheet, construct
 from graphkin.errors import Unsolvable
 from graphkin.files import Json
@@ -308,7 +308,7 @@ def design(
     tools = given.sheet.tools
     natural = construct(given.task, max(found.lengths.values()) / 100.0)
     scale = design_scale(given, natural)
-    hand: Instrument = EXACT if instrument == "exact" else Cad() if instrument == "cad" else pencil(tools, seed)
+    hand: Instrument = EXACT if instrument == "exact" else cad() if instrument == "cad" else pencil(tools, seed)
     sheet = construct(given.task, scale, hand)
     rows = compare_lengths(sheet, found.lengths, hand, tools)
     made = Designed(given, found, sheet, rows, language)

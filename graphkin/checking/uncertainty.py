@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from graphkin.checking.readings import Reading, read_off
 from graphkin.construction import Plan, Redrawn, Scales, Sheet, erring, nudged
-from graphkin.construction.instruments import ErringInstrument
+from graphkin.construction.instruments import Instrument
 from graphkin.construction.steps import Cause, Order, phrase_of
 from graphkin.errors import Unsolvable
 from graphkin.plane import added_up
@@ -134,7 +134,7 @@ class _Drawing:
     newtons_per_mm: float
 
     @classmethod
-    def of(cls, what: Plan, still: ErringInstrument) -> _Drawing:
+    def of(cls, what: Plan, still: Instrument) -> _Drawing:
         redrawn = Redrawn(what, what.scales, still)
         if not redrawn.sheet.has_forces:
             return cls(redrawn, 0.0)
@@ -142,7 +142,7 @@ class _Drawing:
 
         return cls(redrawn, force_scale(redrawn.sheet))
 
-    def read(self, sheet: Sheet, hand: ErringInstrument) -> Sequence[Reading]:
+    def read(self, sheet: Sheet, hand: Instrument) -> Sequence[Reading]:
         """What is read off a sheet.  Raises as `execute`."""
         if not self.newtons_per_mm:
             return read_off(sheet, (), hand)
@@ -150,7 +150,7 @@ class _Drawing:
 
         return read_off(sheet, (), hand, forces_on(sheet, hand, self.newtons_per_mm))
 
-    def values(self, hand: ErringInstrument, first: int = 0) -> Values | None:
+    def values(self, hand: Instrument, first: int = 0) -> Values | None:
         """What is read off the drawing of hands that do not err before an act; None where it cannot be drawn."""
         try:
             return {r.symbol: r.value for r in self.read(self.redrawn.by(hand, first), hand)}

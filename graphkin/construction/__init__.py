@@ -4,13 +4,13 @@ It starts from the scene and takes every later length and angle from what is alr
 analytic solver.
 """
 
-from graphkin.construction.instruments import EXACT, Cad, Instrument, erring, nudged, pencil
+from graphkin.construction.instruments import EXACT, Instrument, cad, erring, nudged, pencil
 from graphkin.construction.plan import GoneOn, Plan, Redrawn, draft, execute, plan
 from graphkin.construction.polygons import NO_SLIP, Slip
 from graphkin.construction.scales import Room, Scales
 from graphkin.construction.sheet import Sheet
 
 __all__ = [
-    "EXACT", "NO_SLIP", "Cad", "GoneOn", "Instrument", "Plan", "Redrawn", "Room", "Scales", "Sheet", "Slip", "draft",
+    "EXACT", "NO_SLIP", "GoneOn", "Instrument", "Plan", "Redrawn", "Room", "Scales", "Sheet", "Slip", "cad", "draft",
     "erring", "execute", "nudged", "pencil", "plan",
 ]  # fmt: skip

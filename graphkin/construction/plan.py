@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from graphkin.construction.elements import draw_element, drawn_group
-from graphkin.construction.instruments import EXACT, ErringInstrument, Instrument
+from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
 from graphkin.construction.position import Known, assembly_at, place
@@ -185,14 +185,14 @@ class Redrawn:
     What stands before the first of these is taken from a drawing without errors.
     """
 
-    def __init__(self, what: Task, scales: Scales, still: ErringInstrument) -> None:
+    def __init__(self, what: Task, scales: Scales, still: Instrument) -> None:
         self.what, self.scales = what, scales
         begun = positioned(what, scales, still)
         self.kept = [(still.acts, polygons) for polygons in _stages(what, begun, kept=still)]
         """What stood there after so many acts."""
         self.sheet = finished(what, self.kept[-1][1].again(still))
 
-    def by(self, hand: ErringInstrument, first: int = 0) -> Sheet:
+    def by(self, hand: Instrument, first: int = 0) -> Sheet:
         """The drawing of hands that err in no act before the ``first``; readings may be taken of it, the steps of its
         position may be missing.  Raises as `execute`."""
         before = [(acts, polygons) for acts, polygons in self.kept if acts < first]

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
-from graphkin.construction.instruments import EXACT_NAME, ErringInstrument, Instrument
+from graphkin.construction.instruments import EXACT_NAME, Instrument
 from graphkin.construction.links_on_paper import Pose
 from graphkin.construction.scales import Extent, Room, Scales, chosen_scales
 from graphkin.construction.steps import (
@@ -533,7 +533,7 @@ class Board:
         """The length of a vector, or of what lies between two points of the mechanism (mm), read when it is first
         needed."""
         thing = either_way(between) if isinstance(between, Symbol) else between
-        if not isinstance(self.instrument, ErringInstrument):
+        if self.instrument.errs is None:
             return self.instrument.read(mm)  # it shows the same each time
         if thing not in self.readings:
             self.readings[thing] = self.instrument.read(mm)

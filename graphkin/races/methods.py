@@ -14,7 +14,7 @@ import numpy as np
 
 from graphkin import solver
 from graphkin.checking.readings import read_off
-from graphkin.construction import EXACT, Cad, Instrument, Plan, Scales, execute, pencil, plan
+from graphkin.construction import EXACT, Instrument, Plan, Scales, cad, execute, pencil, plan
 from graphkin.construction.centre_speeds import by_centres, speeds
 from graphkin.construction.centres import find_centres
 from graphkin.races.work import Entry, Work, best_time
@@ -285,7 +285,7 @@ def drawn(work: Work, repeats: int) -> Iterator[Entry]:
     kept, few = work.some(EVERY)
     plans = [plan(work.scene, work.at(k), ()) for k in kept]
     yield _drawn(few, plans, "exact drawing", "", [EXACT], repeats)
-    yield _drawn(few, plans, "cad drawing", "", [Cad()], repeats)
+    yield _drawn(few, plans, "cad drawing", "", [cad()], repeats)
     tools = work.scene.question.sheet.tools
     for factor in SCALES:
         larger = [_larger(p, factor) for p in plans]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from graphkin.construction import Cad, Scales, draft, pencil
+from graphkin.construction import Scales, cad, draft, pencil
 from graphkin.construction.steps import CompassArc, Ray
 from graphkin.errors import Unsolvable
 from graphkin.plane import cross, dot
@@ -245,7 +245,7 @@ def test_a_given_length_is_taken_as_given_however_short_it_is_on_paper():
         "driver": {"link": "1", "angle": 60, "omega": 3},
         "sketch": {"C": [400, 150]},
     }
-    sheet = draft(mechanism_of(mapping), instrument=Cad())
+    sheet = draft(mechanism_of(mapping), instrument=cad())
     assert 3e-6 == pytest.approx(abs(sheet.vectors("velocity")[V_B].span) * sheet.scales.velocity, rel=1e-12)
 
 
@@ -261,4 +261,4 @@ def test_a_found_arm_that_a_drafting_program_reads_as_nothing_is_refused_by_name
         "sketch": {"B": [100.001, 0]},
     }
     with pytest.raises(Unsolvable, match="too short to be read"):
-        draft(mechanism_of(mapping), instrument=Cad())
+        draft(mechanism_of(mapping), instrument=cad())
