@@ -196,8 +196,8 @@ def _drawn(plan: Plan, slip: Slip = NO_SLIP) -> Values:
 
 
 def _assemblies(plan: Plan) -> Iterator[Alteration]:
-    for i, branch in plan.branches.items():
-        other = {**plan.branches, i: 1 - branch}
+    for i, branch in plan.assembly.branches.items():
+        other = {**plan.assembly.branches, i: 1 - branch}
         yield Phrase("slip assembly"), 0.05, lambda other=other: _drawn(plan.with_branches(other))  # type: ignore[misc]
 
 

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from graphkin.construction.follow import Choices
-from graphkin.construction.links_on_paper import PlacedLinks, travel
-from graphkin.construction.position import assembly_at, own_position, place
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
+from graphkin.construction.position import assembly_at, own_position
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
 from graphkin.scene.cams import SwingingFollower
@@ -47,7 +47,7 @@ def cams_in_place(structure: Structure, values: Mapping[str, float], bars: bool 
     for k in range(count):
         at = {d.key: a + (b - a) * k / count for d, a, b in zip(scene.drivers, first, way, strict=True)}
         structure = analyse(_replaced(scene, at, seen))
-        paper, links = _placed(structure, at), structure.scene.links
+        paper, links = _placed(structure), structure.scene.links
         seen = {p: paper.point(link.name, p) / paper.mm for link in links for p in link.points}
     return analyse(_replaced(scene, values, seen, bars))
 
@@ -64,16 +64,14 @@ def _replaced(
         else:
             part = part_of(analyse(scene), [Symbol("theta", link=cam.link)])
             behind = analyse(_replaced(part, values, seen)) if part.cams else analyse(part)  # cams that move this one
-            paper = _placed(behind, values) if part.cams else _moved_to(behind, values)
-            turns[cam.link] = cmath.phase(paper.poses[cam.link].axis)
+            poses = _placed(behind).poses if part.cams else _moved_to(behind, values)
+            turns[cam.link] = cmath.phase(poses[cam.link].axis)
     return replace(cams_replaced(scene, turns, values, seen, bars), starts=_rolled(scene, values))
 
 
-def _moved_to(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
-    """A mechanism without cams, moved from its own position to driver values, on paper of its size."""
-    kept = {d.key: values[d.key] for d in structure.scene.drivers}
-    branches = assembly_at(structure, structure.elements, kept)[0]
-    return place(structure, structure.elements, 1.0 / structure.scene.size, kept, branches).paper
+def _moved_to(structure: Structure, values: Mapping[str, float]) -> Poses:
+    """The links of a mechanism without cams, moved from its own position to driver values, on paper of its size."""
+    return assembly_at(structure, structure.elements, {d.key: values[d.key] for d in structure.scene.drivers}).poses
 
 
 def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
@@ -86,16 +84,15 @@ def _rolled(scene: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     if part.cams:
         return dict(scene.starts)
     structure = analyse(part)
-    paper = _moved_to(structure, values)
-    found = {name: cmath.phase(paper.poses[name].axis) for name in names if name in paper.poses}
-    travels = {p.key: travel(structure.slide(p.key), paper.poses, paper.mm) / paper.mm for p in part.slidings}
+    poses, mm = _moved_to(structure, values), 1.0 / part.size
+    found = {name: cmath.phase(poses[name].axis) for name in names if name in poses}
+    travels = {p.key: travel(structure.slide(p.key), poses, mm) / mm for p in part.slidings}
     return {**scene.starts, **found, **travels}
 
 
-def _placed(structure: Structure, values: Mapping[str, float]) -> PlacedLinks:
-    """A mechanism at driver values that are its own, on paper of its size."""
-    kept = {d.key: values[d.key] for d in structure.scene.drivers}
-    return own_position(Choices(structure, structure.elements), structure.elements, kept)
+def _placed(structure: Structure) -> PlacedLinks:
+    """A mechanism at its own driver values, on paper of its size."""
+    return own_position(Choices(structure, structure.elements), structure.elements)
 
 
 def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mapping[str, float]) -> dict[str, Limits]:
@@ -123,7 +120,7 @@ def follower_limits(structure: Structure, asked: Sequence[Symbol], values: Mappi
         for lift in (cam.law.least, cam.law.greatest):
             value = cam.leaves(lift, -1 if driver.rate < 0.0 else 1)
             there = {**values, driver.key: value}
-            paper = _placed(cams_in_place(analyse(whole), there), there)
+            paper = _placed(cams_in_place(analyse(whole), there))
             ends.append(LimitPosition(value, dict(paper.poses)))
         backwards = isinstance(cam.motion, SwingingFollower) and cam.motion.side < 0
         low, high = ends[::-1] if backwards else ends

@@ -15,7 +15,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain, pairwise
 
 import numpy as np
@@ -42,7 +42,7 @@ from graphkin.scene.model import Driver
 from graphkin.structure import Driven
 from graphkin.words import Phrase
 
-__all__ = ["GroupTrial"]
+__all__ = ["place_by_trial", "trial_steps"]
 
 POINTS = 7  # trial positions drawn
 BETWEEN = 6  # parts into which the curve between two of them is divided
@@ -55,84 +55,74 @@ STEP = 0.06  # from trial to trial of several drivers (rad, or the mechanism's s
 LEAST = 1e-3  # of the largest singular value: trials that tell less about one of what is moved are not divided
 
 
-@dataclass(frozen=True)
-class GroupTrial:
-    """By which reduced mechanism a group is placed, and where every link lies then with the mechanism of size 1.
+def place_by_trial(paper: PlacedLinks, reduced: ReducedMechanism, poses: Poses) -> None:
+    """Place a group among the links known already.
 
-    ``given`` at the position from which rolling starts, where links stand as the problem says.
+    Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else is
+    left out.
+
+    Parameters
+    ----------
+    poses : where every link lies then, with the mechanism of size 1
+
+    Raises
+    ------
+    Unsolvable : "not assembled": what was left out fits nowhere near
     """
+    size = paper.mm * reduced.structure.scene.size
+    guess = {name: pose.scaled(size) for name, pose in poses.items()}
+    exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
+    if paper.instrument.faultless:
+        paper.poses.update(_fit(exact, reduced, guess))
+        return
 
-    reduced: ReducedMechanism
-    poses: Poses
-    given: bool = False
-
-    def on(self, paper: PlacedLinks) -> dict[str, Pose]:
-        """Where the links lie, at the scale of a sheet."""
-        mm = paper.mm * self.reduced.structure.scene.size
-        return {name: pose.scaled(mm) for name, pose in self.poses.items()}
-
-    def place(self, paper: PlacedLinks) -> None:
-        """Place a group among the links known already.
-
-        Where errors of the hand bring a trial drawing to a dead point it is drawn again, and then something else is
-        left out.
-
-        Raises
-        ------
-        Unsolvable : "not assembled": what was left out fits nowhere near
-        """
-        if paper.instrument.faultless:
-            exact = replace(paper, instrument=EXACT, poses=dict(paper.poses), pricked=dict(paper.pricked))
-            paper.poses.update(_fit(exact, self.reduced, self.on(paper)))
-            return
-        stops: list[Unsolvable] = []
-        for reduced in chain([self.reduced], self._others(paper)):
-            for _ in range(AGAIN):
-                try:
-                    _placed_by_hand(paper, reduced, self.on(paper))
-                except Unsolvable as stop:
-                    stops.append(stop)
-                else:
-                    return
-        raise stops[0]
-
-    def _others(self, paper: PlacedLinks) -> Iterator[ReducedMechanism]:
+    def others() -> Iterator[ReducedMechanism]:
         """Other reduced mechanisms, the best first; links that roll stand as they are given in their own only."""
-        guess = self.on(paper)
         there = {name: guess.get(name, pose) for name, pose in paper.poses.items()}
-        known = replace(paper, instrument=EXACT, poses=there, pricked={})
-        if not self.given:
-            yield from best_first(self.reduced.structure, self.reduced.group, known, guess)
+        known = replace(exact, poses=there, pricked={})
+        if not reduced.starts:
+            yield from best_first(reduced.structure, reduced.group, known, guess)
 
-    def steps(self, paper: PlacedLinks, so_far: PlacedLinks) -> Story:
-        """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
-        reduced = self.reduced
-        poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
-        values = np.array(reduced.values(poses, paper.mm))
-        story: list[Step] = []
-        for driver in reduced.group.starts if self.given else ():  # at the position from which rolling starts
-            if driver.turns:
-                axis = cmath.phase(paper.poses[driver.link].axis)
-                story.append(Step("lay off", "rolling", link=driver.link, value=axis))
+    stops: list[Unsolvable] = []
+    for tried in chain([reduced], others()):
+        for _ in range(AGAIN):
+            try:
+                _placed_by_hand(paper, tried, guess)
+            except Unsolvable as stop:
+                stops.append(stop)
             else:
-                story.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
-        if reduced.trial:
-            story.append(_trial_positions(so_far, reduced, poses, values))
-        board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
-        for element in reduced.elements:
-            if isinstance(element, Driven):
-                pose, told_here = drive(board, element)
-                axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
-                told_here = tuple(
-                    replace(step, value=axis, base="") if step.reason == "angle" else step for step in told_here
-                )
-            else:
-                meeting = meet(board, element)
-                best = meeting.nearest(poses)
-                told_here = meeting.tell(best) if best is not None else ()
-            story += told_here
-            board.poses.update({name: poses[name] for name in element.members})
-        return tuple(story)
+                return
+    raise stops[0]
+
+
+def trial_steps(paper: PlacedLinks, so_far: PlacedLinks, reduced: ReducedMechanism) -> Story:
+    """What is drawn to place a group: the trial curve with what it must meet, then each part of it in its place."""
+    poses = {**so_far.poses, **{n: paper.poses[n] for n in reduced.group.members}}
+    values = np.array(reduced.values(poses, paper.mm))
+    story: list[Step] = []
+    for driver in reduced.starts:
+        if driver.turns:
+            axis = cmath.phase(paper.poses[driver.link].axis)
+            story.append(Step("lay off", "rolling", link=driver.link, value=axis))
+        else:
+            story.append(Step("lay off", "rolling", pairs=(driver.key,), mm=driver.values[0] * paper.mm))
+    if reduced.trial:
+        story.append(_trial_positions(so_far, reduced, poses, values))
+    board = replace(reduced.opened(so_far, [float(v) for v in values]), instrument=EXACT)
+    for element in reduced.elements:
+        if isinstance(element, Driven):
+            pose, told_here = drive(board, element)
+            axis = cmath.phase(pose.axis)  # found by trial, whatever it was tried against
+            told_here = tuple(
+                replace(step, value=axis, base="") if step.reason == "angle" else step for step in told_here
+            )
+        else:
+            meeting = meet(board, element)
+            best = meeting.nearest(poses)
+            told_here = meeting.tell(best) if best is not None else ()
+        story += told_here
+        board.poses.update({name: poses[name] for name in element.members})
+    return tuple(story)
 
 
 def _fit(known: PlacedLinks, reduced: ReducedMechanism, guess: Poses) -> dict[str, Pose]:

@@ -17,8 +17,8 @@ from numpy.polynomial import chebyshev
 from graphkin.construction.cams_in_place import follower_limits
 from graphkin.construction.follow import Choices, Pace, found_near, moved, walk
 from graphkin.construction.instruments import Instrument
-from graphkin.construction.links_on_paper import PlacedLinks, Poses, travel
-from graphkin.construction.position import nearest_assembly, place
+from graphkin.construction.links_on_paper import Poses, travel
+from graphkin.construction.position import Assembly, assembly_at, place
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import LimitPosition, Limits
 from graphkin.errors import Problem, Unsolvable
@@ -194,10 +194,8 @@ def limits_on_paper(
         drawn = []
         for limit in (limits.low, limits.high):
             there = {**values, key: limit.value}
-            paper = PlacedLinks(structure.links, 1.0 / structure.scene.size, there, dict(limit.poses))
-            branches, trials = nearest_assembly(Choices(structure, elements), elements, paper, limit.poses)
-            placed = place(structure, elements, mm, there, branches, hand, trials).paper
-            drawn.append(LimitPosition(limit.value, placed.poses))
+            assembly = assembly_at(structure, elements, there, Assembly(there, limit.poses))
+            drawn.append(LimitPosition(limit.value, place(structure, elements, mm, assembly, hand).poses))
         found_again[pair] = Limits(drawn[0], drawn[1], limits.swing)
     return found_again
 

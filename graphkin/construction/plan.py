@@ -16,7 +16,7 @@ from graphkin.construction.elements import draw_element, drawn_group
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.net import VectorChain, contacts_of
 from graphkin.construction.polygons import NO_SLIP, RATE, Polygons, Slip, draw_asked
-from graphkin.construction.position import Known, assembly_at, place
+from graphkin.construction.position import Assembly, assembly_at, place
 from graphkin.construction.scales import Room, Scales, chosen_scales
 from graphkin.construction.sheet import Board, DrawnGroup, Limits, Sheet, without_residues
 from graphkin.construction.steps import ORDERS, Order
@@ -29,7 +29,6 @@ from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from graphkin.construction.group_plan import GroupPlan
-    from graphkin.construction.group_position import GroupTrial
 
 __all__ = ["GoneOn", "Plan", "Redrawn", "Task", "carried_out", "draft", "execute", "finished", "plan", "positioned"]
 
@@ -42,8 +41,9 @@ class Task:
     """What is to be drawn, at which position, in which assembly, and by which equation for each dyad.
 
     ``opened`` is the structure with groups that driven triangles turn into dyads in their parts, ``triangles`` are
-    these, each in its assembly; ``values`` are the drivers', those at the triangles' pairs included; ``limits`` are
-    the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing`` as in `Sheet`.
+    these, each in its assembly; ``assembly`` is that of the elements, the values at the triangles' pairs included;
+    ``limits`` are the limit positions of what is asked, on paper of the mechanism's size.  ``acting`` and ``growing``
+    as in `Sheet`.
     With ``touching`` sliding contacts are drawn themselves, not what replaces them.
     """
 
@@ -51,9 +51,7 @@ class Task:
     opened: Structure
     asked: tuple[Symbol, ...]
     elements: tuple[Element, ...]
-    values: Mapping[str, float]
-    branches: Mapping[int, int]
-    trials: Mapping[LargerGroup, GroupTrial]
+    assembly: Assembly
     triangles: tuple[Inversion, ...]
     chains: Mapping[Dyad, VectorChain] = field(default_factory=dict)
     plans: Mapping[LargerGroup, GroupPlan] = field(default_factory=dict)
@@ -61,6 +59,11 @@ class Task:
     acting: Mapping[str, bool | None] = field(default_factory=dict)
     growing: tuple[Sheet, ...] = ()
     touching: bool = False
+
+    @property
+    def values(self) -> Mapping[str, float]:
+        """Driver values (rad, m), by key."""
+        return self.assembly.values
 
     @cached_property
     def drawn(self) -> Mapping[Order, tuple[Element, ...]]:
@@ -100,12 +103,10 @@ def positioned(
     board = Board(instrument)
     triangles = [(inversion, inversion.drawn(board, scales, task.values)) for inversion in task.triangles]
     values = {**task.values, **{v.key: v.near(task.values[v.key], found[0]) for v, found in triangles}}
-    before = list(board.causes)
-    position = place(task.opened, task.elements, 1.0 / scales.length, values, task.branches, instrument, task.trials)
-    if with_steps:
-        position.draw(board)
-    board.causes[:] = [*before, *position.causes]
-    polygons = Polygons(board, task.opened, position.paper, scales, slip)
+    assembly = replace(task.assembly, values=values)
+    told_on = board if with_steps else None
+    paper = place(task.opened, task.elements, 1.0 / scales.length, assembly, instrument, told_on)
+    polygons = Polygons(board, task.opened, paper, scales, slip)
     polygons.given.update({inversion.key: found[1:] for inversion, found in triangles})
     polygons.at_contacts = task.touching
     polygons.chains.update(task.chains)
@@ -172,8 +173,8 @@ def finished(task: Task, polygons: Polygons) -> Sheet:
 
 def _drawn_groups(task: Task, polygons: Polygons) -> Iterator[DrawnGroup]:
     for group in needed(task.structure, task.asked):
-        if group in task.trials and isinstance(group, LargerGroup):
-            yield drawn_group(polygons, group, task.trials[group].reduced.left_out)
+        if isinstance(group, LargerGroup) and group in task.assembly.reduced:
+            yield drawn_group(polygons, group, task.assembly.reduced[group].left_out)
         elif isinstance(group, LargerGroup):
             # with one link held still its motion relative to that link is found, and laid over that link's motion
             yield DrawnGroup(group, "superposition", (), (), (), ())
@@ -286,7 +287,8 @@ class Plan(Task):
 
     def with_branches(self, branches: Mapping[int, int]) -> Plan:
         """The same task in another assembly, at the same scales.  Raises Unsolvable where it cannot be drawn."""
-        return replace(_planned(replace(self, branches=branches, chains={}, plans={}), None), scales=self.scales)
+        other = replace(self, assembly=replace(self.assembly, branches=branches), chains={}, plans={})
+        return replace(_planned(other, None), scales=self.scales)
 
     def at_contacts(self) -> Plan | None:
         """The same task with sliding contacts, or rollers, edges and faces of cams, drawn at the contact itself instead
@@ -350,21 +352,19 @@ def plan(
     own = {d.key: d.values[0] for d in scene.drivers}
     values = own | {key: value for key, value in (at or {}).items() if key in own}
     triangles: tuple[Inversion, ...] = ()
-    start: Known | None = None
+    start: Assembly | None = None
     if opened is not structure:
-        dyads = [e for e in elements if isinstance(e, Driven | Dyad)]
-        inversions = inversions_of(structure)
-        taken, own, poses = own_assembly(structure, opened, dyads, inversions, own)
-        start = {d.key: own[d.key] for d in opened.scene.drivers}, poses
+        taken, start = own_assembly(structure, elements, inversions_of(structure))
+        own = {**start.values}
         triangles = tuple(v.followed(own, values) for v in taken)
         values |= {v.key: v.near(own[v.key], v.value(values)) for v in triangles}
     elif near is not None and {n for e in elements for n in e.members} <= near.poses.keys() and not scene.instead_of:
         size = near.scales.length / near.scene.size
-        start = near.drivers, {name: pose.scaled(size) for name, pose in near.poses.items()}
+        start = Assembly(near.drivers, {name: pose.scaled(size) for name, pose in near.poses.items()})
     here = {d.key: values[d.key] for d in opened.scene.drivers}
-    branches, trials, rolled = assembly_at(opened, elements, here, start)
-    values |= rolled
-    return _planned(Task(structure, opened, asked, elements, values, branches, trials, triangles), room)
+    assembly = assembly_at(opened, elements, here, start)
+    assembly = replace(assembly, values={**values, **assembly.values})
+    return _planned(Task(structure, opened, asked, elements, assembly, triangles), room)
 
 
 def _planned(task: Task, room: Room | None) -> Plan:

@@ -14,14 +14,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import islice, pairwise, product
 
 import numpy as np
 
 from graphkin.construction.follow import Choices, best_reduced, fitted, moved_to, standing
-from graphkin.construction.group_position import GroupTrial
+from graphkin.construction.group_position import place_by_trial, trial_steps
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.links_on_paper import (
     Meeting,
@@ -48,16 +48,12 @@ from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
 from graphkin.structure.model import LargerGroup
 from graphkin.words import Phrase
 
-__all__ = [
-    "Branches", "Known", "Position", "as_sketched", "assembly_at", "each_assembly", "fits_between", "nearest_assembly",
-    "own_position", "place",
-]  # fmt: skip
+__all__ = ["Assembly", "as_sketched", "assembly_at", "each_assembly", "fits_between", "own_position", "place"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
 HALVINGS = 45  # between trial values, up to the last that can be drawn
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
-Known = tuple[Mapping[str, float], Poses]  # driver values, and every link there with the mechanism of size 1
 GRID = 360  # trial values looked at over a turn
 COARSE = 12  # values of each of several trial drivers
 Branch = tuple[int, ...]  # which assembly each dyad of a reduced mechanism takes, in the order of drawing
@@ -67,134 +63,130 @@ ACROSS = 0.1  # sine of the least angle at which two guides tell a place
 Axes = dict[str, complex]
 
 
-Branches = Mapping[int, int]  # by place of the element: 0 the default assembly, 1 the other
-
-
 @dataclass(frozen=True)
-class Position:
-    """The links of elements placed, in which assembly each dyad and by what trial positions each larger group, how each
-    dyad was found, and the acts of the hand up to which each link reaches."""
+class Assembly:
+    """Where elements stand, and how each of them is placed there.
 
-    structure: Structure
-    elements: Sequence[Element]
-    paper: PlacedLinks
-    branches: Branches
-    trials: Mapping[LargerGroup, GroupTrial]
-    meetings: Mapping[int, Meeting]
-    causes: Sequence[tuple[int, Cause]]
+    Parameters
+    ----------
+    values : of the drivers (rad, m)
+    poses : every link with the mechanism of size 1
+    branches : which assembly each dyad takes, by its place among the elements: 0 the default one, 1 the other
+    reduced : by the trial positions of which mechanism each larger group is placed
+    """
 
-    def draw(self, board: Board) -> None:
-        """Record how each link was placed, and the words for each assembly, by the group's links."""
-        paper, ground = self.paper, self.structure.scene.frame
-        fixed = tuple(Mark(PointRef(p), paper.point(ground.name, p)) for p in ground.points)
-        board.do(Step("mark", "frame", strokes=fixed, link=ground.name, points=tuple(ground.points)))
-        named = set(ground.points)
-        so_far = PlacedLinks(paper.links, paper.mm, paper.values, {ground.name: paper.poses[ground.name]})
-        for i, element in enumerate(self.elements):
-            if isinstance(element, Driven):
-                _, story = drive(so_far, element)
-            elif isinstance(element, LargerGroup):
-                story = self.trials[element].steps(paper, so_far)
-            else:
-                links, meeting = ", ".join(element.links), self.meetings[i]
-                of = element.inner.point if element.inner.turns else Phrase("these links", (links,))
-                board.notice("mechanism", "sharp crossing", of, size=meeting.sharpness)
-                one, two = element.outer_first, element.outer_second
-                if not element.inner.turns and one.turns and two.turns:
-                    apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
-                    board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
-                index = self.branches.get(i, 0) % len(meeting.poses)
-                story = meeting.tell(index)
-                which = "one assembly" if element.is_two_lines else f"{element.kind} {index}"
-                board.assembly[links] = Phrase(which, tuple(pair.key for pair in element.pairs))
-            self._told(board, element, story, named)
-            so_far.poses.update({name: paper.poses[name] for name in element.members})
-
-    def _told(self, board: Board, element: Element, story: Story, named: set[str]) -> None:
-        """Record how the links of an element were placed, and their points, those ``named`` left out."""
-        links, ground = self.structure.links, self.structure.scene.frame.name
-        found: set[str] = set()
-        left = list(element.members)
-
-        def known(name: str) -> int:
-            return len(links[name].points.keys() & (named | found))
-
-        def mark(name: str) -> None:
-            left.remove(name)
-            fresh = tuple(p for p in links[name].points if p not in named)
-            named.update(fresh)
-            if fresh:
-                marks = tuple(Mark(PointRef(p), self.paper.point(name, p)) for p in fresh)
-                reason: Reason = "whole link" if len(links[name].points) > 2 else "points"
-                board.do(Step("mark", reason, strokes=marks, link=name, points=fresh))
-
-        for step in story:
-            board.do(replace(step, base="") if step.base == ground else step)
-            if step.reason in FINDS_A_POINT:
-                found.add(step.point)
-            if isinstance(element, LargerGroup):  # what the next lines start from
-                laid = step.link if step.reason == "angle" else ""
-                for name in [n for n in left if n == laid or known(n) > 1]:
-                    mark(name)
-        while left:  # first the links that stand already: two of their points are known
-            mark(max(left, key=known))
+    values: Mapping[str, float]
+    poses: Poses
+    branches: Mapping[int, int] = field(default_factory=dict)
+    reduced: Mapping[LargerGroup, ReducedMechanism] = field(default_factory=dict)
 
 
 def place(
-    structure: Structure,
-    elements: Sequence[Element],
-    mm: float,
-    values: Mapping[str, float],
-    branches: Branches,
-    instrument: Instrument = EXACT,
-    trials: Mapping[LargerGroup, GroupTrial] | None = None,
-) -> Position:
-    """Place the links of the elements at some driver values.
+    structure: Structure, elements: Sequence[Element], mm: float, assembly: Assembly, instrument: Instrument = EXACT,
+    board: Board | None = None,
+) -> PlacedLinks:  # fmt: skip
+    """Place the links of the elements at the driver values of an assembly.
 
     Parameters
     ----------
     mm : mm of paper for one m
-    values : driver values (rad, m)
-    branches : which of its assemblies each dyad takes
     instrument : what draws
-    trials : by what trial positions each larger group is placed
+    board : where it is recorded how each link was placed, the words for each assembly by the group's links, and the
+        acts of the hand up to which each link reaches
 
     Raises
     ------
     Unsolvable
         the loci of a dyad miss each other ("not assembled") or only touch ("dead point")
     """
-    paper = start_board(structure, mm, values, instrument)
-    meetings: dict[int, Meeting] = {}
-    causes: list[tuple[int, Cause]] = [(instrument.acts, Phrase("placing", (structure.scene.frame.name,)))]
+    paper, so_far = (start_board(structure, mm, assembly.values, hand) for hand in (instrument, EXACT))
+    frame, met = structure.scene.frame, dict[Element, tuple[Meeting, int]]()
+    causes: list[tuple[int, Cause]] = [(instrument.acts, Phrase("placing", (frame.name,)))]
+    named = set(frame.points)
+    done = 0 if board is None else len(board.causes)
+    if board is not None:
+        fixed = tuple(Mark(PointRef(p), paper.point(frame.name, p)) for p in frame.points)
+        board.do(Step("mark", "frame", strokes=fixed, link=frame.name, points=tuple(frame.points)))
 
     def chosen(i: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, LargerGroup):
-            (trials or {})[element].place(paper)
+            place_by_trial(paper, assembly.reduced[element], assembly.poses)
             return {}
-        meeting = meetings[i] = meet(paper, element)
+        meeting = meet(paper, element)
         refuse(structure, element, meeting)
-        return meeting.poses[branches.get(i, 0) % len(meeting.poses)]
+        index = assembly.branches.get(i, 0) % len(meeting.poses)
+        met[element] = meeting, index
+        return meeting.poses[index]
 
     for element in assemble(paper, elements, chosen):
-        links = (element.link,) if isinstance(element, Driven) else element.links
-        causes.append((instrument.acts, Phrase("placing", (", ".join(links),))))
-    return Position(structure, elements, paper, branches, trials or {}, meetings, causes)
+        if board is None:
+            continue
+        links = element.link if isinstance(element, Driven) else ", ".join(element.links)
+        causes.append((instrument.acts, Phrase("placing", (links,))))
+        if isinstance(element, Driven):
+            _, story = drive(so_far, element)
+        elif isinstance(element, LargerGroup):
+            story = trial_steps(paper, so_far, assembly.reduced[element])
+        else:
+            story = _dyad_steps(board, paper, element, *met[element])
+        _record(board, paper, element, story, named)
+        so_far.poses.update({name: paper.poses[name] for name in element.members})
+    if board is not None:
+        board.causes[done:] = causes
+    return paper
+
+
+def _dyad_steps(board: Board, paper: PlacedLinks, dyad: Dyad, meeting: Meeting, index: int) -> Story:
+    """How the loci of a dyad were drawn; on the board the words for its assembly, and what makes it uncertain."""
+    links, one, two = ", ".join(dyad.links), dyad.outer_first, dyad.outer_second
+    of = dyad.inner.point if dyad.inner.turns else Phrase("these links", (links,))
+    board.notice("mechanism", "sharp crossing", of, size=meeting.sharpness)
+    if not dyad.inner.turns and one.turns and two.turns:
+        apart = abs(paper.point(one.b, one.point) - paper.point(two.b, two.point))
+        board.notice("mechanism", "short arm", links, one.point, two.point, size=apart)
+    which = "one assembly" if dyad.is_two_lines else f"{dyad.kind} {index}"
+    board.assembly[links] = Phrase(which, tuple(pair.key for pair in dyad.pairs))
+    return meeting.tell(index)
+
+
+def _record(board: Board, paper: PlacedLinks, element: Element, story: Story, named: set[str]) -> None:
+    """Record how the links of an element were placed, and their points, those ``named`` left out."""
+    links, (ground, *_) = paper.links, paper.poses
+    found: set[str] = set()
+    left = list(element.members)
+
+    def known(name: str) -> int:
+        return len(links[name].points.keys() & (named | found))
+
+    def mark(name: str) -> None:
+        left.remove(name)
+        fresh = tuple(p for p in links[name].points if p not in named)
+        named.update(fresh)
+        if fresh:
+            marks = tuple(Mark(PointRef(p), paper.point(name, p)) for p in fresh)
+            reason: Reason = "whole link" if len(links[name].points) > 2 else "points"
+            board.do(Step("mark", reason, strokes=marks, link=name, points=fresh))
+
+    for step in story:
+        board.do(replace(step, base="") if step.base == ground else step)
+        if step.reason in FINDS_A_POINT:
+            found.add(step.point)
+        if isinstance(element, LargerGroup):  # what the next lines start from
+            laid = step.link if step.reason == "angle" else ""
+            for name in [n for n in left if n == laid or known(n) > 1]:
+                mark(name)
+    while left:  # first the links that stand already: two of their points are known
+        mark(max(left, key=known))
 
 
 def assembly_at(
-    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Known | None = None
-) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial], dict[str, float]]:
-    """In which assembly the groups of some elements stand at driver values (rad, m).
+    structure: Structure, elements: Sequence[Element], values: Mapping[str, float], near: Assembly | None = None
+) -> Assembly:
+    """In which assembly some elements stand at driver values (rad, m), which count those of what rolls then.
 
     Parameters
     ----------
     near : a position known already, from which the motion is followed; without one the scene's own is found first
-
-    Returns
-    -------
-    the assembly of each dyad by its place among the elements, by what trial positions each larger group is placed, and
-    how far what rolls has gone (rad, m)
 
     Raises
     ------
@@ -209,62 +201,52 @@ def assembly_at(
     there = choices.at_start if at_start else choices
     if near is None:
         start = choices.at_start
-        begin = {d.key: d.values[0] for d in start.structure.scene.drivers}
-        poses: Poses = own_position(start, elements, begin).poses
+        poses: Poses = own_position(start, elements).poses
     else:
-        own, poses = near
-    if any(values[key] != value for key, value in own.items()):
-        poses = moved_to(choices, elements, own, values, poses)
+        own, poses = near.values, near.poses
+    if any(values[key] != own[key] for key in values):
+        poses = moved_to(choices, elements, {key: own[key] for key in values}, values, poses)
     starts = {d.key: d.values[0] for d in there.structure.scene.drivers if d.key not in values}
     paper = start_board(structure, 1.0 / scene.size, {**values, **starts})
-    branches, trials = nearest_assembly(choices, elements, paper, poses, there if at_start else None)
-    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
-    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
-    return branches, trials, starts | rolled
-
-
-def nearest_assembly(
-    choices: Choices, elements: Sequence[Element], paper: PlacedLinks, poses: Poses, starting: Choices | None = None
-) -> tuple[dict[int, int], dict[LargerGroup, GroupTrial]]:
-    """The assembly of each dyad by its place among the elements, and by what trial positions each larger group is
-    placed, so that links lie where they are known to lie (``poses``).
-
-    Parameters
-    ----------
-    starting : choices at the scene's own position, where they are wanted: links that roll stand as they are given
-    """
     branches: dict[int, int] = {}
-    trials: dict[LargerGroup, GroupTrial] = {}
+    reduced: dict[LargerGroup, ReducedMechanism] = {}
     for i, element in enumerate(elements):
         if isinstance(element, Dyad):
             branches[i] = meet(paper, element).nearest(poses) or 0
         elif isinstance(element, LargerGroup):
-            if starting is not None and element.rolling:
-                reduced = standing(starting, element, paper, poses)
-            else:
-                reduced = best_reduced(choices, element, paper, poses)
-            if reduced is None:
+            stands = at_start and bool(element.rolling)  # as the problem gives it
+            best = (standing if stands else best_reduced)(there if stands else choices, element, paper, poses)
+            if best is None:
                 raise stuck("dead point", element.links, "every trial drawing is at a dead point")
-            given = starting is not None and bool(element.rolling)
-            trials[element] = GroupTrial(reduced.rolled_from(poses, paper.mm), poses, given)
-        for name in element.members:
-            paper.poses[name] = poses[name]
-    return branches, trials
+            reduced[element] = best.rolled_from(poses, paper.mm)
+        paper.poses.update({name: poses[name] for name in element.members})
+    rolling = [e.driver for e in elements if isinstance(e, Driven) and isinstance(e.driver, Rolled)]
+    rolled = {r.key: coordinate_on_paper(structure, paper, r.coordinate) for r in rolling}
+    return Assembly({**values, **starts, **rolled}, poses, branches, reduced)
 
 
 # -- the scene's own position: all the places at which the groups close -----------------------------------------------
 
 
-def own_position(choices: Choices, elements: Sequence[Element], values: Mapping[str, float]) -> PlacedLinks:
-    """The links of some elements at driver values (rad, m) that are the scene's own, on paper of its size."""
-    structure = choices.structure
+def own_position(
+    choices: Choices, elements: Sequence[Element],
+    of_group: Callable[[Choices, PlacedLinks, LargerGroup], Poses] | None = None,
+) -> PlacedLinks:  # fmt: skip
+    """The links of some elements at the scene's own driver values, on paper of its size.
+
+    Parameters
+    ----------
+    of_group : which assembly of a larger group is meant; by trial positions if None
+    """
+    structure, of_group = choices.structure, of_group or _group_by_sketch
+    values = {d.key: d.values[0] for d in structure.scene.drivers}
     paper = start_board(structure, 1.0 / structure.scene.size, values)
     wanted = {n for element in elements for n in element.members}
 
     def choose(_: int, element: Dyad | LargerGroup) -> Poses:
         if isinstance(element, Dyad):
             return meant(structure, paper, element)
-        return _group_by_sketch(choices, paper, element)
+        return of_group(choices, paper, element)
 
     here = [element for element in structure.elements if wanted.intersection(element.members)]
     assembled(paper, here, choose, lambda driver: driver.start)

@@ -51,6 +51,12 @@ class ReducedMechanism:
         """Names of the links, of the drivers, or of what rolls, that are left out."""
         return tuple(r.name for r in self.removed)
 
+    @property
+    def starts(self) -> tuple[Driver, ...]:
+        """Of the position from which rolling starts: what tells where the links stand that roll, as the problem says.
+        """
+        return () if self.group in self.structure.elements else self.group.starts
+
     def rolled_from(self, poses: Poses, mm: float) -> ReducedMechanism:
         """The same, what rolls counted from a position at which it fits."""
         since = {name: value for r in self.removed for name, value in r.coordinates(poses, mm).items()}

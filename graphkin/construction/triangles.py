@@ -12,19 +12,11 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from graphkin.construction.elements import draw_element
+from graphkin.construction.follow import Choices
 from graphkin.construction.instruments import EXACT, Instrument
-from graphkin.construction.links_on_paper import (
-    PlacedLinks,
-    Poses,
-    assembled,
-    meant,
-    reading,
-    start_board,
-    stuck,
-    travel,
-)
+from graphkin.construction.links_on_paper import PlacedLinks, Poses, reading, stuck, travel
 from graphkin.construction.polygons import Polygons
-from graphkin.construction.position import Position, assembly_at, each_assembly, place
+from graphkin.construction.position import Assembly, assembly_at, each_assembly, own_position, place
 from graphkin.construction.scales import Scales
 from graphkin.construction.sheet import Board
 from graphkin.construction.steps import DIAGRAMS, ORDERS, Step
@@ -55,21 +47,23 @@ class Inversion:
         """Of the stand-in at the common pair."""
         return self.triangle.equivalent.key
 
-    def placed(self, values: Mapping[str, float], mm: float = 0.0, instrument: Instrument = EXACT) -> Position:
-        """The triangle at driver values; ``mm`` of paper for one m, else of its size.  Raises Unsolvable."""
-        mm = mm or 1.0 / self.structure.scene.size
-        return place(self.structure, self.structure.elements, mm, values, {0: self.branch}, instrument)
+    def placed(
+        self, values: Mapping[str, float], mm: float = 0.0, instrument: Instrument = EXACT, board: Board | None = None
+    ) -> PlacedLinks:
+        """The triangle at driver values; ``mm`` of paper for one m, else of its size; recorded on a board.  Raises
+        Unsolvable."""
+        mm, assembly = mm or 1.0 / self.structure.scene.size, Assembly(values, {}, {0: self.branch})
+        return place(self.structure, self.structure.elements, mm, assembly, instrument, board)
 
     def followed(self, own: Mapping[str, float], values: Mapping[str, float]) -> Inversion:
         """The same in the assembly at some driver values, followed from the scene's own."""
-        key = self.triangle.driver.key
-        near = {key: own[key]}, self.placed(own).paper.poses
-        branches, _, _ = assembly_at(self.structure, self.structure.elements, {key: values[key]}, near)
-        return replace(self, branch=branches[0])
+        key, elements = self.triangle.driver.key, self.structure.elements
+        near = Assembly({key: own[key]}, self.placed(own).poses)
+        return replace(self, branch=assembly_at(self.structure, elements, {key: values[key]}, near).branches[0])
 
     def value(self, values: Mapping[str, float]) -> float:
         """The stand-in's value as exact hands find it.  Raises Unsolvable where the triangle cannot be."""
-        return self.read(self.placed(values).paper)
+        return self.read(self.placed(values))
 
     def near(self, before: float, value: float) -> float:
         """A value of the stand-in nearest to another: angles but for whole turns."""
@@ -90,10 +84,9 @@ class Inversion:
     def drawn(self, board: Board, scales: Scales, values: Mapping[str, float]) -> tuple[float, float, float]:
         """The triangle on a board of its own, with its two polygons, which stand on that of the mechanism as drawn with
         a link held still; what it gives at its common pair: value, rate and second rate (SI)."""
-        apart, position = Board(board.instrument), self.placed(values, 1.0 / scales.length, board.instrument)
-        position.draw(apart)
-        apart.causes[:] = position.causes
-        polygons = Polygons(apart, self.structure, position.paper, scales)
+        apart = Board(board.instrument)
+        paper = self.placed(values, 1.0 / scales.length, board.instrument, apart)
+        polygons = Polygons(apart, self.structure, paper, scales)
         for order in ORDERS:
             draw_element(polygons, order, *self.structure.dyads.values())
         board.causes += apart.causes
@@ -103,11 +96,11 @@ class Inversion:
             rate, second = (polygons.rates[order][other].value for order in ORDERS)
         else:
             # the other link cannot turn on the held one: all its points move alike
-            along = position.paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
+            along = paper.poses[pair.b].axis * pair.guide.direction * (1 if pair.a == other else -1)
             points = map(PointRef, self.structure.links[other].points)
             end = next(ref for ref in points if ref in polygons.ends["velocity"])
             rate, second = (dot(along, polygons.ends[order][end]) * scales.of(order) for order in ORDERS)
-        return self.read(position.paper), rate, second
+        return self.read(paper), rate, second
 
     def carried_over(self, found: Sequence[float]) -> Iterator[Step]:
         """What is carried over to each diagram: value, rate and second rate (SI) at the common pair."""
@@ -147,40 +140,33 @@ def _held(scene: Mechanism, triangle: DrivenTriangle) -> Mechanism:
 
 
 def own_assembly(
-    structure: Structure, opened: Structure, elements: Sequence[Driven | Dyad], inversions: Sequence[Inversion],
-    own: Mapping[str, float],
-) -> tuple[list[Inversion], dict[str, float], Poses]:  # fmt: skip
+    structure: Structure, elements: Sequence[Element], inversions: Sequence[Inversion]
+) -> tuple[list[Inversion], Assembly]:
     """Which assembly a scene with driven triangles means at its own position.
 
     Returns
     -------
-    the triangles in it, all driver values with those of the stand-ins, and where the links lie with the mechanism of
-    size 1
+    the triangles in it, and where the links lie, at all driver values with those of the stand-ins
 
     Raises
     ------
     Unsolvable : "not assembled"
     SceneError : a group has several assemblies and no sketch says which is meant
     """
-    paper = start_board(opened, 1.0 / structure.scene.size, own)
     taken: list[Inversion] = []
-    left = list(elements)
-    while left:
-        group = next((e for e in structure.larger_groups if left[0] in e.parts), None)
-        if group is None:
-            assembled(paper, left[:1], lambda _, dyad: meant(opened, paper, dyad))  # type: ignore[arg-type]
-            del left[0]
-            continue
-        run = [element for element in left if element in group.parts]
-        found = list(_ways(paper, run, [v for v in inversions if v.triangle in group.triangles]))
+
+    def of_group(_: Choices, paper: PlacedLinks, group: LargerGroup) -> Poses:
+        parts = [element for element in group.parts if element in elements]
+        found = list(_ways(paper, parts, [v for v in inversions if v.triangle in group.triangles]))
         if not found:
             raise stuck("not assembled", group.links, "no assembly of the group fits together here")
         index = pick(structure.scene, group.links, [paper.fresh(poses) for _, _, poses in found], None).index
         triangles, paper.values, poses = found[index]
-        taken += triangles
-        paper.poses.update(poses)
-        left = left[left.index(run[-1]) + 1 :]
-    return taken, dict(paper.values), dict(paper.poses)
+        taken.extend(triangles)
+        return poses
+
+    paper = own_position(Choices(structure, ()), elements, of_group)
+    return taken, Assembly(paper.values, paper.poses)
 
 
 def _ways(
