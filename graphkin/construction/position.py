@@ -44,6 +44,7 @@ from graphkin.construction.steps import FINDS_A_POINT, Cause, Mark, Reason, Step
 from graphkin.construction.touching import coordinate_on_paper
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.symbol import PointRef
+from graphkin.search import last_true
 from graphkin.structure import Driven, Dyad, Element, Rolled, Structure, pick
 from graphkin.structure.model import LargerGroup
 from graphkin.words import Phrase
@@ -51,7 +52,6 @@ from graphkin.words import Phrase
 __all__ = ["Assembly", "as_sketched", "assembly_at", "each_assembly", "fits_between", "own_position", "place"]
 
 TRIALS = 3  # trial drivers used, one after the other, to find all assemblies
-HALVINGS = 45  # between trial values, up to the last that can be drawn
 TWINS = 1e-6  # of the size: as near as this places are the same
 ROUGHLY = 0.1  # of the size: so far off a sketch may be
 GRID = 360  # trial values looked at over a turn
@@ -366,17 +366,43 @@ def fits_between(
         def gap(value: float, branches: Branch = branches) -> float:
             return drawn_at(value).get(branches, (math.nan,))[0]
 
-        for (a, one), (b, two) in pairwise((value, gap(value)) for value in grid):
-            if math.isnan(one) != math.isnan(two):  # only one can be drawn: up to the last that can
-                good, bad = (a, b) if math.isnan(two) else (b, a)
-                a, b = good, _last_drawn(gap, good, bad)
-                one, two = gap(a), gap(b)
-            # nan compares false; a gap that leaps has passed half a turn, not zero
-            if not one * two <= 0.0 or abs(one - two) > 1.0:
-                continue
-            paper = _drawn(reduced, known, (_root(gap, a, b, one, two),), branches)
+        for one, two in pairwise((value, gap(value)) for value in grid):
+            closed = _closed_between(gap, one, two)
+            paper = None if closed is None else _drawn(reduced, known, (closed,), branches)
             if paper is not None and abs(reduced.gaps(paper)[0]) < 1e-9:
                 yield reduced.put_back(paper)
+
+
+def _closed_between(
+    gap: Callable[[float], float], one: tuple[float, float], two: tuple[float, float]
+) -> float | None:
+    """The trial value at which a gap closes between two values with what each leaves open, nan of those that cannot be
+    drawn; None where it does not.  By proportional division, halving where that is slow (regula falsi, Illinois
+    variant)."""
+    (a, fa), (b, fb) = (two, one) if math.isnan(one[1]) else (one, two)
+    if math.isnan(fb) and not math.isnan(fa):  # up to the last that can be drawn
+        b = last_true(lambda values: np.array([not math.isnan(gap(float(value))) for value in values]), a, b, 2)
+        fb = gap(b)
+    # nan compares false; a gap that leaps has passed half a turn, not zero
+    if not fa * fb <= 0.0 or abs(fa - fb) > 1.0:
+        return None
+    side = 0
+    for _ in range(100):
+        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
+        if not min(a, b) < c < max(a, b):
+            c = (a + b) / 2
+        fc = gap(c)
+        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
+            return c
+        if (fc > 0) == (fb > 0):
+            b, fb = c, fc
+            fa = fa / 2 if side == -1 else fa
+            side = -1
+        else:
+            a, fa = c, fc
+            fb = fb / 2 if side == 1 else fb
+            side = 1
+    return c
 
 
 def _gaps(reduced: ReducedMechanism, known: PlacedLinks, values: Sequence[float]) -> dict[Branch, list[float]]:
@@ -411,36 +437,6 @@ def _drawn(
     """A trial drawing of the group; None where two loci do not meet."""
     papers = each_assembly(reduced.opened(known, values), reduced.elements, only=branches)
     return next((paper for _, paper in papers), None)
-
-
-def _last_drawn(gap: Callable[[float], float], good: float, bad: float) -> float:
-    """The last trial value that can be drawn between one that can and one that cannot, by halving."""
-    for _ in range(HALVINGS):
-        middle = (good + bad) / 2
-        good, bad = (good, middle) if math.isnan(gap(middle)) else (middle, bad)
-    return good
-
-
-def _root(gap: Callable[[float], float], a: float, b: float, fa: float, fb: float) -> float:
-    """Where a gap closes between two trial values: proportional division, halving where that is slow (regula falsi,
-    Illinois variant)."""
-    side = 0
-    for _ in range(100):
-        c = (fa * b - fb * a) / (fa - fb) if fa != fb else (a + b) / 2
-        if not min(a, b) < c < max(a, b):
-            c = (a + b) / 2
-        fc = gap(c)
-        if fc == 0.0 or math.isnan(fc) or abs(b - a) <= 4e-16 * max(abs(a), abs(b), 1.0):
-            return c
-        if (fc > 0) == (fb > 0):
-            b, fb = c, fc
-            fa = fa / 2 if side == -1 else fa
-            side = -1
-        else:
-            a, fa = c, fc
-            fb = fb / 2 if side == 1 else fb
-            side = 1
-    return c
 
 
 # -- where links lie roughly, by the sketch ----------------------------------------------------------------------------

@@ -113,26 +113,19 @@ def test_why_another_link_is_driven_for_a_driven_block_left_out_is_told() -> Non
         assert sheet.poses[block].axis / sheet.poses[link].axis == pytest.approx(cmath.rect(1.0, turned), abs=1e-9)
 
 
-@pytest.mark.parametrize("root", [0.3, 1e-9, 0.999], ids=str)
-@pytest.mark.parametrize("bad", [1.0, -1.0])
-def test_the_last_value_that_can_be_drawn_is_found_to_rounding(root, bad):
-    def gap(value):
-        return 1.0 + value if abs(value) <= root else math.nan
-
-    last = position._last_drawn(gap, 0.0, bad)
-    assert root - 1e-13 <= abs(last) <= root
-
-
 @pytest.mark.parametrize("sense", [1.0, -1.0], ids=["up to it", "from it on"])
-def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(sense, monkeypatch):
-    fit, last = 0.0031, 0.0032  # both between two values of the grid
+@pytest.mark.parametrize("last", [0.0032, 0.0031 + 1e-13], ids=["beside it", "at it"])
+def test_a_fit_next_to_the_last_value_that_can_be_drawn_is_found(last, sense, monkeypatch):
+    fit = 0.0031  # both between two values of the grid
 
-    def gaps(reduced, known, values):
-        return {(): [sense * values[0] - fit]} if sense * values[0] <= last else {}
+    def drawn(reduced, known, values, branches):
+        return values[0] if sense * values[0] <= last else None
 
-    monkeypatch.setattr(position, "_gaps", gaps)
-    monkeypatch.setattr(position, "_drawn", lambda reduced, known, values, branches: values[0])
+    monkeypatch.setattr(position, "_drawn", drawn)
+    monkeypatch.setattr(position, "_gaps", lambda reduced, known, values: (
+        {} if drawn(reduced, known, values, ()) is None else {(): reduced.gaps(values[0])}
+    ))  # fmt: skip
     reduced = SimpleNamespace(
-        elements=(), trial=(SimpleNamespace(turns=True),), gaps=lambda _: [0.0], put_back=lambda at: at
+        elements=(), trial=(SimpleNamespace(turns=True),), gaps=lambda at: [sense * at - fit], put_back=lambda at: at
     )
     assert [pytest.approx(sense * fit, rel=1e-12)] == list(position.fits_between(reduced, None, -0.1, 0.1))
