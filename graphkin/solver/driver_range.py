@@ -10,10 +10,9 @@ Quantities of the whole turn: stroke of a slide, swing of a link, coefficient of
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from itertools import takewhile
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -75,26 +74,12 @@ def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> Dri
 def range_from(structure: Structure, forms: Mapping[int, Array], start: Array, which: int = 0) -> DriverRange:
     """The range about driver values, shape (drivers,), at which the groups have these forms; of the first driver, or of
     another."""
-    latest: _Known | None = structure.kept.get("range")  # strokes, loads and tables of one motion ask for the same
-    if latest is not None and latest.is_from(forms, start, which):
-        return latest.range
-    found = _followed(structure, forms, start, which)
-    structure.kept["range"] = _Known({i: form.copy() for i, form in forms.items()}, start.copy(), which, found)
+    asked = which, start.tobytes(), tuple((i, form.tobytes()) for i, form in forms.items())
+    # strokes, loads and tables of one motion ask for the same
+    if structure.kept.get("range", (None,))[0] != asked:
+        structure.kept["range"] = asked, _followed(structure, forms, start, which)
+    found: DriverRange = structure.kept["range"][1]
     return found
-
-
-@dataclass(frozen=True)
-class _Known:
-    """A range that was followed, and from where."""
-
-    forms: Mapping[int, Array]
-    start: Array
-    which: int
-    range: DriverRange
-
-    def is_from(self, forms: Mapping[int, Array], start: Array, which: int) -> bool:
-        same = which == self.which and self.forms.keys() == forms.keys() and np.array_equal(start, self.start)
-        return same and all(np.array_equal(form, forms[i]) for i, form in self.forms.items())
 
 
 def _followed(structure: Structure, forms: Mapping[int, Array], start: Array, which: int) -> DriverRange:
@@ -323,7 +308,9 @@ class DriverRange:
 
     # the motion
 
-    def motion(self, offset: Array, unit: bool = False, fine: bool = True) -> Motion:
+    def motion(
+        self, offset: Array, unit: bool = False, fine: bool = True, rates: tuple[Array, Array] | None = None
+    ) -> Motion:
         """The motion at these offsets, with status and reason at each.
 
         Parameters
@@ -332,20 +319,23 @@ class DriverRange:
             other way round
         unit : rates by the first driver's own value (rate 1, second rate 0, other drivers held) instead of the scene's
         fine : False for curves: 16 digits throughout, and no reasons where the status is not ok
+        rates : of the first driver at each offset, first and second, shape (n,), instead of the scene's
         """
         offset = np.asarray(offset, dtype=float)
         n = len(offset)
         if n > BLOCK:
-            blocks = (self.motion(offset[k : k + BLOCK], unit, fine) for k in range(0, n, BLOCK))
+            parts = (slice(k, k + BLOCK) for k in range(0, n, BLOCK))
+            blocks = (self.motion(offset[k], unit, fine, rates and (rates[0][k], rates[1][k])) for k in parts)
             part = np.clip(self._reached(offset), *self.ends) / abs(self.wide)
             return replace(joined(blocks, n), turned=self.turned(part))
         offset = self._reached(offset)
         within = np.clip(offset, *self.ends)
         drive = Drive.at(self.structure, self.values(within))
         if unit:
-            rate = np.zeros_like(drive.value)
-            rate[:, 0] = self.sense
-            drive = Drive(drive.value, rate, np.zeros_like(rate))
+            rates = np.full(n, self.sense), np.zeros(n)
+        if rates:
+            drive = Drive(drive.value, *(np.zeros_like(drive.value) for _ in rates))
+            drive.rate[:, 0], drive.second[:, 0] = rates
         return self._motion(within / abs(self.wide), self.values(offset), drive, self.reaches(offset), fine)
 
     def _reached(self, offset: Array) -> Array:
@@ -471,79 +461,60 @@ def joined(blocks: Iterable[Motion], n: int) -> Motion:
     Each block is let go before the next is found, and what is the same at all positions, or for two links (the angle of
     a block on its guide), is kept once: fields may be read-only, or be the memory of another.
     """
-    columns: dict[tuple[str, str], _Column] = {}
-    reasons = list[Wording]([""] * n)
-    first, some = 0, None
+    columns: dict[tuple[str, str], list[Array]] = {}
+    reasons, lengths, some = list[Wording](), list[int](), None
     for some in blocks:
-        rows = slice(first, first + len(some))
-        parts = {(name, f): np.broadcast_to(getattr(p, f), len(some)) for name, p in some.poses.items() for f in FIELDS}
-        known = some.accuracy
-        parts |= {("", "status"): some.status, ("", "values"): some.values, ("", "refined"): known.refined}
-        drive = known.drive
-        parts |= {("", "value"): drive.value, ("", "rate"): drive.rate, ("", "second"): drive.second}
-        parts |= {("", "slack"): known.slack, ("", "clear"): known.clear, ("", "ok"): known.ok}
-        if not columns:
-            columns = {key: _Column(n) for key in parts}
-        for key, values in parts.items():
-            columns[key].put(rows, values, [c for other, c in columns.items() if other[1] == key[1]])
-        reasons[rows] = some.reasons
-        first = rows.stop
+        held: dict[tuple[str, bytes, bytes], Array] = {}
+        for key, values in _columns(some):
+            columns.setdefault(key, []).append(_held_once(key[1], values, held))
+        reasons += some.reasons
+        lengths.append(len(some))
     assert some is not None
-    kept = {key: column.array for key, column in columns.items()}
+    whole: dict[tuple[int, ...], Array] = {}
+    kept: dict[tuple[str, str], Array] = {}
+    for key, parts in columns.items():
+        shared = tuple(map(id, parts))
+        if shared not in whole:
+            whole[shared] = _in_one_column(parts, lengths, n)
+        kept[key] = whole[shared]
     poses = {name: Pose(*(kept[name, field] for field in FIELDS)) for name in some.poses}
     drive = Drive(kept["", "value"], kept["", "rate"], kept["", "second"])
+    known = (kept["", x] for x in ("slack", "refined", "clear", "ok"))
     return replace(
-        some,
-        values=kept["", "values"],
-        status=kept["", "status"],
-        reasons=tuple(reasons),
-        poses=poses,
-        accuracy=Accuracy(known.structure, poses, drive, *(kept["", x] for x in ("slack", "refined", "clear", "ok"))),
-    )
+        some, values=kept["", "values"], status=kept["", "status"], reasons=tuple(reasons), poses=poses,
+        accuracy=Accuracy(some.accuracy.structure, poses, drive, *known),
+    )  # fmt: skip
 
 
-class _Column:
-    """A column of n rows that is filled from the top: one row for all as long as they are the same, bit by bit, nothing
-    of its own as long as another column is the same."""
-
-    def __init__(self, n: int) -> None:
-        self.n = n
-        self.like: _Column | None = None
-        self.own: Array | None = None
-
-    @property
-    def array(self) -> Array:
-        if self.like is not None:
-            return self.like.array
-        assert self.own is not None
-        return self.own if len(self.own) == self.n else np.broadcast_to(self.own, (self.n, *self.own.shape[1:]))
-
-    def put(self, rows: slice, values: Array, others: Iterable[_Column]) -> None:
-        """The next rows; ``others`` that come before this one have theirs already."""
-        if rows.start == 0:
-            one = values[:1]
-            if _same(values, np.broadcast_to(one, values.shape)):
-                self.own = one.copy()
-                return
-            before = takewhile(lambda c: c is not self, others)
-            self.like = next((c for c in before if c.like is None and _same(values, c.array[rows])), None)
-            if self.like is None:
-                self._spread(values[:0])[rows] = values
-            return
-        if self.own is not None and len(self.own) == self.n:
-            self.own[rows] = values
-        elif not _same(values, self.array[rows]):
-            self._spread(self.array[: rows.start])[rows] = values
-
-    def _spread(self, above: Array) -> Array:
-        self.own, self.like = np.empty((self.n, *above.shape[1:]), dtype=above.dtype), None
-        self.own[: len(above)] = above
-        return self.own
+def _columns(motion: Motion) -> Iterator[tuple[tuple[str, str], Array]]:
+    """Every column of a motion, by the link and the field that it is of."""
+    for name, pose in motion.poses.items():
+        yield from (((name, field), np.broadcast_to(getattr(pose, field), len(motion))) for field in FIELDS)
+    known, drive = motion.accuracy, motion.accuracy.drive
+    own = {"values": motion.values, "status": motion.status, "value": drive.value, "rate": drive.rate,
+           "second": drive.second, "slack": known.slack, "refined": known.refined, "clear": known.clear,
+           "ok": known.ok}  # fmt: skip
+    yield from ((("", name), values) for name, values in own.items())
 
 
-def _same(one: Array, other: Array) -> bool:
-    """Whether two arrays are the same bit by bit: minus zero is not zero, and NaN is NaN."""
-    return one.dtype == other.dtype and one.tobytes() == other.tobytes()
+def _held_once(field: str, values: Array, held: dict[tuple[str, bytes, bytes], Array]) -> Array:
+    """Values of a block: one row where all are the same bit by bit (minus zero is not zero, and NaN is NaN), and the
+    memory of those held that are the same."""
+    first, last = values[:1].tobytes(), values[-1:].tobytes()
+    if first == last and values.tobytes() == first * len(values):
+        values = values[:1].copy()
+    known = held.setdefault((field, first, last), values)
+    return known if known.shape == values.shape and known.tobytes() == values.tobytes() else values
+
+
+def _in_one_column(parts: list[Array], lengths: Sequence[int], n: int) -> Array:
+    """The rows of blocks below each other; one row for all while they are the same.  The parts are let go."""
+    first = parts[0]
+    if all(len(part) == 1 and part.tobytes() == first.tobytes() for part in parts):
+        return np.broadcast_to(first, (n, *first.shape[1:]))
+    spread = [np.broadcast_to(part, (rows, *part.shape[1:])) for part, rows in zip(parts, lengths, strict=True)]
+    parts.clear()
+    return np.concatenate(spread)
 
 
 # -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------

@@ -50,21 +50,19 @@ def known_exactly(drivers: Sequence[Driver], values: Array) -> Array:
 class ExtendedPrecision:
     """Some formulas of a mechanism in fifty digits, at positions of its drivers.
 
-    value, rate, second : of the drivers, shape (n, drivers), (drivers,), (drivers,)
+    drive : of the drivers
     signs : the other inputs of the formulas, by name, shape (n,)
     """
 
     dimensioned: DimensionedProgram
     code: Code
     drivers: Sequence[Driver]
-    value: Array
-    rate: Array
-    second: Array
+    drive: Drive
     signs: Mapping[Name, Array]
 
     def place(self, rows: Array, asked: Sequence[Real | Vec], columns: Sequence[Array]) -> Array:
         """Compute some positions in 50 digits, in ``columns`` of ``asked``; those that can be, bool, shape (n,)."""
-        done = np.zeros(len(self.value), dtype=bool)
+        done = np.zeros(len(self.drive), dtype=bool)
         with working():
             for k in np.flatnonzero(rows).tolist():
                 try:
@@ -114,7 +112,7 @@ class ExtendedPrecision:
         """What the formulas take that changes from position to position, and how far it may be off."""
         given = {name: (Decimal(float(column[k])), Decimal(0)) for name, column in self.signs.items()}
         for j, driver in enumerate(self.drivers):
-            value = float(self.value[k, j])
+            value, first, second = (float(x[k, j]) for x in (self.drive.value, self.drive.rate, self.drive.second))
             number, exact = meant_angle(value) if driver.turns else meant(value)
             dead = driver.dead_point
             if dead and dead.exact and value == driver.values[0]:
@@ -127,7 +125,7 @@ class ExtendedPrecision:
                 given["cos", j], given["sin", j] = (cosine, error), (sine, error)
             else:
                 given["travel", j] = number, error
-            for name, rate in (("rate", float(self.rate[j])), ("second", float(self.second[j]))):
+            for name, rate in (("rate", first), ("second", second)):
                 number, exact = meant(rate)
                 given[name, j] = number, Decimal(0 if exact else GIVEN * abs(rate))
         return given
@@ -182,7 +180,6 @@ def positions(
 
     Parameters
     ----------
-    drive : the rates of each driver are the same at all positions
     forms : the assembly of each group, by its place among the elements: for a dyad the sign, shape (n,); for a larger
         group the poses from which Newton's method starts, shape (n, members, 3)
     upto : solve only the elements before this one
@@ -226,14 +223,21 @@ class _Run:
         self.rates, self.fine = rates, fine
         self.known: dict[int, float] | None = {} if known is None else known
         self.n = len(drive)
-        self.rate, self.second = (x[0] if self.n else np.zeros(x.shape[1]) for x in (drive.rate, drive.second))
-        self.dimensioned = program_of(structure, tuple(bool(s) for s in self.second))
-        self.rates_of: dict[Name, float] = {}
-        for k, rates_here in enumerate(zip(self.rate.tolist(), self.second.tolist(), strict=True)):
-            self.rates_of["rate", k], self.rates_of["second", k] = rates_here
         self.clusters: dict[int, GroupSolved] = {}
         self.slack: list[Array] = []
         self.given = self._drivers()
+        self.rates_of: dict[Name, float] = {}
+        """Rates at the first position: where they change they are given as the values are."""
+        self.varying: frozenset[Name] = frozenset()
+        for part, rates_here in (("rate", drive.rate), ("second", drive.second)):
+            self.rates_of |= {(part, k): rate for k, rate in enumerate(rates_here[0].tolist() if self.n else ())}
+            if self.n > 1 and rates_here.strides[0]:
+                changing = np.flatnonzero((rates_here != rates_here[0]).any(axis=0)).tolist()
+                self.given |= {(part, k): np.ascontiguousarray(rates_here[:, k]) for k in changing}
+                self.varying |= {(part, k) for k in changing}
+        names = [("second", k) for k in range(drive.value.shape[1])]
+        moving = (name in self.varying or bool(self.rates_of.get(name)) for name in names)
+        self.dimensioned = program_of(structure, tuple(moving))
 
     def _drivers(self) -> dict[Name, Array]:
         given: dict[Name, Array] = {}
@@ -297,7 +301,7 @@ class _Run:
             again = exact | self._rough(state)
         if not again.any():
             return state
-        extended = self._extended(program.code((first, upto, self.rates), asked))
+        extended = self._extended(program.code((first, upto, self.rates), asked, self.varying))
         return replace(state, refined=extended.place(again, asked, columns))  # the columns are those of the poses
 
     def _lifted(self) -> dict[Name, Array]:
@@ -370,7 +374,7 @@ class _Run:
 
     def _values(self, key: Hashable, asked: Sequence[Real | Vec]) -> list[Array]:
         """Formulas at all positions: vectors as complex arrays, numbers as real ones."""
-        code = self.dimensioned.program.code(key, asked)
+        code = self.dimensioned.program.code(key, asked, self.varying)
         if self.known is not None and self.n == 1:
             try:
                 row = iter(code.values(self._given_at_first, self.known))
@@ -395,7 +399,7 @@ class _Run:
     def _extended(self, code: Code) -> ExtendedPrecision:
         signs = {name: column for name, column in self.given.items() if name[0] == "sign"}
         drivers = self.structure.drivers
-        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive.value, self.rate, self.second, signs)
+        return ExtendedPrecision(self.dimensioned, code, drivers, self.drive, signs)
 
 
 _LOST = np.full(1, np.nan)

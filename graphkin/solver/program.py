@@ -158,11 +158,12 @@ class Program:
 
     # code
 
-    def code(self, key: Hashable, asked: Sequence[Real | Vec]) -> Code:
-        """The code for some formulas, made once; of a vector both components."""
-        if key not in self._codes:
-            self._codes[key] = Code(self.graph, [x for one in asked for x in components(one)])
-        return self._codes[key]
+    def code(self, key: Hashable, asked: Sequence[Real | Vec], varying: frozenset[Name] = frozenset()) -> Code:
+        """The code for some formulas, made once; of a vector both components.  ``varying`` are rates of drivers that
+        change from position to position."""
+        if (key, varying) not in self._codes:
+            self._codes[key, varying] = Code(self.graph, [x for one in asked for x in components(one)], (), varying)
+        return self._codes[key, varying]
 
 
 def _numbers(structure: Structure) -> dict[Name, complex]:

@@ -2,19 +2,13 @@
 as that of what is drawn in its place: the same links, bars to centres of curvature, blocks on curves.
 
 The motion at moments in time, where drivers move by laws: their rates change from one moment to the next.
-
-Velocities are linear in the rates of the drivers, accelerations linear in their second rates and quadratic in their
-rates (influence coefficients, Thomas and Tesar, ASME J. Mech. Des. 1982): they are put together from motions in which
-one driver, or two, move at the rate 1.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import partial
-from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 
@@ -73,9 +67,9 @@ def solve(
     goal = goal_values(structure.scene, at)
     if sweep is not None and sweep < 1:
         raise CallError(Problem("sweep", Phrase("positions of number", number=sweep), Phrase("give 1 or more")))
-    start = _start(structure, goal)
-    if isinstance(start, _Refused):
-        return _nowhere(structure, goal, sweep, *start)
+    start = _start(structure, goal, sweep)
+    if isinstance(start, Motion):
+        return start
     forms, passed = start
     if sweep is not None:
         return range_from(structure, forms, goal).sweep(sweep)
@@ -90,32 +84,28 @@ def sweep_in_blocks(scene: Mechanism | Structure, at: Mapping[str, float] | None
     """``solve`` of a sweep a block of positions at a time: no more of it is in memory."""
     structure = structure_of(scene)
     goal = goal_values(structure.scene, at)
-    start = _start(structure, goal)
-    if isinstance(start, _Refused):
-        yield _nowhere(structure, goal, sweep, *start)
+    start = _start(structure, goal, sweep)
+    if isinstance(start, Motion):
+        yield start
     else:
         yield from range_from(structure, start[0], goal).sweep_in_blocks(sweep)
 
 
-class _Refused(NamedTuple):
-    """Why driver values are not reached."""
-
-    status: str
-    why: Wording
-
-
-def _start(structure: Structure, goal: Array) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | _Refused:
-    """The form of each group at driver values, and the change points on the way there; or why they are not reached."""
+def _start(
+    structure: Structure, goal: Array, sweep: int | None
+) -> tuple[Mapping[int, Array], tuple[ChangePoint, ...]] | Motion:
+    """The form of each group at driver values, and the change points on the way there; where they are not reached the
+    motion that says why."""
     try:
         forms = choose_forms(structure)
     except Unsolvable as stop:
-        return _Refused(stop.status, stop.reason)
+        return _nowhere(structure, goal, sweep, stop.status, stop.reason)
     own = own_values(structure.scene)
     if np.array_equal(own, goal):
         return forms, ()
     path = way_to(structure, forms, goal)
     if path.limit is not None:
-        return _Refused("not assembled", stopped_why(structure, forms, own, path))
+        return _nowhere(structure, goal, sweep, "not assembled", stopped_why(structure, forms, own, path))
     return path.last_forms, path.change_points
 
 
@@ -192,30 +182,23 @@ def over_time(of: Mechanism | Structure, times: Array, fine: bool = True) -> Mot
     moments = [at_time(scene, float(t)) for t in times]
     value = np.array([[values[d.key] for d in scene.drivers] for _, values in moments])
     rates = np.array([[d.values[1:] for d in moved.drivers] for moved, _ in moments])
-    at = _one_driver(structure, value, fine) if value.shape[1] == 1 else _several_drivers(structure, value, fine)
-    rate, second = rates[..., 0], rates[..., 1]
-    return _together(list(_terms(at, rate, second)), Drive(value, rate, second))
+    drive = Drive(value, rates[..., 0], rates[..., 1])
+    return (_one_driver if value.shape[1] == 1 else _several_drivers)(structure, drive, fine)
 
 
-At = Callable[[Array], Motion]
-"""The motion at all moments with these rates of the drivers, shape (drivers,), without second rates."""
-
-
-def _one_driver(structure: Structure, value: Array, fine: bool) -> At:
+def _one_driver(structure: Structure, drive: Drive, fine: bool) -> Motion:
     reach = range_of(structure)
-    offset, rounds = reach.sense * (value[:, 0] - reach.start[0]), np.zeros(len(value))
+    offset, rounds = reach.sense * (drive.value[:, 0] - reach.start[0]), np.zeros(len(drive))
     if reach.full:
         rounds = np.floor(offset / abs(reach.wide))
         offset = np.remainder(offset, abs(reach.wide))
-    along = reach.motion(offset, unit=True, fine=fine)  # at the rate 1 in its sense
-    poses = {n: replace(p, v=reach.sense * p.v, omega=reach.sense * p.omega) for n, p in along.poses.items()}
+    along = reach.motion(offset, fine=fine, rates=(drive.rate[:, 0], drive.second[:, 0]))
     whole = reach.turned(np.ones(1))
     turned = {name: angle + rounds * whole[name] for name, angle in along.turned.items()}
-    motion = replace(along, poses=poses, values=value, turned=turned)
-    return lambda unit: motion
+    return replace(along, values=drive.value, turned=turned, accuracy=replace(along.accuracy, drive=drive))
 
 
-def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
+def _several_drivers(structure: Structure, drive: Drive, fine: bool) -> Motion:
     """Along the way from moment to moment; what is not reached is left out, and the way goes on from before it."""
     from graphkin.solver.continuity import follow_path
 
@@ -223,8 +206,8 @@ def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
     assembly = partial(assembly_words, structure, forms)
     here, found = own_values(structure.scene), []
     sums: list[dict[str, float]] = []
-    good, why = np.ones(len(value), dtype=bool), list[Wording]([""] * len(value))
-    for k, goal in enumerate(value):
+    good, why = np.ones(len(drive), dtype=bool), list[Wording]([""] * len(drive))
+    for k, goal in enumerate(drive.value):
         if not np.array_equal(here, goal):
             path = follow_path(structure, forms, here, goal) if k else way_to(structure, forms, goal)
             if path.limit is None:
@@ -236,54 +219,6 @@ def _several_drivers(structure: Structure, value: Array, fine: bool) -> At:
         found.append(forms)
         sums[k:] = [sums[-1] if sums else {}]
     stacked = {i: np.stack([f[i] for f in found]) for i in forms}
-
-    def at(unit: Array) -> Motion:
-        drive = Drive(value, np.broadcast_to(unit, value.shape), np.zeros_like(value))
-        motion = motion_of(structure, drive, stacked, assembly, good, fine=fine)
-        said = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
-        return replace(motion, reasons=said, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
-
-    return at
-
-
-@dataclass(frozen=True)
-class _Term:
-    """A motion at constant rates, with what it counts for at each moment, shape (n,): in velocities; in accelerations
-    by its accelerations (``square``) and by its velocities (``second``)."""
-
-    motion: Motion
-    factor: Array
-    square: Array
-    second: Array
-
-
-def _terms(at: At, rate: Array, second: Array) -> Iterator[_Term]:
-    """Each driver alone, and each two together for what their rates do to accelerations together, from which what each
-    does alone is taken away."""
-    one = np.eye(rate.shape[1])
-    for k, unit in enumerate(one):
-        own, others = rate[:, k], rate.sum(axis=1) - rate[:, k]
-        yield _Term(at(unit), own, own * (own - others), second[:, k])
-    nothing = np.zeros(len(rate))
-    for k, m in combinations(range(len(one)), 2):
-        yield _Term(at(one[k] + one[m]), nothing, rate[:, k] * rate[:, m], nothing)
-
-
-def _together(terms: list[_Term], drive: Drive) -> Motion:
-    """The motion that terms make together."""
-    first = terms[0].motion
-    poses = {name: _pose([(t, t.motion.poses[name]) for t in terms]) for name in first.poses}
-    ok = np.logical_and.reduce([t.motion.accuracy.ok for t in terms])
-    refined = np.logical_and.reduce([t.motion.accuracy.refined for t in terms])
-    accuracy = replace(first.accuracy, poses=poses, drive=drive, refined=refined, ok=ok)
-    return replace(first, poses=poses, accuracy=accuracy)
-
-
-def _pose(terms: list[tuple[_Term, Pose]]) -> Pose:
-    place = terms[0][1]
-    v, omega = (sum(t.factor * getattr(p, f) for t, p in terms) for f in ("v", "omega"))
-    a, alpha = (
-        sum(t.square * getattr(p, push) + t.second * getattr(p, speed) for t, p in terms)
-        for push, speed in (("a", "v"), ("alpha", "omega"))
-    )
-    return Pose(place.z, place.u, v, omega, a, alpha)
+    motion = motion_of(structure, drive, stacked, assembly, good, fine=fine)
+    reasons = tuple(a or b for a, b in zip(motion.reasons, why, strict=True))
+    return replace(motion, reasons=reasons, turned={n: np.array([s.get(n, 0.0) for s in sums]) for n in motion.poses})
