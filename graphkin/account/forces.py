@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from functools import cached_property, reduce
 from itertools import chain
@@ -83,7 +83,7 @@ class ForceStep:
 
 @dataclass(frozen=True)
 class ForceStage:
-    """Steps that belong together: of one group, of the inertia forces, of a lever (these have no ``group``).
+    """Steps that belong together: of one group, of the inertia forces, of a lever (whose ``group`` has no links).
 
     ``figure`` is the one they are drawn on; ``again`` marks what is drawn with a load that begins or ends here.
     """
@@ -92,7 +92,7 @@ class ForceStage:
     title: Phrase
     steps: tuple[ForceStep, ...]
     state: ForceState
-    group: ForceGroup | None = None
+    group: ForceGroup = field(default_factory=lambda: ForceGroup((), ""))
     again: bool = False
 
     def heading(self, language: str) -> tuple[tuple[str, str], ...]:
@@ -126,7 +126,7 @@ class ForceStage:
         """The step that draws a force in the polygon of the group, or of one link."""
         if link:
             return self.number_of("inside", None, link) or self.closing
-        laid = vector.known or (self.group is not None and vector in laid_off(self.group))
+        laid = vector.known or vector in laid_off(self.group)
         return self.number_of("lay") or self.known if laid else self.closing
 
 

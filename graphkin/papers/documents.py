@@ -19,8 +19,8 @@ from graphkin.checking.report import Compared, exact, measured, paper
 from graphkin.checking.uncertainty import COVERAGE
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.box import Box
-from graphkin.drawing.figures.forces import group_equation, group_picture
-from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.boxes import FigurePage
+from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.parts.given_shapes import given_shapes
 from graphkin.drawing.tables import given_lengths, given_teeth
@@ -491,10 +491,10 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
     for turn, stage in enumerate(ForceAccount(lesson.scaled, forces, lesson.letters).stages()):
         steps = Steps(tuple(StepItem(s.number, s.words(language), s.lines(language)) for s in stage.steps))
         title = stage.heading(language)
-        if len(forces.states) > 1 and stage.group is not None:
+        if len(forces.states) > 1 and stage.group.links:
             load = said("force with load" if stage.again else "force without load", language)
             title = tuple((each, f"{one}  ({text})") for (each, one), (_, text) in zip(title, load, strict=True))
-        count += stage.group is not None
+        count += bool(stage.group.links)
         yield Together((*lead, Heading(title, 3), *_force_pictures(lesson, stage, f"-{turn}", count), steps))
         lead = ()
         if stage.figure == "lever" and lever is not None:
@@ -506,13 +506,14 @@ def _force_blocks(lesson: Lesson, count: int) -> Iterator[Block]:
 def _force_pictures(lesson: Lesson, stage: ForceStage, tag: str, count: int) -> Iterator[Picture]:
     """The equation of a group over its rows, and the group cut free beside its polygon."""
     forces, group, language = lesson.forces, stage.group, lesson.language
-    if forces is None or group is None:
+    if forces is None or not group.links:
         return
     width = paper_of(lesson.sheet.scene).body.width
-    equation = group_equation(lesson.scaled, group, lesson.letters, language, width)
+    page = FigurePage(lesson.scaled, "forces", language, lesson.letters, width)
+    equation = group_equation(page, group)
     if equation is not None:
         yield Picture(equation, joined=True)
-    drawn = group_picture(lesson.scaled, forces, stage, group, lesson.letters, language, width, tag)
+    drawn = group_picture(page, forces, stage, tag)
     told = said(about("figure of forces", group.links), language, ", ".join(group.links))
     yield Picture(drawn, numbered(count, told))
 

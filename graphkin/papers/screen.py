@@ -26,10 +26,10 @@ from graphkin.construction.scales import Scales, next_of_series
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName, Step, Vector
 from graphkin.drawing.box import Box
+from graphkin.drawing.boxes import FigurePage
 from graphkin.drawing.figures.cam import cam_pictures, scaled_cam
 from graphkin.drawing.figures.centres import background
-from graphkin.drawing.figures.forces import group_equation, group_picture
-from graphkin.drawing.figures.lever import lever_figure
+from graphkin.drawing.figures.forces import group_equation, group_picture, lever_figure
 from graphkin.drawing.figures.train import moving_plans, train_figure
 from graphkin.drawing.ink.primitives import Group, Primitive
 from graphkin.drawing.parts.centre_marks import centre_marks, near_box
@@ -350,14 +350,14 @@ def _forces(lesson: Lesson, figures: list[Figure]) -> Iterator[StageTold]:
     for turn, stage in enumerate(ForceAccount(sheet, forces, lesson.letters).stages()):
         name, svg, group = str(stage.figure), "", stage.group
         title = said_html(stage.heading(language))
-        if group is not None:
-            name = f"force-{turn}"
-            drawn = group_picture(sheet, forces, stage, group, lesson.letters, language, WIDE, f"-{turn}")
+        if group.links:
+            name, page = f"force-{turn}", FigurePage(sheet, "forces", language, lesson.letters, WIDE)
+            drawn = group_picture(page, forces, stage, f"-{turn}")
             links = said(about("force on links", group.links), language, ", ".join(group.links))
             figures.append(_figure(name, drawn, said_html(links), scale, named=True))
-            equation = group_equation(sheet, group, lesson.letters, language, WIDE)
+            equation = group_equation(page, group)
             svg = "" if equation is None else svg_element(equation)
-        if len(forces.states) > 1 and group is not None:
+        if len(forces.states) > 1 and group.links:
             load = said("force with load" if stage.again else "force without load", language)
             title += f" <small>{said_html(load)}</small>"
         told = ((StepItem(s.number, s.words(language), s.lines(language)), s) for s in stage.steps)
