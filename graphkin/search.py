@@ -11,13 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Pieces", "changes", "greatest_and_least", "intervals", "last_true", "least_value", "resolve"]
+__all__ = ["Pieces", "Turn", "changes", "greatest_and_least", "intervals", "last_true", "least_value", "resolve"]
 
 Array = NDArray[Any]
 SECTIONS = 64
@@ -112,9 +112,25 @@ CLOSE = 1e-6
 """Of the range: zeros this near to one at a seam are that one."""
 NOTHING = 1e-12
 """Of the largest value: what a curve is where it is zero."""
+BESIDE = 1e-4
+"""Of the range: so far beside a place at rest one sees whether the curve turns there."""
+BESIDE_SEAM = 1e-3
+"""Of the range, at most: so far beside a seam one sees how a curve comes to it, and how it goes on."""
+SAME_AT_SEAM = 1e-11
+"""Of the largest value: a curve that changes by less stands still."""
 
 _NODES = np.cos(np.pi * (np.arange(POINTS) + 0.5) / POINTS)[::-1]
 _FIT = np.linalg.inv(chebyshev.chebvander(_NODES, POINTS - 1))
+
+
+class Turn(NamedTuple):
+    """Where a curve turns: its parameter and value, 1 at a greatest and -1 at a least value, and whether a seam lies
+    there."""
+
+    place: float
+    value: float
+    sense: float
+    at_seam: bool = False
 
 
 @dataclass(frozen=True)
@@ -142,12 +158,12 @@ class Pieces:
         """Parameters at which a curve is zero, in increasing order; of a stretch along which it is, the ends."""
         found = self._roots(self.coefficients[:, :, curve], self.scale[curve], self.doubt[:, curve])
         whole = self.high[-1] - self.low[0]
-        for seam in self.seams:
+        nothing = np.abs(self.levels(curve)).min(axis=0) <= NOTHING * self.scale[curve]
+        for seam in self.seams[nothing]:
             # several roots at one end are found apart, by the root of the rounding
-            if np.abs(self.beside(float(seam), curve)).min() <= NOTHING * self.scale[curve]:
-                apart = np.abs(found - seam)
-                apart = np.minimum(apart, whole - apart) if self.periodic else apart
-                found = np.append(found[apart > CLOSE * whole], seam)
+            apart = np.abs(found - seam)
+            apart = np.minimum(apart, whole - apart) if self.periodic else apart
+            found = np.append(found[apart > CLOSE * whole], seam)
         return np.sort(found)
 
     def extremes(self, curve: int) -> Array:
@@ -165,22 +181,65 @@ class Pieces:
         # rounding of the values, seen in the derivative of a polynomial of this degree
         return self._roots(slopes, self.scale[curve] * POINTS, self.doubt[:, curve] * POINTS)
 
-    def at(self, parameter: float, curve: int) -> float:
-        """The value of a curve, by its polynomial: also at an end where the curve itself cannot be computed; not a
-        number in a piece that was left out."""
-        piece = min(int(np.searchsorted(self.high, parameter)), len(self.high) - 1)
-        if np.isinf(self.doubt[piece, curve]):
-            return float("nan")
-        low, high = self.low[piece], self.high[piece]
-        x = (2 * parameter - low - high) / (high - low)
-        return float(chebyshev.chebval(x, self.coefficients[piece, :, curve]))
+    def turns(self, curve: int, at_rest: bool = True) -> list[Turn]:
+        """Where a curve has a greatest or a least value among those beside it, in increasing order; none where it only
+        stands still for a moment.  At a seam it may jump, or leave a stretch along which it stands still, whose end is
+        meant.
 
-    def beside(self, seam: float, curve: int) -> tuple[float, float]:
-        """The values of a curve before and after a seam."""
-        after = int(np.argmin(np.abs(self.low - seam)))
-        before = after - 1 if after or self.periodic else after
-        one, two = self.coefficients[before, :, curve], self.coefficients[after, :, curve]
-        return float(chebyshev.chebval(1.0, one)), float(chebyshev.chebval(-1.0, two))
+        Parameters
+        ----------
+        at_rest : whether a seam counts at which the curve is nothing
+        """
+        low, high, slack = float(self.low[0]), float(self.high[-1]), SAME_AT_SEAM * self.scale[curve]
+        found, levels = list[Turn](), self.levels(curve)
+        near = np.minimum(BESIDE_SEAM * (high - low), self._room() / 3)
+        before, beyond = (self.at(self._within(self.seams + by), curve) for by in (-near, near))
+        for sense in (1.0, -1.0):
+            top = sense * (sense * levels).max(axis=0)
+            turning = (sense * (top - before) >= -slack) & (sense * (top - beyond) > slack)
+            turning &= at_rest | (np.abs(top) > slack)
+            ends = zip(self.seams[turning].tolist(), top[turning].tolist(), strict=True)
+            found += [Turn(*end, sense, True) for end in ends]
+        places = self.extremes(curve)
+        apart = np.abs(places[:, None] - self.seams)
+        apart = np.minimum(apart, high - low - apart) if self.periodic else apart
+        values = self.at(places, curve)
+        told = ((apart < near) & (np.abs(levels - values[:, None, None]) <= slack).any(axis=1)).any(axis=1)
+        steps = np.full(len(places), BESIDE * (high - low))
+        steps = steps if self.periodic else np.minimum(steps, np.minimum(places - low, high - places) / 2)
+        rises, falls = (np.sign(values - self.at(self._within(places + by), curve)) for by in (-steps, steps))
+        turning = (rises == falls) & (np.abs(rises) == 1.0) & ~told
+        inner = zip(*(x[turning].tolist() for x in (places, values, rises)), strict=True)
+        return sorted([*found, *(Turn(*one) for one in inner)])
+
+    def _room(self) -> Array:
+        """How far each seam is from what is next to it: another seam, or an end of the range."""
+        wide = self.high[-1] - self.low[0]
+        ends = (self.seams[-1:] - wide, self.seams[:1] + wide) if self.periodic else (self.low[:1], self.high[-1:])
+        gaps = np.diff(np.concatenate([ends[0], self.seams, ends[1]]))
+        return np.minimum(gaps[:-1], gaps[1:])
+
+    def _within(self, parameter: Array) -> Array:
+        """Parameters; of a turn within it."""
+        low, high = self.low[0], self.high[-1]
+        return low + np.remainder(parameter - low, high - low) if self.periodic else np.clip(parameter, low, high)
+
+    def at(self, parameter: ArrayLike, curve: int, after: bool = False) -> Array:
+        """The values of a curve, by its polynomials: also at an end where the curve itself cannot be computed, of a
+        seam before or ``after`` it; not a number in a piece that was left out."""
+        places = np.asarray(parameter, dtype=float)
+        piece = np.minimum(np.searchsorted(self.high, places, "right" if after else "left"), len(self.high) - 1)
+        low, high = self.low[piece], self.high[piece]
+        powers = chebyshev.chebvander((2 * places - low - high) / (high - low), POINTS - 1)
+        values = (powers * self.coefficients[piece, :, curve]).sum(axis=-1).reshape(places.shape)
+        with np.errstate(all="ignore"):
+            values = values / np.sin(places) ** self.weight[curve] if self.weight[curve] else values
+        return np.asarray(np.where(np.isinf(self.doubt[piece, curve]), np.nan, values))
+
+    def levels(self, curve: int) -> Array:
+        """The values of a curve before and after each seam, shape (2, seams)."""
+        before = np.where(self.periodic & (self.seams == self.low[0]), self.high[-1], self.seams)
+        return np.stack([self.at(before, curve), self.at(self.seams, curve, after=True)])
 
     def is_constant(self, curve: int) -> bool:
         """Whether a curve does not change beyond rounding."""

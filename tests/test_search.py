@@ -78,6 +78,29 @@ def test_what_may_be_rounding_is_not_looked_into() -> None:
     assert len(calls) == 1
 
 
+def test_a_curve_turns_where_it_leaves_a_stretch_along_which_it_stands_still() -> None:
+    # it stands at 1 up to the seam, and up to the end of the turn, where the next one begins
+    pieces = resolve(
+        lambda t: column(np.where(t < 2.0, 1.0, 1.0 + np.sin(np.pi * (t - 2.0)))), 0.0, 4.0, True, seams=np.array([2.0])
+    )
+    turns = [(t.place, t.sense) for t in pieces.turns(0)]
+    assert [(2.0, -1.0), (2.5, 1.0), (3.5, -1.0)] == [(pytest.approx(at, abs=1e-12), sense) for at, sense in turns]
+
+
+@pytest.mark.parametrize("seam", [0.0, 1.0])
+def test_a_curve_that_jumps_turns_at_both_sides_of_the_jump(seam: float) -> None:
+    pieces = resolve(
+        lambda t: column(np.mod(t - seam, 4.0) - 2.0), 0.0, 4.0, periodic=True, seams=np.array([seam])
+    )
+    turns = [(t.place, t.value, t.sense, t.at_seam) for t in pieces.turns(0)]
+    assert [] == turns or {(seam, True)} == {(place, at_seam) for place, _, _, at_seam in turns}
+    assert [-2.0, 2.0] == pytest.approx(sorted(pieces.levels(0).ravel().tolist()))
+
+
+def test_a_curve_that_stands_still_for_a_moment_turns_nowhere() -> None:
+    assert [] == resolve(lambda t: column((t - 0.4) ** 3), 0.0, 1.0).turns(0)
+
+
 def test_where_a_curve_has_no_values_it_has_no_zeros() -> None:
     pieces = resolve(lambda t: column(np.where(np.abs(t - 0.3) < 1e-3, np.nan, t - 0.6)), 0.0, 1.0)
     assert [0.6] == pytest.approx(pieces.zeros(0).tolist(), abs=1e-12)

@@ -321,10 +321,8 @@ def _curves(turn: TurnStudy, language: str) -> list[str]:
     moving = [t for t in turn.curves if t.constant is None and not t.quantity.is_position]
     for traced in moving[:MOST_CURVES]:
         quantity, unit = traced.quantity, traced.quantity.unit(scene)
-        high = max((e for e in traced.extremes if e.kind == "max"), key=lambda e: e.value, default=None)
-        low = min((e for e in traced.extremes if e.kind == "min"), key=lambda e: e.value, default=None)
         parts = []
-        for key, extreme in (("greatest", high), ("least", low)):
+        for key, extreme in (("greatest", traced.furthest(1.0, "max")), ("least", traced.furthest(-1.0, "min"))):
             if extreme is not None:
                 value = unit.of(extreme.value)
                 named = word(f"local {key}" if turn.is_local(traced, extreme) else key, language)

@@ -22,10 +22,10 @@ from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam, SlidingFollower
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.search import last_true
+from graphkin.search import resolve
 from graphkin.solver.assemblies import choose_forms
 from graphkin.solver.bounds import Accuracy
-from graphkin.solver.cams import beginning
+from graphkin.solver.cams import beginning, cam_angle
 from graphkin.solver.dead_points import singular, without_singular
 from graphkin.solver.drivers import UniformGrid, goal_values, own_values
 from graphkin.solver.engine import positions
@@ -45,6 +45,8 @@ __all__ = ["DriverRange", "Extremes", "extremes", "joined", "motion_of", "range_
 
 CLOSED = 1e-7
 """Two positions are the same where links lie closer than this, in the size of the mechanism, and turn closer (rad)."""
+SAME = 1e-8
+"""Of the range: seams of a law as near to each other are one."""
 
 
 def range_of(structure: Structure, at: Mapping[str, float] | None = None) -> DriverRange:
@@ -256,6 +258,22 @@ class DriverRange:
         low, high = self.ends
         return np.asarray(low + (k + 0.5) / n * (high - low))
 
+    @cached_property
+    def seams(self) -> Array:
+        """Offsets at which one part of the law of a cam gives way to the next, in increasing order."""
+        starts = [(cam, start) for cam in self.scene.cams for start in cam.law.starts]
+        if not starts:
+            return np.zeros(0)
+
+        def since_starts(offset: Array) -> tuple[Array, Array]:
+            poses = self.motion(offset, fine=False).poses
+            since = np.stack([np.exp(1j * (cam_angle(cam, poses[cam.link].u) - start)) for cam, start in starts], 1)
+            return np.concatenate([since.imag, since.real], axis=1), np.zeros((len(offset), 2 * len(starts)))
+
+        pieces = resolve(since_starts, *self.ends, periodic=self.full)
+        found = [at for k in range(len(starts)) for at in pieces.zeros(k) if pieces.at(at, k + len(starts)) > 0]
+        return each_once(np.array(found), *self.ends, self.full)
+
     def stroke(self, pair: str) -> tuple[float, float]:
         """Least and greatest travel of a sliding pair over a turn (m).  Raises Unsolvable where there is no turn."""
         if pair not in self.kept:
@@ -410,6 +428,18 @@ class _Turned(Mapping[str, Array]):
     def __reduce__(self) -> tuple[type, tuple[dict[str, Array]]]:
         return dict, (dict(self),)
 
+def each_once(seams: Array, low: float, high: float, full: bool) -> Array:
+    """Places inside a range, in increasing order and each once; the two ends of a turn are one place."""
+    near = SAME * (high - low)
+    if full:
+        seams = low + (seams - low) % (high - low)
+        seams = np.where((high - seams < near) | (seams - low < near), low, seams)
+    else:
+        seams = seams[(seams > low + near) & (seams < high - near)]
+    seams = np.sort(seams)
+    return np.asarray(seams[np.diff(seams, prepend=-np.inf) > near])
+
+
 BLOCK = 16384
 """Positions that are computed together."""
 
@@ -520,9 +550,8 @@ def _in_one_column(parts: list[Array], lengths: Sequence[int], n: int) -> Array:
 # -- quantities of the whole turn: stroke of a slide, swing of a link, coefficient of travel-speed variat --------------
 
 
-Course = Callable[[Array], tuple[Array, Array]]
-
-SAMPLES = 720
+REST = 1e-9
+"""Of the size of the mechanism, or of a radian, for one of the driver: what is slower is at rest."""
 EQUAL = 1e-9  # of two extremes that differ by less, the one at the smaller angle of the crank is meant
 ROUNDED = 1e-11
 """An angle (rad) between limit positions that is nothing but rounding."""
@@ -576,29 +605,43 @@ def extremes(reach: DriverRange, symbol: Symbol) -> Extremes:
     if cam is not None and (reach.driver.link, reach.driver.relative_to) == (cam.link, reach.scene.frame.name):
         return _of_follower(reach, cam)
 
-    def course(offset: Array) -> tuple[Array, Array]:
+    pair = symbol.pair
+    offsets, values, turned = _at_rest(reach, symbol)
+    if not symbol.other and abs(turned) > 1.0:
+        raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
+    wide, size = float(np.ptp(values)) if len(values) else 0.0, reach.scene.size if symbol.other else 1.0
+    if wide < 1e-12 * size:
+        raise _without(
+            symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
+        )
+    crank = np.remainder(reach.value(offsets) + EQUAL, math.tau)
+    low, high = (
+        min(np.flatnonzero(sign * values >= (sign * values).max() - EQUAL * wide).tolist(), key=crank.__getitem__)
+        for sign in (-1.0, 1.0)
+    )
+    return Extremes(float(values[low]), float(values[high]), float(offsets[low]), float(offsets[high]))
+
+
+def _at_rest(reach: DriverRange, symbol: Symbol) -> tuple[Array, Array, float]:
+    """Where an output is at rest over a turn of the driver: offsets and values there, the last of a stretch along which
+    it stands still; and how far it gets in a turn."""
+
+    def course(offset: Array, fine: bool = False) -> tuple[Array, Array]:
         """Value and rate by the driver's own angle."""
-        motion = reach.motion(offset, unit=True)
+        motion = reach.motion(offset, unit=True, fine=fine)
         if symbol.other:
             slide = motion.slide(symbol.pair)
             return slide.travel, slide.velocity
         return reach.angle(motion, symbol.link), motion.omega(symbol.link)
 
-    grid = np.linspace(0.0, math.tau, SAMPLES + 1)
-    values, rates = course(grid)
-    pair = symbol.pair
-    if not symbol.other and abs(values[-1] - values[0]) > 1.0:
-        raise _without(symbol, Phrase("link turns on and on it has no", output=pair), Phrase("ask for one that swings"))
+    def rate(offset: Array) -> tuple[Array, Array]:
+        return course(offset)[1][:, None], np.zeros((len(offset), 1))
+
     size = reach.scene.size if symbol.other else 1.0
-    if np.ptp(values) < 1e-12 * size:
-        raise _without(
-            symbol, Phrase("does not move it has no limit positions", name=pair), Phrase("ask for an output that moves")
-        )
-    (low_at, low), (high_at, high) = (
-        _best(course, grid, values, rates, sign, lambda offset: float(reach.value(np.array(offset))))
-        for sign in (-1.0, 1.0)
-    )
-    return Extremes(low, high, low_at, high_at)
+    pieces = resolve(rate, 0.0, math.tau, periodic=True, floor=REST * size, seams=reach.seams)
+    offsets = np.append(pieces.zeros(0), [0.0, math.tau])
+    values, _ = course(offsets, fine=True)
+    return offsets[:-2], values[:-2], float(values[-1] - values[-2])
 
 
 def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
@@ -623,20 +666,3 @@ def _of_follower(reach: DriverRange, cam: LawCam) -> Extremes:
 
 def _without(symbol: Symbol, found: Wording, wanted: Wording) -> Unsolvable:
     return Unsolvable("no whole turn", Problem(str(symbol), found, wanted))
-
-
-def _best(
-    course: Course, grid: Array, values: Array, rates: Array, sign: float, angle: Callable[[float], float]
-) -> tuple[float, float]:
-    """Where the greatest (or for sign -1 the least) value stands, and how much it is: the rate changes its sign there.
-    ``angle`` is the crank's at an offset."""
-    tops = np.flatnonzero((sign * rates[:-1] >= 0.0) & (sign * rates[1:] < 0.0))
-    height = sign * np.maximum(sign * values[tops], sign * values[tops + 1])
-    near = sign * height >= float((sign * height).max()) - 0.05 * float(np.ptp(values))
-    places = np.array([
-        last_true(lambda at: sign * course(at)[1] >= 0.0, float(grid[k]), float(grid[k + 1])) for k in tops[near]
-    ])  # fmt: skip
-    found = course(places)[0]
-    equal = np.flatnonzero(sign * found > float((sign * found).max()) - EQUAL * float(np.ptp(values)))
-    best = min(equal.tolist(), key=lambda k: (angle(float(places[k])) + EQUAL) % math.tau)
-    return float(places[best]), float(found[best])

@@ -4,6 +4,7 @@ offset, or an angle in which positions are smooth up to the ends.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -12,10 +13,8 @@ from typing import Literal
 
 import numpy as np
 
-from graphkin.scene.cams import LawCam
-from graphkin.search import Pieces, resolve
+from graphkin.search import Pieces, Turn, resolve
 from graphkin.solver import DriverRange, Motion
-from graphkin.solver.cams import cam_angle
 from graphkin.solver.pose import Array
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad
@@ -23,20 +22,10 @@ from graphkin.study.quantities import Quantity, rates_of
 
 __all__ = ["CurveParameter", "Extreme", "Least", "Traced", "driver_value", "trace"]
 
-_SIGNS: tuple[tuple[Literal["max", "min"], float], ...] = (("max", 1.0), ("min", -1.0))
-POLISH = 3
-BESIDE_SEAM = 1e-3
-CLOSE_TO_SEAM = 1e-7
-"""Of the range: how far off a seam of a law one sees how a curve goes on, and reads its value before it."""
-SAME_AT_SEAM = 1e-11
-"""Of the largest value: a curve that changes by less stands still."""
 NOTHING = 5e-11
 """A driver value this small (rad, m) is 0: no extreme of an acceleration is placed better."""
-
-SEAM_STEPS = 360
-SAME = 1e-8
-"""Of the range: seams as near to each other are one."""
-SECANTS = 5
+EQUAL = 1e-11
+"""Of a value: extremes that differ by less are equal."""
 NEAR_END = 1e-5
 """Of the range: an extreme this near to an end of the motion is the end itself."""
 STEPS_TO_END = 2e-2
@@ -64,13 +53,20 @@ class Traced:
     zeros: tuple[float, ...]
     constant: float | None = None
 
+    def furthest(self, sense: float, kind: str = "") -> Extreme | None:
+        """The extreme (of a kind) of the greatest value, with -1 for ``sense`` of the least; the first of equal ones.
+        None where there is none."""
+        own = [e for e in self.extremes if kind in ("", e.kind)]
+        most = max((sense * e.value for e in own), default=0.0)
+        return next((e for e in own if math.isclose(sense * e.value, most, rel_tol=EQUAL)), None)
+
     @property
     def greatest(self) -> Extreme | None:
-        return max(self.extremes, key=lambda e: e.value, default=None)
+        return self.furthest(1.0)
 
     @property
     def least(self) -> Extreme | None:
-        return min(self.extremes, key=lambda e: e.value, default=None)
+        return self.furthest(-1.0)
 
 
 @dataclass(frozen=True)
@@ -125,67 +121,31 @@ class CurveParameter:
     @cached_property
     def seams(self) -> Array:
         """Where one part of the law of a cam gives way to the next, in increasing order."""
-        low, high = self.range
-        found: list[float] = []
-        for cam in self.reach.scene.cams:
-
-            def beyond(at: Array, start: Array, cam: LawCam = cam) -> Array:
-                at = low + np.remainder(at - low, high - low) if self.reach.full else np.clip(at, low, high)
-                turn = self.reach.motion(self.offset(at), fine=False).poses[cam.link].u
-                return np.asarray(np.angle(np.exp(1j * (cam_angle(cam, turn) - start))))
-
-            step = (high - low) / SEAM_STEPS
-            # the grid begins beside the start of the range, which is often a seam
-            grid = np.linspace(low, high, SEAM_STEPS + 1) + (step / 2 if self.reach.full else 0.0)
-            for start in np.array(cam.law.starts):
-                apart = beyond(grid, start)
-                one, two = apart[:-1], apart[1:]
-                n = np.flatnonzero(((one < 0) != (two < 0)) & (np.abs(one) < 1.0) & (np.abs(two) < 1.0))
-                a, b, f, g = grid[n], grid[n + 1], one[n], two[n]
-                for _ in range(SECANTS if len(n) else 0):
-                    with np.errstate(all="ignore"):
-                        by = g * (b - a) / (g - f)
-                    a, f, b = b, g, b - np.where(np.isfinite(by), by, 0.0)
-                    g = beyond(b, start)
-                found += b.tolist()
-        return self._placed(found)
-
-    def _placed(self, seams: list[float]) -> Array:
-        """Inside the range, each once; the two ends of a turn are one place."""
-        low, high = self.range
-        near = SAME * (high - low)
-        if self.reach.full:
-            seams = [low + (at - low) % (high - low) for at in seams]
-            seams = [low if high - at < near or at - low < near else at for at in seams]
-        else:
-            seams = [at for at in seams if low + near < at < high - near]
-        kept: list[float] = []
-        for at in sorted(seams):
-            if not kept or at - kept[-1] > near:
-                kept.append(at)
-        return np.array(kept)
+        low, high = self.reach.ends
+        offsets = self.reach.seams
+        return offsets if self.reach.full else 2 * np.arcsin(np.sqrt((offsets - low) / (high - low)))
 
     def end(self, curve: Curve, which: int) -> float:
         """The value of a position at the lower or upper end of the motion, where the solver refuses it, or loses half
-        of its digits: from the curve, or, where links go away without bound, from values nearer and nearer to it."""
-        if not self._away[which]:
-            value = curve.pieces.at(self.range[which], curve.k)
-            return self._beyond(curve, which) if np.isnan(value) else curve.quantity.of_smooth(value)
-        reach, quantity = self.reach, curve.quantity
-        low, high = reach.ends
-        steps = np.asarray(HAIR * 2.0 ** np.arange(2, 8), dtype=np.float64)
-        near = steps * (high - low)
-        values = quantity.values(reach, reach.motion(high - near if which else low + near))
-        if abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
-            return float(np.copysign(np.inf, values[0]))
-        return _to_zero(steps, values)
-
-    def _beyond(self, curve: Curve, which: int) -> float:
-        """The value at an end of which the curve was left out, because the solver refuses places too near to it."""
+        of its digits: from the curve, or from values nearer and nearer to it."""
+        value = np.nan if self._away[which] else float(curve.pieces.at(self.range[which], curve.k))
+        if np.isfinite(value):
+            return curve.quantity.of_smooth(value)
         low, high = self.range
         steps: Array = STEPS_TO_END * np.arange(1, 9, dtype=np.float64)
-        motion = self.reach.motion(self.offset(high - steps if which else low + steps))
-        return _to_zero(steps, curve.quantity.values(self.reach, motion))
+        near = self.offset(high - steps if which else low + steps)
+        if self._away[which]:
+            low, high = self.reach.ends
+            steps = np.asarray(HAIR * 2.0 ** np.arange(2, 8), dtype=np.float64)
+            near = high - steps * (high - low) if which else low + steps * (high - low)
+        values = curve.quantity.values(self.reach, self.reach.motion(near))
+        if self._away[which] and abs(values[0]) > 1.5 * abs(values[1]) > 2.25 * abs(values[2]):
+            return float(np.copysign(np.inf, values[0]))
+        # Neville's scheme: the value at 0 of the polynomial through values at steps
+        found = values.tolist()
+        for k in range(1, len(found)):
+            found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
+        return float(found[0])
 
     def offset(self, parameter: Array) -> Array:
         low, high = self.reach.ends
@@ -205,14 +165,6 @@ class CurveParameter:
         margin = NEAR_END * float(np.pi)
         low, high = self.range
         return parameter[(parameter > low + margin) & (parameter < high - margin)]
-
-
-def _to_zero(steps: Array, values: Array) -> float:
-    """Neville's scheme: the value at 0 of the polynomial through values at steps."""
-    found = values.tolist()
-    for k in range(1, len(found)):
-        found = [b - (c - b) * x / (y - x) for b, c, x, y in zip(found, found[1:], steps, steps[k:], strict=False)]
-    return float(found[0])
 
 
 def driver_value(reach: DriverRange, offset: float) -> float:
@@ -260,7 +212,7 @@ def trace(reach: DriverRange, quantities: Sequence[Quantity]) -> tuple[tuple[Tra
         floor = np.array([size if q.measure == "length" else 1.0 for q in places] + [1.0] * len(dyads))
         pieces = resolve(positions, *way.range, periodic=reach.full, floor=floor, seams=way.seams)
         curves += [Curve(q, pieces, k) for k, q in enumerate(places)]
-        least = _leasts(way, pieces, len(places), dyads)
+        least = _leasts(way, pieces, len(places), dyads) if dyads else ()
     if rates:
         # near the end of a motion, a distance x away, velocities grow as x^-1/2 and accelerations as x^-3/2
         power = np.array([(1.0 if q.is_speed else 3.0) * (2 if q.is_size else 1) for q in rates])
@@ -316,10 +268,7 @@ def _traced(way: CurveParameter, curves: Sequence[Curve]) -> list[Traced]:
         nothing = quantity.smooth(reach, start)[0][0] == 0.0
         found.append(Traced(quantity, (), (), 0.0 if nothing else float(quantity.values(reach, start)[0])))
     moving = [c for c in curves if c.quantity not in constant]
-    offsets = [way.offset(way.inside(c.pieces.extremes(c.k))) for c in moving]
-    offsets = _polished(reach, [c.quantity for c in moving], offsets)
-    offsets = _at_zero(reach, [c.quantity for c in moving], offsets)
-    for curve, extremes in zip(moving, _extremes(way, moving, offsets), strict=True):
+    for curve, extremes in zip(moving, _extremes(way, moving), strict=True):
         quantity = curve.quantity
         zeros = way.offset(way.inside(curve.pieces.zeros(curve.k)))
         if quantity.is_size:
@@ -345,171 +294,68 @@ def _constant(way: CurveParameter, curves: Sequence[Curve]) -> set[Quantity]:
     return found
 
 
-def _polished(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array]) -> list[Array]:
-    """Newton's method on the rate by the driver: the places of extreme positions to the last digits."""
-    low, high = reach.ends
-    found = list(offsets)
-    which = [k for k, q in enumerate(quantities) if q.kind in ("theta", "s") and len(offsets[k])]
-    both = [rates_of(quantities[k])[1:] for k in which]
-    asked = [q for pair in both for q in pair]
-    for _ in range(POLISH if which else 0):
-        rates = _values(reach, asked, [found[k] for k in which for _ in range(2)], unit=True)
-        for k, rate, bend in zip(which, rates[::2], rates[1::2], strict=True):
-            with np.errstate(all="ignore"):
-                step = rate / bend
-            step = np.where(np.abs(step) < 1e-5 * (high - low), step, 0.0)
-            found[k] = np.clip(found[k] - step, low, high)
-    return found
-
-
-def _at_zero(reach: DriverRange, quantities: Sequence[Quantity], offsets: Sequence[Array]) -> list[Array]:
-    """Where the driver runs evenly, a velocity is at rest where its acceleration is zero: the secant method on that."""
-    found = list(offsets)
-    if len(reach.scene.drivers) != 1 or reach.driver.values[2] != 0:
-        return found
-    low, high = reach.ends
-    near = 1e-6 * (high - low)
-    which = [k for k, q in enumerate(quantities) if q.kind in ("omega", "v") and len(offsets[k])]
-    asked = [rates_of(quantities[k])[2] for k in which]
-    before = [_wrapped(reach, found[k] - near) for k in which]
-    values = _values(reach, asked, before) if which else []
-    for _ in range(POLISH if which else 0):
-        now = _values(reach, asked, [found[k] for k in which])
-        for n, k in enumerate(which):
-            with np.errstate(all="ignore"):
-                step = now[n] * (found[k] - before[n]) / (now[n] - values[n])
-            step = np.where(np.abs(step) < near, step, 0.0)
-            before[n], found[k] = found[k], np.clip(found[k] - step, low, high)
-        values = now
-    return found
-
-
-def _extremes(way: CurveParameter, curves: Sequence[Curve], offsets: Sequence[Array]) -> list[tuple[Extreme, ...]]:
+def _polished(way: CurveParameter, curves: Sequence[Curve], turns: Sequence[Sequence[Turn]]) -> list[Array]:
+    """Offsets of the turns; of angles and travels to the last digits, by Newton's method on the rate by the driver."""
     reach = way.reach
     low, high = reach.ends
-    asked = [c.quantity for c in curves]
-    seams = way.offset(way.seams)
-    inner = [np.sort(places) for places in offsets]
-    # only what is printed takes all its digits
-    values = _values(reach, asked, inner, fine=True)
-    # a little beside each, and not beyond an end of the motion
-    wide = 1e-4 * (high - low)
-    near = [
-        np.full(len(at), wide) if reach.full else np.minimum(wide, np.minimum(at - low, high - at) / 2) for at in inner
+    found = [way.offset(np.array([turn.place for turn in own])) for own in turns]
+    which = [k for k, c in enumerate(curves) if c.quantity.kind in ("theta", "s") and len(found[k])]
+    both = [q for k in which for q in rates_of(curves[k].quantity)[1:]]
+    rates = _values(reach, both, [found[k] for k in which for _ in range(2)], unit=True) if which else []
+    for k, rate, bend in zip(which, rates[::2], rates[1::2], strict=True):
+        inner = ~np.array([turn.at_seam for turn in turns[k]])
+        with np.errstate(all="ignore"):
+            step = rate / bend
+        step = np.where(inner & (np.abs(step) < 1e-5 * (high - low)), step, 0.0)
+        found[k] = np.clip(found[k] - step, low, high)
+    return found
+
+
+def _extremes(way: CurveParameter, curves: Sequence[Curve]) -> list[tuple[Extreme, ...]]:
+    """The extremes of each curve, and of a position over a range that ends its values at the ends."""
+    reach = way.reach
+    low, high = reach.ends
+    turns = [
+        [t for t in c.pieces.turns(c.k, c.quantity.is_position) if t.at_seam or len(way.inside(np.array([t.place])))]
+        for c in curves
     ]
-    before = _values(reach, asked, [_wrapped(reach, at - by) for at, by in zip(inner, near, strict=True)])
-    after = _values(reach, asked, [_wrapped(reach, at + by) for at, by in zip(inner, near, strict=True)])
-    at_seams = _at_seams(reach, asked, seams, [np.append(v, 0.0) for v in values])
+    offsets = _polished(way, curves, turns)
+    # only what is printed takes all its digits
+    values = _values(reach, [c.quantity for c in curves], offsets, fine=True)
     found: list[tuple[Extreme, ...]] = []
-    for n, curve in enumerate(curves):
-        own: list[Extreme] = []
-        bounded = not reach.full and curve.quantity.is_position
-        if bounded:
-            own.append(Extreme("end", low, driver_value(reach, low), way.end(curve, 0)))
-        for place, value, one, two in zip(*(x[n].tolist() for x in (inner, values, before, after)), strict=True):
-            # a curve that only stands still for a moment has none; what comes to rest at a seam is told there
-            if not at_seams[n].has(place, value) and (one < value > two or one > value < two):
-                own.append(Extreme("max" if one < value else "min", place, driver_value(reach, place), value))
-        own = sorted([*own, *at_seams[n].extremes], key=lambda e: e.offset)
-        if bounded:
-            own.append(Extreme("end", high, driver_value(reach, high), way.end(curve, 1)))
-        found.append(tuple(own))
+    for curve, own, places, fine in zip(curves, turns, offsets, values, strict=True):
+        ends: list[list[Extreme]] = [[], []]
+        if not reach.full and curve.quantity.is_position:
+            ends = [[Extreme("end", at, driver_value(reach, at), way.end(curve, k))]
+                    for k, at in enumerate((low, high))]  # fmt: skip
+        inner = []
+        for turn, place, value in zip(own, places.tolist(), fine.tolist(), strict=True):
+            # at a jump both values stand at one place
+            value = curve.quantity.of_smooth(turn.value) if turn.at_seam else value
+            inner.append(Extreme("max" if turn.sense > 0 else "min", place, driver_value(reach, place), value))
+        found.append((*ends[0], *inner, *ends[1]))
     return found
-
-
-@dataclass(frozen=True)
-class _Seams:
-    """A curve where one part of a law gives way to the next.
-
-    places : offsets, shape (seams,)
-    levels : values before and after, shape (2, seams)
-    near, slack : how far from a seam, and how far from its values, a curve is still there
-    whole : after what offset the curve repeats
-    """
-
-    places: Array
-    levels: Array
-    near: Array
-    slack: float
-    whole: float
-    extremes: tuple[Extreme, ...] = ()
-
-    def has(self, place: float, value: float) -> bool:
-        apart = np.abs(self.places - place)
-        here = np.minimum(apart, self.whole - apart) < self.near
-        return bool((here & (np.abs(self.levels - value) <= self.slack)).any())
-
-
-def _at_seams(reach: DriverRange, asked: Sequence[Quantity], seams: Array, values: Sequence[Array]) -> list[_Seams]:
-    """Extremes where one part of a law gives way to the next: a curve may jump there, or leave a stretch along which it
-    stands still, whose end is meant.  ``values`` are some of each curve, from which its size is seen."""
-    low, high = reach.ends
-    wide = high - low
-    if not len(seams):
-        return [_Seams(seams, np.zeros((2, 0)), seams, 0.0, wide)] * len(values)
-    ends = (seams[-1] - wide, seams[0] + wide) if reach.full else (low, high)
-    around = np.diff(np.concatenate([ends[:1], seams, ends[1:]]))
-    near = np.minimum(BESIDE_SEAM * wide, np.minimum(around[:-1], around[1:]) / 3)
-    close = CLOSE_TO_SEAM * wide
-    places = np.concatenate([_wrapped(reach, seams + by) for by in (-near, -2 * close, -close, 0.0, near)])
-    found = []
-    around_seams = _values(reach, asked, [places] * len(values), fine=True)
-    for quantity, some, five in zip(asked, values, around_seams, strict=True):
-        before, two, one, after, beyond = five.reshape(5, -1)
-        known = np.abs(np.append(some, five))
-        slack = SAME_AT_SEAM * float(np.max(known, where=np.isfinite(known), initial=0.0))
-        till = 2 * one - two  # the value before a jump: along the curve to the seam
-        till = np.where(np.abs(till - after) <= slack, after, till)
-        own: list[Extreme] = []
-        for kind, sign in _SIGNS:
-            top = sign * np.maximum(sign * till, sign * after)
-            is_one = (sign * (top - before) >= -slack) & (sign * (top - beyond) > slack)
-            if not quantity.is_position:
-                is_one &= np.abs(top) > slack  # where it stands still it is said to be zero
-            for place, value in zip(seams[is_one].tolist(), top[is_one].tolist(), strict=True):
-                own.append(Extreme(kind, place, driver_value(reach, place), value))
-        found.append(_Seams(seams, np.stack([till, after]), near, slack, wide if reach.full else np.inf, tuple(own)))
-    return found
-
-
-def _wrapped(reach: DriverRange, offset: Array) -> Array:
-    low, high = reach.ends
-    return np.asarray(offset % (high - low) if reach.full else np.clip(offset, low, high))
 
 
 def _leasts(way: CurveParameter, pieces: Pieces, first: int, dyads: Sequence[Dyad]) -> tuple[Least, ...]:
-    if not dyads:
-        return ()
-    reach = way.reach
-    low, high = way.range
-    inner = [way.inside(np.append(pieces.extremes(first + n), np.linspace(low, high, 33))) for n in range(len(dyads))]
-    motion = reach.motion(np.concatenate([*map(way.offset, inner)]), fine=False)
-    ends = np.cumsum([0, *map(len, inner)]).tolist()
-    found: list[Least] = []
-    least: list[float] = []
+    """The least transmission angle of each group, whose cosines are curves from ``first`` on."""
+    reach, found = way.reach, list[Least]()
+    grid = np.linspace(*way.range, 33)
+    places = [np.sort(np.append(pieces.extremes(first + n), grid)) for n in range(len(dyads))]
+    # where a group stands in line, at a change point or at an end of the motion, the solver refuses
+    cosines = [np.abs(pieces.at(at, first + n)) for n, at in enumerate(places)]
+    best = [int(np.argmax(own >= np.nanmax(own, initial=0.0) - NOTHING)) for own in cosines]  # the first of equal ones
+    offsets = way.offset(np.array([at[k] for at, k in zip(places, best, strict=True)]))
+    motion = reach.motion(offsets)  # only what is printed takes all its digits
     for n, dyad in enumerate(dyads):
-        k, angles = first + n, transmission(reach.structure, dyad, motion.poses).angle
-        if pieces.is_constant(k):
-            found.append(Least(dyad, float(transmission(reach.structure, dyad, reach.known.poses).angle[0]), None))
-            least.append(0.0)
-            continue
-        angles = angles[ends[n] : ends[n + 1]]
-        # where the group stands in line, at a change point or at an end of the motion, the solver refuses
-        refused = ~np.isfinite(angles)
-        angles[refused] = [_from_cosine(pieces.at(at, k)) for at in inner[n][refused]]
-        places = list(zip(way.offset(inner[n]).tolist(), angles.tolist(), strict=True))
-        if not reach.full:
-            places += [(at, _from_cosine(pieces.at(end, k))) for at, end in zip(reach.ends, way.range, strict=True)]
-        offset, best = min((p for p in places if p[1] == p[1]), key=lambda p: p[1])
-        found.append(Least(dyad, best, driver_value(reach, offset)))
-        least.append(offset)
-    # only what is printed takes all its digits
-    motion = reach.motion(np.array([*least, 0.0]))
-    for k, one in enumerate(found):
-        fine = float(transmission(reach.structure, one.group, motion.poses).angle[k])
-        if np.isfinite(fine) and least[k] not in (() if reach.full else reach.ends):
-            found[k] = replace(one, angle=fine)
-    return tuple(one for one in found if np.isfinite(one.angle))
+        constant = pieces.is_constant(first + n)
+        poses, k = (reach.known.poses, 0) if constant else (motion.poses, n)
+        angle = float(transmission(reach.structure, dyad, poses).angle[k])
+        if not constant and (not np.isfinite(angle) or offsets[n] in (() if reach.full else reach.ends)):
+            angle = _from_cosine(float(cosines[n][best[n]]))
+        if np.isfinite(angle):
+            found.append(Least(dyad, angle, None if constant else driver_value(reach, float(offsets[n]))))
+    return tuple(found)
 
 
 def _from_cosine(cosine: float) -> float:

@@ -148,24 +148,24 @@ class Quantity:
         return np.asarray(engine.residues[engine.names.index(self.name + ".x" * self.is_vector)])
 
     def smooth(self, reach: DriverRange, motion: Motion) -> tuple[Array, Array]:
-        """What is smooth where the quantity may not be: the square of a vector's size or of a distance, the cosine of
-        twice an angle that is 90 degrees at most, else the quantity itself; and how far it may be off, 0 where that is
-        not known.
+        """What is smooth where the quantity may not be, and grows with it: the square of a vector's size or of a
+        distance, minus the cosine of twice an angle that is 90 degrees at most, else the quantity itself; and how far
+        it may be off, 0 where that is not known.
 
         A rate that is nothing but rounding (no larger than the solver's own bound of its error) is 0.
         """
         value, bound = self.values(reach, motion), self._bound(motion)
         if self._folded:
-            return np.asarray(np.cos(2 * value)), 2 * bound
+            return np.asarray(-np.cos(2 * value)), 2 * bound
         if not self.is_position:
             value = np.where(np.abs(value) <= bound, 0.0, value)
         return (value**2, (2 * np.abs(value) + bound) * bound) if self.is_size or self._apart else (value, bound)
 
     def of_smooth(self, value: float) -> float:
-        """A position from what is smooth of it."""
+        """Its value from what is smooth of it."""
         if self._folded:
-            return math.acos(min(1.0, max(-1.0, value))) / 2
-        return math.sqrt(max(0.0, value)) if self._apart else value
+            return math.acos(min(1.0, max(-1.0, -value))) / 2
+        return math.sqrt(max(0.0, value)) if self._apart or self.is_size else value
 
     @property
     def _folded(self) -> bool:

@@ -11,6 +11,7 @@ from graphkin.errors import CallError, Unsolvable
 from graphkin.scene import library_text, mechanism_of_text
 from graphkin.scene.model import Mechanism
 from graphkin.solver import DriverRange, driver_range, prepare, solve, structure_of
+from graphkin.solver.driver_range import each_once
 from graphkin.solver.engine import group_at
 from graphkin.structure.assembly import ways
 from tests import scenes
@@ -139,3 +140,12 @@ def test_beyond_a_turn_stands_what_the_way_there_leads_to(wide: DriverRange) -> 
 
 def test_a_sweep_over_a_turn_of_a_wide_range_finds_every_position(wide: DriverRange) -> None:
     assert {"ok"} == set(wide.sweep(36).status)
+
+
+def test_seams_are_counted_once_and_the_ends_of_a_turn_as_one() -> None:
+    low, high = 0.0, 2 * math.pi
+    places = np.array([high - 1e-12, low + 1.0, low - 1e-12, low + 1e-12, high + 1.0 + 1e-12, low + 2.0])
+    assert [low, low + 1.0, low + 2.0] == pytest.approx(each_once(places, low, high, True).tolist(), abs=1e-11)
+    assert low == each_once(places, low, high, True)[0]
+    inside = each_once(np.array([low, low + 1e-12, low + 0.5, high - 1e-12, high]), low, high, False)
+    assert [low + 0.5] == inside.tolist()

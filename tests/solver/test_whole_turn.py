@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
 import pytest
 
 from graphkin.scene import mechanism_of
 from graphkin.scene.symbol import Symbol
 from graphkin.solver import driver_range
-from graphkin.solver.driver_range import _best, extremes
+from graphkin.solver.driver_range import extremes
 from tests import scenes
 
 CRANK, COUPLER, ROCKER, GROUND, ROD = 30.0, 100.0, 60.0, 90.0, 120.0
@@ -47,23 +46,10 @@ def test_of_two_dwells_that_differ_little_the_deeper_ends_the_stroke(toward: flo
     )  # fmt: skip
 
 
-def two_peaks(second: float, first_at: float = 1.0):
-    """A course over a turn with a peak of 1 and another of so much, three radians further on."""
-
-    def course(at):
-        value = np.exp(-((at - first_at) ** 2) * 8) + second * np.exp(-((at - first_at - 3.0) ** 2) * 8)
-        rate = -16 * (
-            (at - first_at) * np.exp(-((at - first_at) ** 2) * 8)
-            + second * (at - first_at - 3.0) * np.exp(-((at - first_at - 3.0) ** 2) * 8)
-        )
-        return value, rate
-
-    return course
-
-
-@pytest.mark.parametrize(("second", "place"), [(1.01, 4.0), (0.99, 1.0), (1.0, 1.0)])
-def test_the_higher_of_two_peaks_is_meant_and_of_equal_ones_that_at_the_smaller_angle(second, place):
-    course, grid = two_peaks(second), np.linspace(0.0, 2 * np.pi, 721)
-    at, value = _best(course, grid, *course(grid), 1.0, lambda offset: offset)
-    assert place == pytest.approx(at, abs=1e-12)
-    assert max(1.0, second) == pytest.approx(value, rel=1e-12)
+def test_of_two_equal_dwells_that_at_the_smaller_angle_of_the_crank_is_meant() -> None:
+    limits = [at_limit(COUPLER + CRANK), at_limit(COUPLER - CRANK)]
+    found = extremes(
+        driver_range(mechanism_of(swung_through((limits[0][0] + limits[1][0]) / 2))), Symbol.parse("stroke_6/4")
+    )
+    first = min(crank % 360 for _, crank in limits)
+    assert math.radians(first) == pytest.approx(found.low_offset, abs=1e-9)

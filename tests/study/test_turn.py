@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -14,7 +13,6 @@ import pytest
 from graphkin.errors import Unsolvable
 from graphkin.scene import library, mechanism_of, mechanism_of_text
 from graphkin.solver import driver_range
-from graphkin.study.extremes import CurveParameter, _Seams
 from graphkin.study.turn import Output, TurnStudy, study_turn
 from graphkin.study.turn_data import to_json
 from tests import scenes
@@ -326,29 +324,6 @@ def test_a_parabolic_law_has_the_acceleration_of_its_halves() -> None:
     assert found.least is not None
     size = 4 * 0.02 * 10**2 / RISE**2
     assert [size, -size] == pytest.approx([found.greatest.value, found.least.value], rel=1e-12)
-
-
-def test_a_place_at_the_end_of_a_turn_is_at_the_seam_at_its_beginning() -> None:
-    at, level = np.array([0.0, 2.0]), np.array([[1.0, 3.0], [1.0, 4.0]])
-    turn = _Seams(at, level, np.full(2, 1e-3), 1e-9, 2 * math.pi)
-    assert [True, True, False, False] == [
-        turn.has(place, 1.0) for place in (1e-4, 2 * math.pi - 1e-4, 2 * math.pi - 1e-2, 2.0)
-    ]
-    assert [True, True, False] == [turn.has(2.0, value) for value in (3.0, 4.0, 3.5)]
-    assert not replace(turn, whole=math.inf).has(2 * math.pi - 1e-4, 1.0)
-
-
-def test_seams_are_counted_once_and_the_ends_of_a_turn_as_one() -> None:
-    whole = CurveParameter(driver_range(mechanism_of_text(CAM.format(by="345", angle=37.0), "cam")))
-    low, high = whole.range
-    assert low + 2 * math.pi == pytest.approx(high)
-    found = whole._placed([high - 1e-12, low + 1.0, low - 1e-12, low + 1e-12, high + 1.0 + 1e-12, low + 2.0])
-    assert [low, low + 1.0, low + 2.0] == pytest.approx(found.tolist(), abs=1e-11)
-    assert low == found[0]
-    text = scenes.FOUR_BAR.replace("length = 150", "length = 350").replace("length = 500", "length = 200")
-    swinging = CurveParameter(driver_range(mechanism_of_text(text.replace("angle = 60", "angle = 20"), "rocker")))
-    low, high = swinging.range
-    assert [low + 0.5] == swinging._placed([low, low + 1e-12, low + 0.5, high - 1e-12, high]).tolist()
 
 
 @pytest.mark.quick
