@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,13 +18,10 @@ from numpy.typing import NDArray
 from graphkin.checking.readings import read_off
 from graphkin.construction import Sheet, draft
 from graphkin.construction.scales import next_of_series
-from graphkin.drawing import Drawing
-from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Circle, Group, Line, Polyline, Primitive, Run, Stroke, Text
-from graphkin.drawing.ink.symbols import POINTER, arrowhead
+from graphkin.drawing import Box, Stroke, Text
+from graphkin.drawing.chart import ChartPage, add_legend, add_panel, add_words, look, marker
 from graphkin.drawing.place.dimensions import check_bar
-from graphkin.drawing.place.piece import Piece, layer_groups
-from graphkin.drawing.text import fitted, plain, rich, symbol, wrapped
+from graphkin.drawing.text import fitted, rich, symbol, wrapped
 from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
@@ -33,6 +29,9 @@ from graphkin.solver import DriverRange, Motion
 from graphkin.study.charts import number, title_of
 from graphkin.table import Column, Table
 from graphkin.words import Phrase, say, word
+
+if TYPE_CHECKING:
+    from graphkin.drawing.chart import Axes, Figure
 
 __all__ = [
     "Chords", "Ordinate", "Way", "chords_page", "chords_table", "graphical", "known_ordinate",
@@ -86,6 +85,7 @@ class Chords:
     found : what comes out, in the middles (n,) of a derivative, at the nodes (n + 1,) of an integral
     exact : the solver's values there; of an integral from its start on
     means : of a derivative the exact mean rates of the intervals, which chords give
+    at : offsets of the driver at the results
     per_x, per_y, per_found : rad or m of the driver's way, and SI, for one mm
     """
 
@@ -123,18 +123,6 @@ class Chords:
         """How far the method is off at most, as a part of the greatest exact value: chords are no tangents."""
         most = float(np.max(np.abs(self.exact), initial=0.0))
         return float(np.max(np.abs(self.measured - self.exact))) / most if most else 0.0
-
-    def table(self, scene: Mechanism, driver: str, values: Array, unit: str) -> Table:
-        """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees."""
-        own = scene.units.of(self.result.symbol.measure)
-        measured, exact = own.of(self.measured), own.of(self.exact)
-        return Table((
-            Column(f"driver_{driver}", values, unit),
-            Column("on_paper_mm", np.round(self.found, 4), "mm"),
-            Column(self.result.name, measured, own.text),
-            Column("exact", exact, own.text),
-            Column("difference", measured - exact, own.text),
-        ))  # fmt: skip
 
 
 def ordinate_chains(scene: Mechanism) -> Iterator[tuple[Ordinate, ...]]:
@@ -213,16 +201,15 @@ def graphical(reach: DriverRange, name: str, way: Way) -> Chords:
     middles = (nodes[1:] + nodes[:-1]) / 2
     x = np.linspace(0.0, WIDE, len(nodes))
     per_x = (high - low) / WIDE / abs(rate)  # s
-    at = nodes if way == "derivative" else middles
-    values = _drawn(reach, given, at)
+    drawn, at = (nodes, middles) if way == "derivative" else (middles, nodes)
+    values = _drawn(reach, given, drawn)
     if given.symbol.measure == "angle":
         values = np.unwrap(values)
     unit = scene.units.of(given.symbol.measure)
     per_y = unit.si * next_of_series(float(unit.of(np.max(np.abs(values), initial=1e-300))) / TALL)
     y = values / per_y
     widths = np.diff(x)
-    there = reach.motion(middles if way == "derivative" else nodes)
-    exact = np.asarray(result.solved(reach, there), dtype=float)
+    exact = np.asarray(result.solved(reach, reach.motion(at)), dtype=float)
     means = np.zeros(0)
     if way == "derivative":
         slopes = np.diff(y) / widths
@@ -257,14 +244,15 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
     return np.array(found)
 
 
-WIDTH, MARGIN = 210.0, 10.0
-ORIGIN = 52.0  # mm from the left edge: room for the pole
+WIDTH, MARGIN = 210.0, 8.0
+LEFT, RIGHT = 46.0, 4.0  # mm of a panel before the ordinate axis, with room for the pole, and beyond the last node
 ROOM = 7.0  # above and below a diagram
 GAP = 16.0
+STEP = 5.5  # between numbers of nodes
 CURVE, EXACT = Stroke(0.5), Stroke(0.25, (2.4, 1.0), "#b0470b")
 CHORD = Stroke(0.25, (), "#0b62a5")
 RAY, ACROSS = Stroke(0.13, (), "#0b62a5"), Stroke(0.1, (), "#909090")
-AXIS, TICK = Stroke(0.25), 1.2
+AXIS = Stroke(0.25)
 PARTS = 6  # of an interval, in a curve through its ends
 _GREEK = {"theta": "θ", "omega": "ω", "alpha": "α"}
 
@@ -279,7 +267,7 @@ def _per_mm(unit: str) -> str:
     return f"({unit})/mm" if "/" in unit else f"{unit}/mm"
 
 
-def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
+def chords_page(chords: Chords, reach: DriverRange, language: str) -> ChartPage:
     """Draw it.  One mm of the file is one mm on paper, so that what a ruler measures times the scale is the value."""
     scene = reach.scene
     of_given, of_result = scene.units.of(chords.given.symbol.measure), scene.units.of(chords.result.symbol.measure)
@@ -292,35 +280,50 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
         f"$μ_{{{result[0]}}}$ = {number(per_found)} {_per_mm(of_result.written)}",
     )  # fmt: skip
     facts = [",  ".join(scales), say(Phrase(f"graphical {chords.way} off", (f"{100 * chords.off:.2g}",)), language)]
-    words: list[Primitive] = [
-        Text(complex(MARGIN, 15.0), rich(title, 4.6, bold=True), classes=("heading",)),
-        Text(complex(MARGIN, 20.5), fitted(title_of(scene, language), 3.2, WIDTH - 2 * MARGIN)),
-    ]
-    y = 22.0
-    for fact in facts:
-        for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN):
-            y += 4.4
-            words.append(Text(complex(MARGIN, y), runs))
+    lines = [runs for fact in facts for runs in wrapped(fact, 3.0, WIDTH - 2 * MARGIN)]
     exact = chords.exact / chords.per_found
-    upper, lower = (chords.y, np.concatenate([chords.found, exact]))
-    top = complex(ORIGIN, y + ROOM + 8.0 + max(0.0, float(upper.max())))
-    middle = top.imag + max(0.0, -float(upper.min())) + ROOM
-    bottom = complex(ORIGIN, middle + GAP + max(0.0, float(lower.max())))
-    end = bottom.imag + max(0.0, -float(lower.min())) + ROOM
-    drawn = [*_axes(chords, top, chords.y, given, reach), *_axes(chords, bottom, lower, result, reach)]
-    thin: list[Primitive] = []
-    if chords.way == "derivative":
-        _derivative(chords, top, bottom, drawn, thin)
-    else:
-        _integral(chords, top, bottom, drawn, thin)
-    solved = tuple(bottom + complex(x, -v) for x, v in zip(chords.places, exact, strict=True))
-    drawn.append(Group((Polyline(_smooth(solved), EXACT),), id="exact", classes=("exact",)))
-    foot = complex(MARGIN, end + 8.0)
-    words += _legend(foot, chords, language)
-    words += check_bar(complex(WIDTH - MARGIN - 50.0, end + 14.0), rich(word("check bar", language), 2.5))
-    page = Piece({"construction": tuple(thin), "answers": tuple(drawn), "labels": tuple(words)})
-    return Drawing(
-        WIDTH, end + 20.0, layer_groups(page), f"{title.replace('$', '')}: {title_of(scene, language)}",
+    upper, lower = (
+        (min(0.0, float(y.min())) - ROOM, max(0.0, float(y.max())) + ROOM)
+        for y in (chords.y, np.concatenate([chords.found, exact]))
+    )
+    top = 22.0 + 4.4 * len(lines) + ROOM
+    middle = top + upper[1] - upper[0]
+    end = middle + GAP + lower[1] - lower[0]
+
+    def paint(figure: Figure) -> None:
+        add_words(
+            figure,
+            Text(complex(MARGIN, 15.0), rich(title, 4.6, bold=True)),
+            Text(complex(MARGIN, 20.5), fitted(title_of(scene, language), 3.2, WIDTH - 2 * MARGIN)),
+            *(Text(complex(MARGIN, 22.0 + 4.4 * k), runs) for k, runs in enumerate(lines, 1)),
+        )
+        above = _panel(figure, chords, top, upper, "given", f"${given}$ ({of_given.written})")
+        below = _panel(figure, chords, middle + GAP, lower, "result", f"${result}$ ({of_result.written})")
+        at_nodes, at_middles = (above, below) if chords.way == "derivative" else (below, above)
+        # where the lines from the pole are, which are parallel to the chords
+        origin = complex(MARGIN + LEFT, top + upper[1] if at_middles is above else end + lower[0])
+        _pole(figure, chords, at_middles, origin)
+        values = {above: chords.y, below: chords.found}
+        nodes = np.stack([chords.x, values[at_nodes]], axis=1)
+        for k in range(len(nodes) - 1):
+            at_nodes.plot(*nodes[k : k + 2].T, gid=f"chord-{k + 1}", **look(CHORD))
+        for x, y in zip(chords.middles, values[at_middles], strict=True):
+            at_middles.plot([0.0, x], [y, y], **look(ACROSS))
+            for axes in (above, below):
+                axes.axvline(x, zorder=0.6, **look(ACROSS))
+        below.plot(*_smooth(chords.places, exact), gid="exact", **look(EXACT))
+        for axes, filled in ((above, "#000000"), (below, "#ffffff")):
+            x = chords.x if axes is at_nodes else chords.middles
+            axes.plot(*_smooth(x, values[axes]), gid="curve" if axes is above else "found", **look(CURVE))
+            axes.plot(x, values[axes], **{**marker("circle"), "markersize": 2.5, "markerfacecolor": filled})
+        entries = ((CURVE, f"by {chords.way}"), (CHORD, "chords"), (EXACT, "analytic curve"))
+        legend = [(look(stroke), word(key, language)) for stroke, key in entries]
+        add_legend(figure, complex(MARGIN, end + 10.0), legend)
+        bar = check_bar(complex(WIDTH - MARGIN - 50.0, end + 16.0), rich(word("check bar", language), 2.5))
+        add_words(figure, *bar)
+
+    return ChartPage(
+        WIDTH, end + 22.0, paint, f"{title.replace('$', '')}: {title_of(scene, language)}",
         " ".join(fact.replace("$", "") for fact in facts), language,
         {"scene": scene.name, "units": scene.units.length, "given": chords.given.name, "result": chords.result.name,
          "pole": chords.pole, "scales": {"given": per_y, "time": chords.per_x, "result": per_found}},
@@ -328,101 +331,57 @@ def chords_page(chords: Chords, reach: DriverRange, language: str) -> Drawing:
 
 
 def chords_table(chords: Chords, reach: DriverRange) -> bytes:
-    """What comes out, as CSV."""
+    """A row for each result: driver, mm on paper, measured, exact, difference; in scene units, degrees, as CSV."""
     scene, driver = reach.scene, reach.driver
-    share = chords.places / chords.x[-1]
-    nodes = np.interp(share, [0.0, 1.0], [chords.at[0], chords.at[-1]])
-    if chords.way == "integral":  # ordinates stand in the middles
-        half = (chords.at[1] - chords.at[0]) / 2
-        nodes = np.interp(share, [0.0, 1.0], [chords.at[0] - half, chords.at[-1] + half])
-    values = reach.value(nodes)
-    unit = scene.unit_of(driver)
-    return chords.table(scene, driver.key, np.round(unit.of(values), 9), unit.text).csv().encode("utf-8-sig")
+    place, own = scene.unit_of(driver), scene.units.of(chords.result.symbol.measure)
+    measured, exact = own.of(chords.measured), own.of(chords.exact)
+    table = Table((
+        Column(f"driver_{driver.key}", np.round(place.of(reach.value(chords.at)), 9), place.text),
+        Column("on_paper_mm", np.round(chords.found, 4), "mm"),
+        Column(chords.result.name, measured, own.text),
+        Column("exact", exact, own.text),
+        Column("difference", measured - exact, own.text),
+    ))  # fmt: skip
+    return table.csv().encode("utf-8-sig")
 
 
-def _axes(chords: Chords, origin: complex, values: Array, letter: str, reach: DriverRange) -> list[Primitive]:
-    wide, high, low = float(chords.x[-1]), max(0.0, float(values.max())), max(0.0, -float(values.min()))
-    parts: list[Primitive] = []
-    for start, tip in ((origin, origin + wide + 8.0), (origin + 1j * low, origin - 1j * (high + 6.0))):
-        head = arrowhead(tip, tip - start, POINTER.head_length, POINTER.head_width, strokes.BLACK)
-        parts += [Line(start, tip, AXIS, 2.0), head]
-    n, below = len(chords.x) - 1, origin.imag + low + 4.2  # no curve runs there
-    step = next(k for k in (1, 2, 3, 4, 6, 12, 24, n) if 144.0 / n * k >= 5.5 or k == n)
-    for k, x in enumerate(chords.x):
-        at = origin + x
-        parts.append(Line(at, at + 1j * TICK * (1.0 if k % step else 1.6), AXIS))
-        if k and k % step == 0:
-            parts.append(Text(complex(at.real, below), plain(str(k), 2.2), "middle", classes=("label",)))
-    parts.append(Text(origin - 1j * (high + 7.5), symbol(letter, 3.5), "middle", classes=("label",)))
-    parts.append(Text(origin + wide + 9.0 + 1.0j, symbol("t", 3.5), classes=("label",)))
-    return [Group(tuple(parts), classes=("axes",))]
+def _panel(figure: Figure, chords: Chords, top: float, span: tuple[float, float], id: str, title: str) -> Axes:
+    """A panel whose values are mm on paper, with its two axes and the numbers of the nodes."""
+    box = Box(MARGIN, top, MARGIN + LEFT + WIDE + RIGHT, top + span[1] - span[0])
+    axes = add_panel(figure, box, id, title, "$t$")
+    n = len(chords.x) - 1
+    step = next(k for k in (1, 2, 3, 4, 6, 12, 24, n) if WIDE / n * k >= STEP or k == n)
+    axes.set(xlim=(-LEFT, WIDE + RIGHT), ylim=span, yticks=[], xticks=chords.x[::step])
+    axes.set_xticklabels([str(k) for k in range(0, n + 1, step)])
+    axes.axhline(0.0, **look(AXIS))
+    axes.axvline(0.0, **look(AXIS))
+    return axes
 
 
-def _pole(chords: Chords, origin: complex, thin: list[Primitive]) -> complex:
-    """The pole before the ordinate axis, with its distance."""
-    pole = origin - chords.pole
-    thin += [Line(pole, origin, AXIS), Circle(pole, 0.7, "#ffffff", strokes.OUTLINE)]
-    thin.append(Text(pole - 1.8 + 1.0j, symbol("P", 3.5), "end", classes=("label",)))
-    above = pole - 1j * (max(0.0, float(chords.rays.max())) + 3.0)
-    thin += _dimensioned(above, above + chords.pole, rich(f"$H$ = {number(chords.pole)}", 2.4))
+def _pole(figure: Figure, chords: Chords, axes: Axes, origin: complex) -> None:
+    """The pole before the ordinate axis with its distance, and the lines from it; ``origin`` of the panel in mm of the
+    page."""
     for tall in chords.rays:
-        thin.append(Line(pole, origin - 1j * float(tall), RAY))
-    return pole
+        axes.plot([-chords.pole, 0.0], [0.0, tall], **look(RAY))
+    axes.plot([-chords.pole], [0.0], **marker("circle"))
+    level = max(0.0, float(chords.rays.max())) + 3.0
+    ends = {"arrowstyle": "<|-|>", "linewidth": 0.4, "facecolor": "#000000", "shrinkA": 0.0, "shrinkB": 0.0}
+    axes.annotate("", (-chords.pole, level), (0.0, level), arrowprops=ends, annotation_clip=False)
+    add_words(
+        figure,
+        Text(origin - chords.pole - 1.8 + 1.0j, symbol("P", 3.5), "end", classes=("label",)),
+        Text(origin - chords.pole / 2 - 1j * (level + 1.0), rich(f"$H$ = {number(chords.pole)}", 2.4), "middle"),
+    )
 
 
-def _dimensioned(start: complex, end: complex, words: tuple[Run, ...]) -> list[Primitive]:
-    """A level dimension line with its value above it."""
-    ends = ((start, end), (end, start))
-    heads = [arrowhead(tip, tip - tail, POINTER.head_length, POINTER.head_width, strokes.BLACK) for tail, tip in ends]
-    bars = [Line(z - 1.2j, z + 1.2j, strokes.DIMENSION) for z in (start, end)]
-    middle = (start + end) / 2 - 1.0j
-    return [Line(start, end, strokes.DIMENSION), *bars, *heads, Text(middle, words, "middle", classes=("label",))]
-
-
-def _derivative(chords: Chords, top: complex, bottom: complex, drawn: list[Primitive], thin: list[Primitive]) -> None:
-    nodes = tuple(top + complex(x, -v) for x, v in zip(chords.x, chords.y, strict=True))
-    thin += [Group((Line(a, b, CHORD),), id=f"chord-{k}", classes=("chord",))
-             for k, (a, b) in enumerate(pairwise(nodes), 1)]  # fmt: skip
-    drawn += [Polyline(_smooth(nodes), CURVE), *(Circle(z, 0.45, "#000000") for z in nodes)]
-    _pole(chords, bottom, thin)
-    ends = tuple(bottom + complex(x, -v) for x, v in zip(chords.middles, chords.found, strict=True))
-    thin += [Line(complex(bottom.real, z.imag), z, ACROSS) for z in ends]
-    thin += [Line(complex(z.real, top.imag), z, ACROSS) for z in ends]
-    drawn.append(Group((Polyline(_smooth(ends), CURVE),), id="result", classes=("result",)))
-    drawn += [Circle(z, 0.6, "#ffffff", strokes.OUTLINE) for z in ends]
-
-
-def _integral(chords: Chords, top: complex, bottom: complex, drawn: list[Primitive], thin: list[Primitive]) -> None:
-    ends = tuple(top + complex(x, -v) for x, v in zip(chords.middles, chords.y, strict=True))
-    drawn += [Polyline(_smooth(ends), CURVE), *(Circle(z, 0.45, "#000000") for z in ends)]
-    _pole(chords, top, thin)
-    thin += [Line(complex(top.real, z.imag), z, ACROSS) for z in ends]
-    thin += [Line(z, complex(z.real, top.imag), ACROSS) for z in ends]
-    nodes = tuple(bottom + complex(x, -v) for x, v in zip(chords.x, chords.found, strict=True))
-    thin += [Group((Line(a, b, CHORD),), id=f"chord-{k}", classes=("chord",))
-             for k, (a, b) in enumerate(pairwise(nodes), 1)]  # fmt: skip
-    drawn.append(Group((Polyline(_smooth(nodes), CURVE),), id="result", classes=("result",)))
-    drawn += [Circle(z, 0.6, "#ffffff", strokes.OUTLINE) for z in nodes]
-
-
-def _smooth(points: tuple[complex, ...]) -> tuple[complex, ...]:
-    """A curve through points, as one draws it with a French curve: in each the slope of its neighbours' chord."""
-    z = np.array(points)
-    if len(z) < 3:
-        return points
-    slopes = np.gradient(z)
-    u = np.linspace(0.0, 1.0, PARTS, endpoint=False)[:, None]
-    a, b, s, t = z[:-1], z[1:], slopes[:-1], slopes[1:]
+def _smooth(x: Array, y: Array) -> Array:
+    """A curve through points, as one draws it with a French curve: in each the slope of its neighbours' chord; shape
+    (2, points)."""
+    z = np.stack([x, y])
+    if len(x) < 3:
+        return z
+    slopes = np.gradient(z, axis=1)
+    u = np.linspace(0.0, 1.0, PARTS, endpoint=False)[:, None, None]
+    a, b, s, t = z[:, :-1], z[:, 1:], slopes[:, :-1], slopes[:, 1:]
     curve = (1 + 2 * u) * (1 - u) ** 2 * a + u * (1 - u) ** 2 * s + u * u * (3 - 2 * u) * b + u * u * (u - 1) * t
-    return (*curve.T.ravel().tolist(), points[-1])
-
-
-def _legend(at: complex, chords: Chords, language: str) -> list[Primitive]:
-    entries = ((CURVE, f"by {chords.way}"), (CHORD, "chords"), (EXACT, "analytic curve"))
-    parts: list[Primitive] = []
-    x = at.real
-    for stroke, key in entries:
-        parts.append(Line(complex(x, at.imag - 0.9), complex(x + 9.0, at.imag - 0.9), stroke))
-        parts.append(Text(complex(x + 11.0, at.imag), rich(word(key, language), 2.8)))
-        x += 46.0
-    return parts
+    return np.concatenate([curve.transpose(1, 2, 0).reshape(2, -1), z[:, -1:]], axis=1)

@@ -45,9 +45,11 @@ def test_the_page_is_true_to_scale_and_parallel() -> None:
     svg = page.content("svg").decode()
     one = chords("shaper-scheme-2", "s_6/1", "derivative")
     k = 5
-    ends = re.search(f'id="chord-{k + 1}"[^>]*><line([^>]*)/>', svg)
-    x1, x2, y1, y2 = (float(re.search(f'{a}="([^"]*)"', ends[1])[1]) for a in ("x1", "x2", "y1", "y2"))
+    (path,) = re.findall(rf'id="chord-{k + 1}">\s*<path d="M ([^"]*)"', svg)
+    x1, y1, x2, y2 = map(float, path.replace("L", "").split())
     assert one.rays[k] / one.pole == pytest.approx(-(y2 - y1) / (x2 - x1), abs=1e-3)
+    # of matplotlib's points 72 are an inch
+    assert np.diff(one.x)[k] == pytest.approx((x2 - x1) / 72 * 25.4, abs=1e-3)
 
 
 def test_files_hold_the_results_with_what_the_solver_says(tmp_path: Path) -> None:
