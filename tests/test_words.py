@@ -98,13 +98,13 @@ def test_a_scene_may_ask_for_a_further_language(with_another_language):
 
 
 def test_a_rate_of_the_table_takes_its_index_into_its_symbol():
-    said = rich_text(Phrase("omega zero", ("3", Markup("v_{B}"), Markup("AB"))), "en")
+    said = rich_text(Phrase("omega zero", seen="3", symbol=Markup("v_{B}"), bar=Markup("AB")), "en")
     assert ("ω_{3}", " = ", "v_{B}", " / ", "AB", " = 0") == said
     assert [True, False] * 3 == [isinstance(part, Markup) for part in said]
 
 
 def test_symbols_side_by_side_are_one_and_those_of_the_table_keep_their_indices():
-    said = Phrase("tangent", (Markup("A"), Markup("B"), "12", "3"))
+    said = Phrase("tangent", **{"points.0": Markup("A"), "points.1": Markup("B"), "mm": "12", "pairs.0": "3"})
     assert "over $AB$ as diameter" in as_markup(rich_text(said, "en"))
     assert "turn B2 back" in as_plain(rich_text(Phrase("design trial", ("2",)), "en"))
 

@@ -1,7 +1,7 @@
 """The account of a construction: for each step its sentence, what is computed in it and what is written of it, and for
 each equation why it is so, in one school of notation and any language.
 
-What a step tells is a function of its reason, in the tables of `in_mechanism` and `in_polygon`.
+What a step tells is known by its reason, in the tables of `InMechanism` and `InPolygon`.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from graphkin.account import in_mechanism, in_polygon
 from graphkin.account.arithmetic import bound, factors_of, lengths_measured, rule_sum
-from graphkin.account.in_polygon import alike, measured, rate_name
+from graphkin.account.in_mechanism import InMechanism
+from graphkin.account.in_polygon import InPolygon, alike, rate_name
 from graphkin.account.notation import Letters
-from graphkin.account.voice import Voice
+from graphkin.account.voice import Telling, Voice
 from graphkin.construction.sheet import Equation, Sheet
 from graphkin.construction.steps import Arrow, Reason, Step, Term
 from graphkin.scene.symbol import PointRef, Symbol
@@ -23,9 +23,6 @@ from graphkin.words.written import pointing
 
 __all__ = ["Account", "WrittenLine", "reasons", "rule_alone", "written_lines"]
 
-SENTENCES = {**in_mechanism.SENTENCES, **in_polygon.SENTENCES}
-LINES = {**in_mechanism.LINES, **in_polygon.LINES}
-
 
 @dataclass(frozen=True)
 class Account(Voice):
@@ -33,16 +30,19 @@ class Account(Voice):
 
     def step(self, step: Step, language: str) -> str:
         """The sentence of a step, with the letters of the points from which it goes and in which it ends."""
-        lettered = SENTENCES.get(step.reason)
-        return self.sentence((lettered and lettered(self, step)) or step.phrase, language)
+        return self.sentence(self.telling(step).said, language)
+
+    def telling(self, step: Step) -> Telling:
+        """What there is to tell of a step."""
+        return InMechanism(self, step) if step.diagram == "mechanism" else InPolygon(self, step)
 
     def work(self, step: Step) -> tuple[str, ...]:
         """What is computed in a step, as lines of symbols and numbers."""
-        return tuple(in_polygon.SUMS.get(step.reason, measured)(self, step))
+        return tuple(self.telling(step).work)
 
     def lines(self, step: Step, language: str) -> Iterator[str]:
         """What is written of a step to repeat it, as lines of words and symbols."""
-        for line in LINES[step.reason](self, step, language) if step.reason in LINES else ():
+        for line in self.telling(step).written(language):
             yield self.say(line, languages(language)[0]) if isinstance(line, Phrase) else line
 
     def why(self, equation: Equation, language: str) -> str:

@@ -88,11 +88,9 @@ def lengths_measured(sheet: Sheet, letters: Letters) -> Iterator[tuple[tuple[str
     ``l_O4A = 38.31 mm × 10 mm/mm = 383.1 mm (383.14)``."""
     bars: dict[frozenset[str], tuple[str, str]] = {}
     for step in sheet.steps:
-        sizes = [step.size]
-        if step.reason == "before its turn":
-            sizes = [t.size for e in sheet.equations for side in e.sides for t in side if t.symbol == step.symbol]
-        used = (s.factor for s in sizes if s and s.rule == "rate" and not isinstance(s.factor, Symbol))
-        bar = (step.points[0], step.points[1]) if step.reason == "rate" else next(used, None)
+        bar = (step.points[0], step.points[1]) if step.reason == "rate" else None
+        if step.size and step.size.rule == "rate" and not isinstance(step.size.factor, Symbol):
+            bar = step.size.factor
         if bar is not None and not is_given(sheet, bar):
             bars.setdefault(frozenset(bar), bar)
     for one, other in bars.values():

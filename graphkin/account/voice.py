@@ -9,24 +9,27 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, ClassVar
 
+from graphkin.account.arithmetic import times_scale
 from graphkin.account.notation import Letters, pole
 from graphkin.construction.sheet import Sheet
-from graphkin.construction.steps import GIVEN, Aid, Bar, DiagramName, Direction, Mark, Size, Step, Vector
+from graphkin.construction.steps import GIVEN, Aid, Bar, DiagramName, Direction, Mark, Reason, Size, Step, Vector
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Markup, Neutral, Phrase, as_markup, rich_text, word
+from graphkin.words import Markup, Neutral, Phrase, as_markup, filled, rich_text, word
 from graphkin.words.written import in_markup
 
 __all__ = [
-    "SAME", "ZERO", "NamedPoint", "PolygonPoints", "Voice", "capital", "link_of_vector",
+    "SAME", "ZERO", "NamedPoint", "PolygonPoints", "Telling", "Voice", "capital", "link_of_vector", "numeral",
     "whole_sentence",
 ]  # fmt: skip
 
 SAME = 0.02  # mm: nearer end points fall together on paper
 ZERO = 0.02  # mm: a shorter vector is drawn as a dot
+NUMERALS = "I", "II", "III", "IV", "V"
 KNOWN = {"an": "normal", "ak": "coriolis"}  # components whose size and direction are known
 _POINT = r"[A-Z][a-z]*\d*"
 _POINT_NAMES = re.compile(f"(?:{_POINT})+")
@@ -247,6 +250,60 @@ class Voice:
     def _named(self) -> Mapping[DiagramName, tuple[NamedPoint, ...]]:
         diagrams: tuple[DiagramName, ...] = ("velocity", "acceleration")
         return {diagram: PolygonPoints(self.sheet, diagram, self.letters).named for diagram in diagrams}
+
+
+@dataclass(frozen=True)
+class Telling:
+    """A step as it is told: by its reason its ``sentences``, keys of the table of words from the fullest to the barest,
+    of which the first is said whose gaps can be filled; its ``sums``, and the ``lines`` to repeat it."""
+
+    voice: Voice
+    step: Step
+    sentences: ClassVar[Mapping[Reason, Any]] = {}
+    sums: ClassVar[Mapping[Reason, Callable[[Any], Iterable[str]]]] = {}
+    lines: ClassVar[Mapping[Reason, Callable[[Any, str], Iterable[str | Phrase]]]] = {}
+
+    @property
+    def sheet(self) -> Sheet:
+        """On which the step is drawn."""
+        return self.voice.sheet
+
+    def gap(self, name: str) -> object:
+        """What stands in the gap of a name: a property of the telling, else an argument of the step; None where nothing
+        does."""
+        own = isinstance(getattr(type(self), name, None), property)
+        return getattr(self, name) if own else self.step.gap(name)
+
+    def first(self, *keys: str) -> Phrase | None:
+        """The first of some sentences whose gaps can be filled."""
+        return filled(keys, self.gap)
+
+    @property
+    def said(self) -> Phrase:
+        """Its sentence, with the letters and sides of the paper where it has such."""
+        keys = self.sentences.get(self.step.reason, ())
+        return (keys(self) if callable(keys) else self.first(*keys)) or self.step.phrase
+
+    @property
+    def work(self) -> Iterable[str]:
+        """What is computed in it, as lines of symbols and numbers."""
+        return self.sums.get(self.step.reason, type(self).measured)(self)
+
+    def measured(self) -> Iterable[str]:
+        """Each vector of a step as it is measured."""
+        for vector in (s for s in self.step.strokes if isinstance(s, Vector)):
+            size = abs(vector.span)
+            value = times_scale(self.sheet, self.step.diagram, size) if size else "0"
+            yield f"{self.voice.symbol(vector.symbol)} = {value}"
+
+    def written(self, language: str) -> Iterable[str | Phrase]:
+        """What is written of it to repeat it."""
+        return self.lines[self.step.reason](self, language) if self.step.reason in self.lines else ()
+
+
+def numeral(number_of: int) -> str:
+    """The numeral of a trial."""
+    return NUMERALS[(number_of - 1) % len(NUMERALS)]
 
 
 def whole_sentence(text: str, language: str) -> str:

@@ -231,7 +231,8 @@ def _carry(plot: Polygons, order: Order, parts: Iterable[Component], at: complex
     for part in parts:
         if part.span is not None:
             bar = Bar(at, at + part.span, "")
-            plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol))
+            plot.do(Step("carry over", "before its turn", order, (bar,), equation, symbol=part.symbol, size=part.size,
+                         mm=abs(part.span), direction=part.written))  # fmt: skip
             at += part.span
     return at
 

@@ -105,6 +105,8 @@ class Remark:
                 return Phrase(self.key, (*self.of, size))
             case "short arm":
                 return Phrase(self.key, (*self.of[:2], size, *self.of[2:]))
+            case "zero vector":
+                return Phrase(self.key, symbol=self.of[0])
         return Phrase(self.key, self.of)
 
     def scaled(self, times: float) -> Remark:

@@ -14,13 +14,13 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal, Self, TypeAlias, TypeVar
 
 from graphkin.scene.symbol import PointRef, Symbol
-from graphkin.words import Phrase, listed, word
+from graphkin.words import Phrase, filled, listed, word
 from graphkin.words.written import MOST, amount, computed, figures, increase, on_paper, product, true_minus
 
 __all__ = [
     "DIAGRAMS", "FINDS_A_POINT", "GIVEN", "LENGTHS", "ORDERS", "SENTENCES", "Aid", "Arrow", "Bar", "Cause",
     "CompassArc", "DiagramName", "Direction", "FarPoint", "Image", "Mark", "Missed", "Moved", "OnPaper", "Order",
-    "Part", "PlanTrial", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff",
+    "Part", "RateTrial", "Ray", "Reason", "Role", "Size", "Step", "Stroke", "Superposed", "TakenOff",
     "Term", "TrialCurve", "TrialPositions", "TrialRow", "TrialTable", "Vector", "Verb", "end_of", "phrase_of",
     "plain_in",
 ]  # fmt: skip
@@ -220,55 +220,110 @@ class Step:
     per_mm: float = 0.0
     mm: float = 0.0
     radii: tuple[float, ...] = ()
-    data: TrialPositions | RateTrial | Superposed | PlanTrial | None = None
+    data: TrialPositions | RateTrial | Superposed | None = None
 
     @property
     def phrase(self) -> Phrase:
-        """The step as a sentence to be."""
-        match self.verb, self.reason:
-            case "lay off", _ if self.symbol.kind:
-                return _laid_off(self)
-            case "read", "vector":
-                return Phrase("found" if self.mm else "zero vector", self.gaps("symbol mm" if self.mm else "symbol"))
-            case "read", "rate" | "sum of rates" | "plan" | "given on plan":
-                return _rate_read(self)
-            case "trial" | "divide", _:
-                return _tried(self)
-        key, gaps = SENTENCES[self.reason]
-        if self.held and self.reason in ("similar", "division", "rates"):
-            return _image_seen(self)
-        if self.reason == "held still":
-            key = f"{key} {self.kind}"
-        elif self.reason == "seen from":
-            key = f"{key} {self.diagram}"
-        elif self.reason == "special point" and self.base:
-            key = "relative special point driven" if self.kind == "driven" else "relative special point"
-            gaps = "point base link points"
-        elif self.reason == "angle" and self.base:
-            key = "lay off angle to"
-        elif self.reason == "rolling":
-            key, gaps = (f"{key} angle", "link degrees") if self.link else (f"{key} travel", "pairs mm")
-        return Phrase(key, self.gaps(gaps))
+        """The step as a sentence to be, without the letters of any school."""
+        told = filled([self.sentence], self.gap)
+        assert told is not None
+        for block, link, turned in self.data.instead if isinstance(self.data, TrialPositions) else ():
+            told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
+        return told
 
-    def gaps(self, names: str) -> tuple[object, ...]:
-        """Arguments as they stand in a sentence: several one after the other, ``listed`` points and links as one."""
-        return tuple(part for name in names.split() for part in self._gap(name))
+    @property
+    def sentence(self) -> str:
+        """The key of its sentence in the table of words."""
+        data = self.data
+        match self.reason:
+            case _ if self.verb == "lay off" and self.symbol.kind:
+                if not self.mm:
+                    return "zero vector"
+                if not self.direction.names:  # it was found before
+                    return "lay off so long" if self.size else "lay off as found"
+                return {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(self.reason, "lay off")
+            case "vector":
+                return "found" if self.mm else "zero vector"
+            case "rates" if self.held:
+                return "by rate seen" if self.symbol.kind == "v" else "by rates seen"
+            case "similar" | "division" if self.held:
+                return "image seen" if self.reason == "similar" else "division seen"
+            case "special point" if self.base:
+                return f"relative special point{' driven' * (self.kind == 'driven')}"
+            case "angle" if self.base:
+                return "lay off angle to"
+            case "rolling":
+                return "rolling starts at angle" if self.link else "rolling starts at travel"
+            case "polygon" if isinstance(data, RateTrial) and not any(value for _, value in data.assumed):
+                return "trial polygon at rest"
+            case "positions" if isinstance(data, TrialPositions):
+                if data.rolling:
+                    return f"trial positions rolling{' and others' * bool(data.left_out)}"
+                return "trial positions" if data.point else "trial positions without curve"
+        return SENTENCES.get(self.reason, self.reason)
 
-    def _gap(self, name: str) -> tuple[object, ...]:
+    def gap(self, name: str) -> object:
+        """What stands in a gap of its sentence: an argument by its name, ``points.1`` the second of several, lengths on
+        paper as a ruler shows them; or what follows from its arguments."""
         match name:
-            case "mm" | "radii":
-                lengths = self.radii if name == "radii" else (self.mm,)
-                return tuple(map(on_paper, lengths))
+            case "turning":
+                return "cw" if self.value < 0.0 else "ccw" if self.value > 0.0 else "zero"
             case "degrees":
-                return (f"{math.degrees(self.value):.6g}",)
+                return f"{math.degrees(self.value):.6g}"
             case "amount":
-                return (f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}",)
-            case "listed":
-                return (", ".join(self.points),)
+                return f"{math.degrees(self.value) if self.kind == 'angle' else self.value:.6g}"
             case "linked":
-                return (listed(self.links),)
-        value = getattr(self, name)
-        return value if isinstance(value, tuple) and not isinstance(value, PointRef) else (value,)
+                return listed(self.links)
+            case "bar":
+                return "".join(self.points)
+            case "seen":
+                return self.link + self.held
+            case "start.0" | "start.1":
+                return end_of(self.begins[int(name[-1])])
+            case "known" | "sign" | "between" | "told" | "signed" | "per" | "product":
+                return self._rate_read[name]
+            case "open_at" | "apart" | "names" | "first" | "values" | "rates":
+                return self._tried[name]
+        source, _, part = name.rpartition(".")
+        value = getattr(self.data, part) if source == "data" else getattr(self, source or part)
+        if source and source != "data":
+            value = value[int(part)]
+        if isinstance(value, tuple) and not isinstance(value, PointRef):
+            return ", ".join(value)
+        return on_paper(value) if isinstance(value, float) else value or ""
+
+    @property
+    def _rate_read(self) -> Mapping[str, str]:
+        """A rate in figures: as measured, as the sum of two, on the plan of a train."""
+        match self.reason:
+            case "sum of rates":
+                known, of = self.links
+                own = self.link == of
+                told = increase(self.value, self.other if own else -self.other)
+                return {"known": known, "sign": "+" if own else "−", "told": told,
+                        "between": self.link + known if own else known + self.link}  # fmt: skip
+            case "given on plan":
+                signed = "−" * (self.value < 0.0) + on_paper(self.mm)
+                return {"told": true_minus(amount(self.value, 4)), "signed": signed}
+            case "plan":
+                per = amount(self.per_mm, 6)
+                return {"per": per, "product": product(on_paper(self.mm), per)}
+        carried = min(MOST - 1, figures(on_paper(self.mm))) if self.mm else MOST - 1
+        return {"told": computed(abs(self.value), carried)}
+
+    @property
+    def _tried(self) -> Mapping[str, object]:
+        """The rates of trials and what they leave open; of several rates the first by its symbol, with its value."""
+        data = self.data
+        if isinstance(data, RateTrial):
+            return _assumed([one for one in data.assumed if one[1]] or data.assumed)
+        assert isinstance(data, Superposed)
+        open_at = ", ".join(f"{name} ({way})" for name, way in zip(data.closing, data.ways, strict=True))
+        apart = true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in data.apart))
+        of_links = [(f"{'ω' if one.kind == 'omega' else 'α'}_{{{one.link}}}", value) for one, value in data.found]
+        rates = true_minus(", ".join(f"{name} = {amount(value, 5)}" for name, value in of_links))
+        names = ", ".join(name for name, _ in of_links)
+        return {"open_at": open_at, "apart": apart, "names": names, "rates": rates, **_assumed(data.found)}
 
     @property
     def finds_rate(self) -> bool:
@@ -278,8 +333,8 @@ class Step:
     def scaled(self, times: float) -> Step:
         """The same step with all its lengths on paper so many times as large."""
         strokes = tuple(stroke.scaled(times) for stroke in self.strokes)
-        data = self.data.scaled(times) if isinstance(self.data, OnPaper) else self.data
         growth = 1.0 if self.per_mm else times
+        data = self.data.scaled(growth) if isinstance(self.data, OnPaper) else self.data
         radii = tuple(radius * growth for radius in self.radii)
         return _changed(self, strokes=strokes, data=data, mm=self.mm * growth, radii=radii)
 
@@ -535,64 +590,31 @@ class TakenOff(OnPaper):
 
 
 @dataclass(frozen=True)
-class PlanTrial:
-    """Rates that were assumed, by link: the values of each trial, what each left open (mm), and what follows."""
-
-    links: tuple[str, ...]
-    assumed: tuple[tuple[float, ...], ...]
-    apart: tuple[tuple[float, ...], ...]
-    found: tuple[float, ...]
-
-
-@dataclass(frozen=True)
 class Superposed(OnPaper):
     """The true rates by proportional division; ``apart`` (mm) is what is left open in each trial at ``closing``, along
     ``ways``: from the end point of the first of ``between`` to that of the second, less what is known between them,
-    ``less``."""
+    ``less``; of plans of a train only what each leaves open."""
 
     found: tuple[tuple[Symbol, float], ...]
     closing: tuple[str, ...]
     apart: tuple[tuple[float, ...], ...]
-    ways: tuple[Direction, ...]
-    between: tuple[tuple[PointRef, PointRef], ...]
-    less: tuple[tuple[TakenOff, ...], ...]
+    ways: tuple[Direction, ...] = ()
+    between: tuple[tuple[PointRef, PointRef], ...] = ()
+    less: tuple[tuple[TakenOff, ...], ...] = ()
 
 
 # -- in words ----------------------------------------------------------------------------------------------------------
 
-SENTENCES: Mapping[Reason, tuple[str, str]] = {
-    "frame": ("frame", "link listed"),
-    "points": ("points", "link listed"),
-    "whole link": ("transfer", "link listed"),
-    "pitch point": ("pitch point", "point links"),
-    "letter": ("name", "ref"),
-    "angle": ("lay off angle", "link degrees point base"),
-    "travel": ("lay off travel", "pairs mm"),
-    "rolling": ("rolling starts at", ""),
-    "path": ("path", "point pairs"),
-    "guide": ("line of guide", "points pairs"),
-    "tangent": ("tangent", "points mm pairs"),
-    "direction": ("direction", "symbol direction"),
-    "arcs": ("arcs", "points point radii"),
-    "arc on path": ("arc on path", "points point mm"),
-    "paths": ("paths", "point pairs"),
-    "guide to point": ("slide to meet", "point pairs"),
-    "special point": ("special point", "point link points"),
-    "lines": ("meet", "ref"),
-    "similar": ("image", "ref refs link"),
-    "division": ("division", "ref refs link"),
-    "same place": ("same place", "ref refs"),
-    "translation": ("translates", "link"),
-    "rates": ("by rate", "ref refs link"),
-    "pole to end": ("resultant", "symbol"),
-    "asked": ("asked", "symbol"),
-    "put back": ("put back", "symbol"),
-    "before its turn": ("carry", "symbol"),
-    "held still": ("held still", "held link pairs amount"),
-    "seen from": ("seen from", "held linked"),
-    "plan travel": ("plan travel", "pairs mm"),
-}
-"""The key in the table of words of steps that are told in one way, and the arguments in its gaps (`Step.gaps`)."""
+SENTENCES: Mapping[Reason, str] = {
+    "whole link": "transfer", "letter": "name", "angle": "lay off angle", "travel": "lay off travel",
+    "guide": "line of guide", "guide to point": "slide to meet", "lines": "meet", "similar": "image",
+    "translation": "translates", "rates": "by rate", "pole to end": "resultant", "before its turn": "carry",
+    "rate": "{kind} {turning}", "sum of rates": "added {kind}", "given on plan": "plan line {kind}",
+    "plan": "plan line {kind} {turning}", "held still": "held still {kind}", "seen from": "seen from {diagram}",
+    "polygon": "trial polygon", "open ends": "superposed", "plans": "plan tried",
+}  # fmt: skip
+"""The key in the table of words of steps that are told in one way, with gaps of its own (`Step.gap`) where a word for
+each kind is there; of others the reason is the key."""
 
 
 def end_of(vector: Symbol | None) -> Phrase:
@@ -600,83 +622,9 @@ def end_of(vector: Symbol | None) -> Phrase:
     return Phrase("the pole itself") if vector is None else Phrase("the end of", (vector,))
 
 
-def _laid_off(step: Step) -> Phrase:
-    if step.mm == 0.0:
-        return Phrase("zero vector", step.gaps("symbol"))
-    if not step.direction.names:  # it was found before
-        return Phrase(*(("lay off so long", step.gaps("symbol size mm")) if step.size else (
-            "lay off as found", step.gaps("symbol mm")
-        )))  # fmt: skip
-    key = {"normal": "lay off normal", "coriolis": "lay off coriolis"}.get(step.reason, "lay off")
-    return Phrase(key, (step.symbol, step.size or "", on_paper(step.mm), step.direction))
-
-
-def _image_seen(step: Step) -> Phrase:
-    starts = tuple(map(end_of, step.begins))
-    if step.reason == "rates":
-        key = "by rate seen" if step.symbol.kind == "v" else "by rates seen"
-        return Phrase(key, (step.symbol, *starts, f"{step.link}{step.held}"))
-    key = "division seen" if step.reason == "division" else "image seen"
-    return Phrase(key, (step.symbol, *starts, step.link, "".join(step.points)))
-
-
-def _rate_read(step: Step) -> Phrase:
-    turning = "cw" if step.value < 0.0 else "ccw" if step.value > 0.0 else "zero"
-    match step.reason:
-        case "sum of rates":
-            known, of = step.links
-            own = step.link == of
-            signed = ("+", step.link + known) if own else ("−", known + step.link)
-            told = increase(step.value, step.other if own else -step.other)
-            return Phrase(f"added {step.kind}", (step.link, known, *signed, told))
-        case "given on plan":
-            told = true_minus(amount(step.value, 4))
-            mm = "−" * (step.value < 0.0) + on_paper(step.mm)
-            return Phrase(f"plan line {step.kind}", (step.link, step.points[0], told, mm))
-        case "plan":
-            read = on_paper(step.mm), amount(step.per_mm, 6)
-            return Phrase(f"plan line {step.kind} {turning}", (step.link, *step.points, *read, product(*read)))
-    carried = min(MOST - 1, figures(on_paper(step.mm))) if step.mm else MOST - 1
-    told = computed(abs(step.value), carried)
-    return Phrase(f"{step.kind} {turning}", (step.link + step.held, step.symbol, "".join(step.points), told))
-
-
-def _tried(step: Step) -> Phrase:
-    match step.data:
-        case TrialPositions():
-            return _positions(step.data)
-        case RateTrial(number, assumed, _):
-            if not any(value for _, value in assumed):
-                return Phrase("trial polygon at rest", (number, assumed[0][0]))
-            return Phrase("trial polygon", (number, *_assumed([one for one in assumed if one[1]])))
-        case Superposed(found, closing, apart, ways, _, _):
-            open_at = ", ".join(f"{name} ({way})" for name, way in zip(closing, ways, strict=True))
-            return Phrase("superposed", (open_at, _rows(apart), *_assumed(found)))
-        case PlanTrial(links, _, apart, found_rates):
-            names = [f"{'ω' if step.kind == 'omega' else 'α'}_{{{link}}}" for link in links]
-            rates = ", ".join(f"{name} = {amount(v, 5)}" for name, v in zip(names, found_rates, strict=True))
-            return Phrase("plan tried", (", ".join(names), _rows(apart), true_minus(rates)))
-    raise AssertionError(step.reason)
-
-
-def _positions(trial: TrialPositions) -> Phrase:
-    key = "trial positions" if trial.point else "trial positions without curve"
-    if trial.rolling:
-        key = "trial positions rolling and others" if trial.left_out else "trial positions rolling"
-    names = (", ".join(names) for names in (trial.links, trial.driven, trial.left_out))
-    told = Phrase(key, (*names, trial.point, trial.count, ", ".join(trial.rolling)))
-    for block, link, turned in trial.instead:
-        told = Phrase("driven in its stead", (told, block, link, f"{math.degrees(turned) + 0.0:.6g}"))
-    return told
-
-
-def _rows(apart: Sequence[Sequence[float]]) -> str:
-    return true_minus("; ".join(", ".join(f"{mm:.2f}" for mm in row) for row in apart))
-
-
-def _assumed(rates: Sequence[tuple[Symbol, float]]) -> tuple[object, str]:
+def _assumed(rates: Sequence[tuple[Symbol, float]]) -> dict[str, object]:
     """The first of some rates as a symbol, and its value with those that follow."""
     (first, value), *rest = rates
     units = {"omega": " rad/s", "alpha": " rad/s²"}
     more = "".join(f", {symbol} = {amount(v, 5)}{units.get(symbol.kind, '')}" for symbol, v in rest)
-    return first, true_minus(f"{amount(value, 5)}{units.get(first.kind, '')}{more}")
+    return {"first": first, "values": true_minus(f"{amount(value, 5)}{units.get(first.kind, '')}{more}")}

@@ -21,10 +21,11 @@ import numpy as np
 from graphkin.construction.instruments import EXACT, Instrument
 from graphkin.construction.proportional_division import divide
 from graphkin.construction.scales import Extent, fitting_scale
-from graphkin.construction.steps import Order, PlanTrial, Step
+from graphkin.construction.steps import Order, Step, Superposed
 from graphkin.errors import Problem, Unsolvable
 from graphkin.plane import cross, dot, unit
 from graphkin.scene.model import Mechanism, PlacedLink
+from graphkin.scene.symbol import Symbol
 from graphkin.structure import Mesh, Structure, meshes_of
 from graphkin.structure.model import Coordinate
 from graphkin.words import Phrase
@@ -230,7 +231,7 @@ class TrainPlan:
     velocities: dict[tuple[int, str], float] = field(default_factory=dict)
     travels: dict[str, tuple[float, float]] = field(default_factory=dict)
     gaps: list[float] = field(default_factory=list)
-    trial: PlanTrial | None = None
+    trial: Superposed | None = None
 
     def line(self, link: str) -> PlanLine | None:
         """The line of a link from which its rate is read, else its first."""
@@ -340,7 +341,9 @@ class TrainPlan:
         gaps = [self.drawn(scales, hand, one).gaps for one in trials]
         found = tuple(map(float, divide([[*one.values()] for one in trials], gaps)))
         apart = tuple(tuple(map(float, row)) for row in gaps)
-        trial = PlanTrial(tuple(names), tuple(tuple(one.values()) for one in trials), apart, found)
+        kind = "omega" if self.order == "velocity" else "alpha"
+        rates = tuple((Symbol(kind, link=name), rate) for name, rate in zip(names, found, strict=True))
+        trial = Superposed(rates, (), apart)
         return replace(self.drawn(scales, hand, dict(zip(names, found, strict=True))), trial=trial)
 
     def to_assume(self, wanted: Coordinate) -> list[str] | None:

@@ -21,7 +21,7 @@ from typing import TypeAlias
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_markup", "as_plain", "class_of", "clauses", "from_others", "in_all", "in_turn", "languages", "listed",
+    "as_markup", "as_plain", "class_of", "clauses", "filled", "from_others", "in_all", "in_turn", "languages", "listed",
     "parts", "rich_text", "say", "word",
 ]  # fmt: skip
 
@@ -88,7 +88,7 @@ Wording: TypeAlias = Phrase | str
 def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = str) -> str:
     """The sentence in a language.  ``show`` writes each argument (plain text, or markup of a convention).
 
-    >>> say(Phrase("points", ("2", "B, C")))
+    >>> say(Phrase("points", link="2", points="B, C"))
     'mark B, C on link 2'
     """
     return "".join(parts(phrase, language, show))
@@ -101,7 +101,7 @@ class Neutral(str):
 def parts(said: Wording, language: str, show: Callable[[object], str] = str) -> Iterator[str]:
     """A sentence taken apart: the words of the table, and what ``show`` makes of each gap, in their order.
 
-    >>> list(parts(Phrase("points", ("2", "B, C")), "en"))
+    >>> list(parts(Phrase("points", link="2", points="B, C"), "en"))
     ['mark ', 'B, C', ' on link ', '2']
     """
     if isinstance(said, str):
@@ -129,6 +129,29 @@ def _pieces(key: str, language: str) -> tuple[tuple[str, str | None], ...]:
             found.append((before, gap))
             before = ""
     return (*found, (before, None))
+
+
+def filled(keys: Iterable[str], gap: Callable[[str], object]) -> Phrase | None:
+    """The first of some sentences all of whose gaps can be filled by their names; None where there is none.
+
+    Parameters
+    ----------
+    keys : of the sentences, from the fullest to the barest; a key may have gaps of its own
+    gap : what stands in the gap of a name; None: nothing does
+
+    >>> symbol = {"bar": "BC", "kind": "omega", "seen": "3", "symbol": "v_C/B", "told": None}
+    >>> str(filled(["{kind} cw", "{kind} zero"], symbol.get))
+    'ω_{3} = v_C/B / BC = 0'
+    """
+    for pattern in keys:
+        variants = {name: gap(name) for _, name, _, _ in Formatter().parse(pattern) if name}
+        if None in variants.values():
+            continue
+        key = pattern.format_map(variants)
+        gaps = {name: gap(name) for _, name in _pieces(key, "en") if name}
+        if None not in gaps.values():
+            return Phrase(key, **gaps)
+    return None
 
 
 def in_all(said: Wording, language: str) -> tuple[str, ...]:
@@ -192,7 +215,7 @@ def in_turn(sentences: Sequence[Phrase]) -> Phrase:
 def listed(names: Sequence[object]) -> object:
     """Names or phrases, one at least, as an argument of a sentence: a list with the marks of its language.
 
-    >>> say(Phrase("points", ("2", listed(["B", "C", "D"]))))
+    >>> say(Phrase("points", link="2", points=listed(["B", "C", "D"])))
     'mark B, C, D on link 2'
     """
     return reduce(lambda one, other: Phrase("listed", (one, other)), names)
@@ -285,7 +308,7 @@ def rich_text(said: Wording, language: str, show: Callable[[object], str] = _as_
     >>> from graphkin.words import Phrase
     >>> rich_text(Phrase("design trial", ("2",)), "en")[:2]
     ('two trial cranks: turn ', 'B_{2}')
-    >>> rich_text(Phrase("by rate seen", (Markup("v_{C}"), Markup("B"), "3")), "en")
+    >>> rich_text(Phrase("by rate seen", **{"symbol": Markup("v_{C}"), "start.0": Markup("B"), "seen": "3"}), "en")
     ('from ', 'B', ' lay off what ', 'ω_{3}', ' gives: from the pole to there ', 'v_{C}')
     """
     found: list[str] = []

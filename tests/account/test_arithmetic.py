@@ -430,7 +430,7 @@ def test_where_end_points_have_no_letters_the_vector_of_an_image_is_told(said, n
 @pytest.mark.parametrize("name", ["hydraulic-cylinder", "shaper-scheme-2", "sixbar-420rpm", "double-butterfly"])
 def test_a_step_tells_a_measured_rate_as_its_quotient_gives_it(name):
     sheet, _ = drawn(name)
-    told = {(s.kind, s.link): s.phrase.args[3] for s in sheet.steps if s.reason == "rate" and not s.held}
+    told = {(s.kind, s.link): s.phrase.gaps["told"] for s in sheet.steps if s.reason == "rate" and not s.held}
     rates = [s for s in sheet.steps if s.reason == "rate" and not s.held and rate_sum(sheet, s)]
     quotients = {(s.kind, s.link): re.search(r"= ([\d.e⁻−-]+) rad", rate_sum(sheet, s))[1] for s in rates}
     assert quotients

@@ -8,8 +8,9 @@ from typing import get_args
 import pytest
 
 from graphkin import read
-from graphkin.account import in_mechanism, in_polygon
 from graphkin.account.account import Account
+from graphkin.account.in_mechanism import InMechanism
+from graphkin.account.in_polygon import InPolygon
 from graphkin.account.notation import letters_of
 from graphkin.api.handouts import handout
 from graphkin.construction import draft
@@ -93,7 +94,7 @@ def test_a_vector_too_small_for_letters_of_its_own_is_not_named_by_one_letter_tw
     sheet = _at("sixbar-420rpm", 60)
     account = Account(sheet, letters_of(sheet, "chinese"))
     tiny = next(s for s in sheet.steps if s.verb == "lay off" and str(s.symbol) == "an_F/E")
-    assert "lay off from" == in_polygon.SENTENCES[tiny.reason](account, tiny).key
+    assert "lay off from" == account.telling(tiny).said.key
 
 
 @pytest.mark.parametrize(("convention", "expected"), [("chinese", ["b", "c", "p_2"]), ("us", ["V_B", "V_C", "V_P"])])
@@ -253,7 +254,7 @@ def test_a_page_of_one_position_says_one():
 
 
 def test_what_is_told_in_a_way_of_its_own_is_told_of_steps_of_the_board():
-    told = [*in_mechanism.SENTENCES, *in_polygon.SENTENCES]
+    told = [*InMechanism.sentences, *InPolygon.sentences]
     reasons = {reason for verb in get_args(Reason) for reason in get_args(verb) or (verb,)}
-    assert set() == {*told, *in_polygon.SUMS, *in_polygon.LINES, *in_mechanism.LINES} - reasons
+    assert set() == {*told, *InPolygon.sums, *InPolygon.lines, *InMechanism.lines} - reasons
     assert len(set(told)) == len(told)

@@ -11,6 +11,7 @@ from graphkin.construction import draft
 from graphkin.construction.steps import LENGTHS, SENTENCES, CompassArc, Direction, Ray, Reason, Step, Stroke, TrialCurve
 from graphkin.scene import library, mechanism_of
 from graphkin.scene.symbol import Symbol
+from graphkin.words import area
 
 pytestmark = pytest.mark.quick
 NO_LENGTHS = {"value", "other", "per_mm", "number", "equation"}
@@ -60,7 +61,13 @@ def test_a_reason_belongs_to_one_verb_and_every_step_of_the_library_is_told(name
     assert [*range(1, len(steps) + 1)] == [step.number for step in steps]
 
 
-def test_the_table_of_sentences_tells_reasons_by_arguments_that_steps_have() -> None:
+def test_the_table_of_sentences_tells_reasons_of_steps_with_words_of_the_table() -> None:
     assert set() == SENTENCES.keys() - reasons()
-    known = {*(f.name for f in fields(Step)), "listed", "linked", "degrees", "amount"}
-    assert set() == {gap for _, gaps in SENTENCES.values() for gap in gaps.split()} - known
+    plain = {key for key in SENTENCES.values() if "{" not in key}
+    assert set() == plain - {*area("position"), *area("polygons"), *area("centres")}
+
+
+def test_a_gap_of_a_sentence_is_filled_with_an_argument_of_the_step_by_its_name() -> None:
+    step = Step("cross", "arcs", points=("A", "D"), point="C", radii=(12.5, 3.0))
+    assert ("D", "C", "12.50", "A, D") == tuple(map(step.gap, ("points.1", "point", "radii.0", "points")))
+    assert "an arc about A of 12.50 mm and one about D of 3.00 mm meet in C" == str(step.phrase)

@@ -17,9 +17,8 @@ from functools import cached_property
 import numpy as np
 
 from graphkin.account.headings import spoken_ref, spoken_vector
-from graphkin.account.in_mechanism import numeral
 from graphkin.account.notation import Letters, pole
-from graphkin.account.voice import SAME, NamedPoint, PolygonPoints
+from graphkin.account.voice import SAME, NamedPoint, PolygonPoints, numeral
 from graphkin.construction.scales import SERIES
 from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import Aid, Arrow, Bar, DiagramName, Image, Mark, Ray, Step, Vector
