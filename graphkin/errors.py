@@ -9,9 +9,9 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import reduce
-from typing import Any
+from typing import Any, Self
 
-from graphkin.words import Phrase, Wording, say, word
+from graphkin.words import Phrase, Wording, clause_of, say, word
 
 __all__ = [
     "CallError", "Disagreement", "GraphkinError", "NoDriver", "Problem", "SceneError", "Unsolvable", "as_list",
@@ -23,20 +23,27 @@ PAGE = 4000
 _LONG_WORD = re.compile("[!-~\x00]{300,}")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Problem:
     """One thing that is wrong.
 
     Parameters
     ----------
     where : what it is about, by name as in the file ("links.3.length", "point D")
-    found : what was found, as a clause ("-5, a length must be positive")
+    found : what was found, as a clause: its id in the tables of words, or a phrase ("-5, a length must be positive")
     wanted : what would be right, as a clause; empty where ``found`` says it all
+    gaps : what stands in the gaps of both, by their names
+
+    >>> print(Problem("link 3", "link is the frame", "give one of them", name="3"))
+    link 3: link 3 is the frame; give one of them
     """
 
     where: Wording
     found: Wording
-    wanted: Wording = ""
+    wanted: Wording
+
+    def __init__(self, where: Wording, found: Wording, wanted: Wording = "", **gaps: object) -> None:
+        vars(self).update(where=where, found=clause_of(found, gaps), wanted=clause_of(wanted, gaps))
 
     def __str__(self) -> str:
         return self.text()
@@ -80,6 +87,11 @@ class GraphkinError(Exception):
         self.problems = problems
         super().__init__("\n".join(str(p) for p in problems))
 
+    @classmethod
+    def of(cls, where: Wording, found: Wording, wanted: Wording = "", **gaps: object) -> Self:
+        """The error of one problem, by its clauses (see `Problem`)."""
+        return cls(Problem(where, found, wanted, **gaps))
+
     def text(self, language: str = "en") -> str:
         """What is wrong, a line for each problem, in a language."""
         return "\n".join(p.text(language) for p in self.problems)
@@ -95,10 +107,6 @@ class SceneError(GraphkinError):
 class CallError(GraphkinError):
     """The call is wrong: an unknown option value, an unknown scene or symbol (exit status 2)."""
 
-    @classmethod
-    def of(cls, where: Wording, found: Wording, wanted: Wording = "") -> CallError:
-        """The error of one problem, by its clauses (see `Problem`)."""
-        return cls(Problem(where, found, wanted))
 
 
 class Unsolvable(GraphkinError):
@@ -153,13 +161,13 @@ def printable(text: str) -> str:
     return _CONTROL.sub(lambda found: found[0].encode("unicode_escape", "surrogatepass").decode(), text)
 
 
-def unfit(where: Wording, value: object, wanted: Wording) -> CallError:
+def unfit(where: Wording, value: object, wanted: Wording, **gaps: object) -> CallError:
     """The error of a value that is not what is wanted.
 
     >>> print(unfit("seed", [1], "give a whole number"))
     seed: found [1]; give a whole number
     """
-    return CallError(Problem(where, Phrase("found value", value=f"{value!r:.60}"), wanted))
+    return CallError.of(where, "found value", wanted, **gaps, value=f"{value!r:.60}")
 
 
 def as_text(where: str, value: object) -> str:
@@ -169,7 +177,7 @@ def as_text(where: str, value: object) -> str:
     '2'
     """
     if not isinstance(value, str) and not type(value).__module__.startswith("graphkin."):  # a symbol
-        raise unfit(where, value, Phrase("give a name as a text"))
+        raise unfit(where, value, "give a name as a text")
     return str(value)
 
 

@@ -12,7 +12,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO, Any
 
-from graphkin.errors import CallError, Problem, unfit
+from graphkin.errors import CallError, unfit
 from graphkin.words import Phrase
 
 __all__ = ["Json", "OwnTables", "Tables", "folder_alone", "json_text", "opened", "path_of", "whole_file"]
@@ -49,7 +49,7 @@ def path_of(place: str | os.PathLike[str]) -> Path:
         os.fsencode(place)  # half a pair of UTF-16 is in no name
         path = os.fspath(place)
     if not isinstance(path, str) or "\0" in path:
-        raise unfit("path", place, Phrase("give the name of a file or folder"))
+        raise unfit("path", place, "give the name of a file or folder")
     return Path(path)
 
 
@@ -104,8 +104,8 @@ def folder_alone(folder: Path) -> Iterator[None]:
         who = ""
         with suppress(OSError):
             who = path.read_text(encoding="utf-8").strip()
-        found = Phrase("another graphkin is writing into it", by=f' ({who})' if who else '')
-        raise CallError(Problem(str(folder), found, Phrase("wait until it has done or give another")))
+        raise CallError.of(str(folder), "another graphkin is writing into it", "wait until it has done or give another",
+                           by=f' ({who})' if who else '')
     try:
         import platform
 

@@ -341,19 +341,13 @@ def cluster(address: str) -> Executor:
     try:
         from distributed import Client
     except ImportError:
-        raise CallError(
-            Problem(
-                "--scheduler", Phrase("dask is not installed"), Phrase("install it with pip install graphkin cluster")
-            )
-        ) from None
+        raise CallError.of("--scheduler", "dask is not installed",
+                           "install it with pip install graphkin cluster") from None
     try:
         client = Client(address, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
-        raise CallError(
-            Problem(
-                f"--scheduler {address}", Phrase("no dask scheduler answers", error=error), Phrase("give tcp host 8786")
-            )
-        ) from None
+        raise CallError.of(f"--scheduler {address}", "no dask scheduler answers", "give tcp host 8786",
+                           error=error) from None
     return _Cluster(client)
 
 

@@ -29,7 +29,7 @@ from typing import IO, TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.words import Phrase, from_others
 
@@ -204,9 +204,7 @@ class Table:
         for column in self.columns:
             if name in (column.name, column.head):
                 return column
-        raise CallError(
-            Problem(Phrase("column of name", name=name), Phrase("there is none"), did_you_mean(name, self.names))
-        )
+        raise CallError.of(Phrase("column of name", name=name), "there is none", did_you_mean(name, self.names))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -353,7 +351,7 @@ class Table:
                 along[name] = np.unique(own)
                 left //= len(along[name])
             if left != 1:
-                raise CallError(Problem("table", Phrase("is no grid of", shape=', '.join(self.index))))
+                raise CallError.of("table", "is no grid of", shape=', '.join(self.index))
         else:
             along["row"] = np.arange(len(self))
         shape = tuple(len(along[name]) for name in kept)
@@ -377,11 +375,7 @@ class Table:
         target = path_of(path)
         kind = target.suffix.lower()
         if kind not in FILES:
-            raise CallError(
-                Problem(
-                    str(path), Phrase("is no table of kind", kind=kind), Phrase("known here", names=", ".join(FILES))
-                )
-            )
+            raise CallError.of(str(path), "is no table of kind", "known here", kind=kind, names=", ".join(FILES))
         arrow = self.to_arrow() if kind == ".parquet" else None
         try:
             with whole_file(target) as out:
@@ -394,9 +388,8 @@ class Table:
                 else:
                     import_module("pyarrow.parquet").write_table(arrow, out, compression="zstd")
         except OSError as error:
-            raise CallError(
-                Problem(str(path), Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
-            ) from None
+            raise CallError.of(str(path), "cannot be written",
+                               reason=from_others(error.strerror or str(error))) from None
         return target
 
 
@@ -404,9 +397,7 @@ def _library(name: str) -> Any:
     try:
         return import_module(name)
     except ImportError:
-        raise CallError(
-            Problem(name, Phrase("is not installed"), Phrase("install it with pip install", name=name))
-        ) from None
+        raise CallError.of(name, "is not installed", "install it with pip install", name=name) from None
 
 
 def _facts(column: Column) -> dict[str, str]:

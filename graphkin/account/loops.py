@@ -19,7 +19,7 @@ import numpy as np
 
 from graphkin.account.headings import number
 from graphkin.account.notation import as_vector
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene_tables import Convention
@@ -309,7 +309,7 @@ def loops_text(motion: Motion, language: str) -> LoopText:
     CallError : no position is solved, or a chosen loop goes from a point to another that nothing joins
     """
     if not motion.ok.any():
-        raise CallError(Problem("loops", Phrase("no position is solved", why=motion.reasons[0])))
+        raise CallError.of("loops", "no position is solved", why=motion.reasons[0])
     k = int(np.argmax(motion.ok))
     axes = {name: complex(pose.u[k]) for name, pose in motion.poses.items()}
     travels = {s.key: float(motion.slide(s.key).travel[k]) for s in motion.slides}

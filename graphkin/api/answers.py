@@ -87,8 +87,8 @@ def as_answers(scene: Mechanism, given: AnswersLike) -> tuple[tuple[Answers, ...
     if isinstance(given, Mapping):
         strange = [name for name, values in given.items() if not isinstance(values, Mapping)]
         if strange:
-            found = Phrase("found value", value=f'{given[strange[0]]!r:.60}')
-            raise CallError.of(Phrase("answers of", name=strange[0]), found, Phrase("give v_d 480"))
+            raise CallError.of(Phrase("answers of", name=strange[0]), "found value", "give v_d 480",
+                               value=f'{given[strange[0]]!r:.60}')
         heads = list(dict.fromkeys(s for values in given.values() for s in values))
         rows = [(i, (name, *(_text(v.get(h, "")) for h in heads))) for i, (name, v) in enumerate(given.items(), 1)]
         # who says nothing of a quantity was not asked for it
@@ -150,9 +150,7 @@ def _columns(scene: Mechanism, heads: Sequence[str], name: str, problems: list[P
                 )
             )
         if symbol in values.values():
-            problems.append(
-                Problem(Phrase("column", name=name, head=head), Phrase("stands twice"), Phrase("keep one of them"))
-            )
+            problems.append(Problem(Phrase("column", name=name, head=head), "stands twice", "keep one of them"))
         values[i], units[i] = symbol, unit
     if "person" not in roles and others:
         roles["person"] = others.pop(0)
@@ -180,8 +178,8 @@ def _answers(
     problems: list[Problem] = []
     columns = _columns(scene, sheet.heads, name, problems)
     if not columns.values and not problems:
-        known = Phrase("write symbols as heads for example v_d or")
-        problems.append(Problem(name, Phrase("no column is a quantity", names=', '.join(sheet.heads)[:200]), known))
+        problems.append(Problem(name, "no column is a quantity", "write symbols as heads for example v_d or",
+                                names=', '.join(sheet.heads)[:200]))
     places = [own for _, cells in sheet.rows if (own := columns.cell("at", cells))]
     # numbers are driver values, unless all of them are names of positions
     positions = scene.question.positions
@@ -194,9 +192,7 @@ def _answers(
             try:
                 at = text if by_name else _plain_number(text, sheet.sign)
             except ValueError:
-                problems.append(
-                    Problem(Phrase("line at", name=name, line=line), Phrase("is no driver value", text=text[:40]))
-                )
+                problems.append(Problem(Phrase("line at", name=name, line=line), "is no driver value", text=text[:40]))
         found.append(_row(scene, sheet, columns, line, cells, at, silent.get(line, frozenset())))
     if problems:
         raise CallError(*problems[:50])

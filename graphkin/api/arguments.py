@@ -62,7 +62,7 @@ def known_words(
     CallError : every unknown word, with the nearest right one or all there are; no format at all
     """
     if isinstance(formats, str):
-        raise CallError(Problem("format", Phrase("is a text", formats=formats), Phrase("give a list", formats=formats)))
+        raise CallError.of("format", "is a text", "give a list", formats=formats)
     formats = as_list("format", formats, Phrase("give a list of", names=", ".join(known_formats)))
     wishes: list[tuple[str, object, Sequence[str]]] = [("format", word, known_formats) for word in formats]
     wishes += [
@@ -77,9 +77,9 @@ def known_words(
     ]
     wrong = [problem for where, word, known in wishes for problem in unknown_words(where, [word], known)]
     if not formats:
-        wrong.append(Problem("format", Phrase("none given"), Phrase("known here", names=', '.join(known_formats))))
+        wrong.append(Problem("format", "none given", "known here", names=', '.join(known_formats)))
     if any(isinstance(word, str) and word == "dxf" for word in formats) and find_spec("ezdxf") is None:
-        wrong.append(Problem("format", '"dxf"', Phrase("it needs the extra cad pip install graphkin")))
+        wrong.append(Problem("format", '"dxf"', "it needs the extra cad pip install graphkin"))
     if wrong:
         raise CallError(*wrong)
 
@@ -99,8 +99,7 @@ def known_workers(executor: object, workers: int | None) -> int | None:
     that takes no work."""
     workers = None if workers is None else whole_number("workers", workers, 1, 1024)
     if executor is not None and not hasattr(executor, "submit"):
-        found = Phrase("found value", value=f"{executor!r:.60}")
-        raise CallError(Problem("executor", found, Phrase("give one that has submit as those of")))
+        raise CallError.of("executor", "found value", "give one that has submit as those of", value=f"{executor!r:.60}")
     return workers
 
 
@@ -110,7 +109,7 @@ def whole_number(where: str, value: object, least: int, most: int, what: str = "
     if number and isinstance(value, Integral) and least <= int(value) <= most:
         return int(value)
     found = f"{value}{what}" if number else Phrase("found value", value=f'{value!r:.60}')
-    raise CallError(Problem(where, found, Phrase("give a whole number from to", least=least, most=most)))
+    raise CallError.of(where, found, "give a whole number from to", least=least, most=most)
 
 
 At = float | str | Mapping[str, float] | None
@@ -123,7 +122,7 @@ MOST_SEED = 10**18
 def require_callable(where: str, function: object) -> None:
     """Refuse what cannot be called, where a function is wanted or None.  Raises CallError."""
     if function is not None and not callable(function):
-        raise unfit(where, function, Phrase("give a function or leave it out"))
+        raise unfit(where, function, "give a function or leave it out")
 
 
 def as_scene(scene: SceneLike) -> Mechanism:
@@ -155,10 +154,8 @@ def for_paper(scene: SceneLike, asked: Sequence[Symbol] = ()) -> Mechanism:
         bearings = {name: z for name, z in given.frame.points.items() if name in ends}
         given = replace(given, frame=replace(given.frame, points=bearings))
     if len(given.links) > MOST_DRAWN:
-        wanted = Phrase("a sheet shows at most with find only", most=MOST_DRAWN)
-        raise CallError(
-            Problem("links", Phrase("moving links are too many for a figure", count=len(given.links)), wanted)
-        )
+        raise CallError.of("links", "moving links are too many for a figure", "a sheet shows at most with find only",
+                           count=len(given.links), most=MOST_DRAWN)
     return given
 
 
@@ -175,19 +172,19 @@ def driver_values(scene: Mechanism, at: At) -> dict[str, float] | None:
     if at is None:
         return None
     if not scene.drivers:
-        raise CallError(Problem("at", Phrase("the scene has no driver"), Phrase("give one in the file")))
+        raise CallError.of("at", "the scene has no driver", "give one in the file")
     if isinstance(at, str):
         if scene.question.positions is None:
-            wanted = Phrase("give a value of driver at 75 or", key=scene.drivers[0].key)
-            raise CallError(Problem(f'position "{at:.40}"', Phrase("the scene has no positions table"), wanted))
+            raise CallError.of(f'position "{at:.40}"', "the scene has no positions table",
+                               "give a value of driver at 75 or", key=scene.drivers[0].key)
         return {scene.drivers[0].key: value_at(scene, at)}
     given = dict(at) if isinstance(at, Mapping) else {scene.drivers[0].key: at}
     values: dict[str, float] = {}
     for name, value in given.items():
         driver = _driver(scene, str(name))
         if not isinstance(value, Real) or abs(value) > 1e9 or not math.isfinite(value):
-            said = Phrase("is no driver value of value", value=f'{value!r:.60}')
-            raise CallError(Problem(f"at {name}", said, Phrase("give a finite number below 1e9")))
+            raise CallError.of(f"at {name}", "is no driver value of value", "give a finite number below 1e9",
+                               value=f'{value!r:.60}')
         values[driver.key] = math.radians(value) if driver.turns else value * scene.units.metres
     return values
 
@@ -207,12 +204,10 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
         return scene, driver_values(scene, at)
     if isinstance(at, Mapping) and TIME in at and all(d.key != TIME for d in scene.drivers):
         if len(at) > 1:
-            raise CallError(
-                Problem(f"at {TIME}", Phrase("stands beside driver values"), Phrase("give the time or values"))
-            )
+            raise CallError.of(f"at {TIME}", "stands beside driver values", "give the time or values")
         time = at[TIME]
         if not isinstance(time, Real) or not math.isfinite(time):
-            raise CallError(Problem(f"at {TIME}", Phrase("is no time", time=f'{time!r}'), Phrase("give seconds")))
+            raise CallError.of(f"at {TIME}", "is no time", "give seconds", time=f'{time!r}')
         from graphkin.scene.drivers import at_time
 
         return at_time(scene, float(time))
@@ -224,10 +219,8 @@ def placed(scene: Mechanism, at: At) -> tuple[Mechanism, dict[str, float] | None
             moment = law.reached(value)
             if moment is None:
                 low, high = (scene.unit_of(driver).said(end) for end in law.span)
-                found = Phrase("is not on its way", value=scene.unit_of(driver).said(value))
-                raise CallError(
-                    Problem(f"at {driver.key}", found, Phrase("its law goes from to", least=low, greatest=high))
-                )
+                raise CallError.of(f"at {driver.key}", "is not on its way", "its law goes from to",
+                                   value=scene.unit_of(driver).said(value), least=low, greatest=high)
             driver = driver.moving(replace(law, time=moment))
         drivers.append(driver)
     return replace(scene, drivers=tuple(drivers)), values
@@ -246,7 +239,7 @@ def value_at(scene: Mechanism, name: str) -> float:
     known = scene.question.positions.names if scene.question.positions else ()
     if name not in known:
         wanted = did_you_mean(name, known) if known else Phrase("name positions in positions")
-        raise CallError(Problem(Phrase("position", name=name), Phrase("there is no position of that name"), wanted))
+        raise CallError.of(Phrase("position", name=name), "there is no position of that name", wanted)
     places = named_positions(scene)
     assert places is not None
     return places.values[name]
@@ -256,9 +249,7 @@ def _driver(scene: Mechanism, name: str) -> Driver:
     for driver in scene.drivers:
         if name == driver.key or name == driver.key.split("/")[0]:
             return driver
-    raise CallError(
-        Problem(f"at {name}", Phrase("no driver of that name"), did_you_mean(name, [d.key for d in scene.drivers]))
-    )
+    raise CallError.of(f"at {name}", "no driver of that name", did_you_mean(name, [d.key for d in scene.drivers]))
 
 
 def passed_words(scene: Mechanism, passed: Iterable[ChangePoint]) -> list[Phrase]:
@@ -290,7 +281,7 @@ def asked_symbols(scene: Mechanism, find: str | Symbol | Iterable[str | Symbol] 
         known = scene.question.positions.names if scene.question.positions else ()
         if symbol.at and symbol.at not in known:
             wanted = did_you_mean(symbol.at, known) if known else Phrase("name positions in positions")
-            problems.append(Problem(f"find {symbol}", Phrase("there is no position", at=symbol.at), wanted))
+            problems.append(Problem(f"find {symbol}", "there is no position", wanted, at=symbol.at))
         problems += _unknown_names(scene, symbol)
         found.append(symbol)
     if problems:
@@ -320,14 +311,14 @@ def hand_of(scene: Mechanism, name: str, seed: int) -> Instrument:
     from graphkin.construction import EXACT, cad, pencil
 
     if not isinstance(name, str):
-        raise unfit("instrument", name, Phrase("known here", names=", ".join(INSTRUMENTS)))
+        raise unfit("instrument", name, "known here", names=", ".join(INSTRUMENTS))
     if name == "exact":
         return EXACT
     if name == "cad":
         return cad()
     if name == "pencil":
         return pencil(scene.question.sheet.tools, whole_number("seed", seed, -MOST_SEED, MOST_SEED))
-    raise CallError(Problem("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS)))
+    raise CallError.of("instrument", f'"{name}"', did_you_mean(str(name), INSTRUMENTS))
 
 
 def quantity_shown(scene: Mechanism, name: str) -> Quantity:

@@ -294,9 +294,7 @@ def audit(
     given = as_scene(scene)
     known_words(language=language)
     if answers is None and not given.question.stated and not given.question.scans:
-        raise CallError.of(
-            "printed", Phrase("the scene has no printed values"), Phrase("write them in printed or give answers as")
-        )
+        raise CallError.of("printed", "the scene has no printed values", "write them in printed or give answers as")
     scans = _scanned(given, at) if given.question.scans and answers is None else ()
     scheme = scheme_of(given, grading)
     people, unused = (_stated(given), ()) if answers is None else as_answers(given, answers)
@@ -345,8 +343,8 @@ def _problems(
     if not named:
         return {"": scene}
     if variants is None:
-        raise CallError(Problem("variant", Phrase("the answers name variants", named=', '.join(named)[:80]),
-                                Phrase("give the folder of the problem set variants")))  # fmt: skip
+        raise CallError.of("variant", "the answers name variants", "give the folder of the problem set variants",
+                           named=', '.join(named)[:80])
     found: dict[str, SceneLike] = {}
     if isinstance(variants, Mapping):
         found = {str(name): one for name, one in variants.items()}
@@ -359,9 +357,8 @@ def _problems(
     for name in named:
         key = name if name in found else plain.get(name.lstrip("0") or "0")
         if key is None:
-            problems.append(
-                Problem(Phrase("variant of name", name=name), Phrase("is not in the set"), did_you_mean(name, found))
-            )
+            problems.append(Problem(Phrase("variant of name", name=name), "is not in the set",
+                                    did_you_mean(name, found)))
         else:
             made[name] = made[key]
     if problems:
@@ -517,8 +514,8 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     """
     weights = given if given is not None else scene.question.grading
     if not isinstance(weights, Mapping):
-        wanted = Phrase("give points by parts and symbols drawing 30")
-        raise CallError.of("grading", Phrase("found value", value=f'{weights!r:.60}'), wanted)
+        raise CallError.of("grading", "found value", "give points by parts and symbols drawing 30",
+                           value=f'{weights!r:.60}')
     if not weights:
         return None
     spelling = spelling_of(scene)
@@ -528,18 +525,14 @@ def scheme_of(scene: Mechanism, given: Mapping[str, float] | None) -> Scheme | N
     for name, weight in weights.items():
         symbol = spelling.symbol(str(name))
         if isinstance(weight, bool) or not isinstance(weight, Real) or not 0 <= weight < 1e6:
-            problems.append(
-                Problem(
-                    f"grading {name}", Phrase("found value", value=f"{weight!r:.40}"), Phrase("give points 0 or more")
-                )
-            )
+            problems.append(Problem(f"grading {name}", "found value", "give points 0 or more", value=f"{weight!r:.40}"))
         elif name in PARTS:
             parts[name] = float(weight)
         elif symbol is not None:
             symbols[symbol] = float(weight)
         else:
-            problems.append(Problem(f"grading {name}", Phrase("is no part and no quantity of the"),
-                                    Phrase("or a symbol such as v_d", names=', '.join(PARTS))))  # fmt: skip
+            problems.append(Problem(f"grading {name}", "is no part and no quantity of the", "or a symbol such as v_d",
+                                    names=', '.join(PARTS)))
     if problems:
         raise CallError(*problems)
     return Scheme(parts, symbols)

@@ -15,7 +15,7 @@ from graphkin.api.arguments import ON_SHEETS, SceneLike, for_paper, known_words
 from graphkin.api.results import OfScene, Result
 from graphkin.checking.closed_form import CamPoints, compare_cam
 from graphkin.construction.cam_sheet import CamSheet
-from graphkin.errors import CallError, Problem, unfit
+from graphkin.errors import CallError, unfit
 from graphkin.files import Json
 from graphkin.scene.cams import LawCam, SwingingFollower
 from graphkin.scene.model import Mechanism
@@ -371,12 +371,11 @@ def cam(
 
     known_words(formats, language, None, known_languages=ON_SHEETS)
     if isinstance(step, bool) or not isinstance(step, int | float) or not FINEST <= step <= COARSEST:
-        raise unfit("step", step, Phrase("degrees from to", finest=f"{FINEST:g}", coarsest=f"{COARSEST:g}"))
+        raise unfit("step", step, "degrees from to", finest=f"{FINEST:g}", coarsest=f"{COARSEST:g}")
     given = for_paper(scene)
     discs = disc_cams(structure_of(given))
     if not given.cams and not discs:
-        wanted = Phrase("a cam is told by its law in")
-        raise CallError(Problem(given.name or "scene", Phrase("has no cam"), wanted))
+        raise CallError.of(given.name or "scene", "has no cam", "a cam is told by its law in")
     made = Cams(given, cam_made(given), discs, float(step), language)
     if out is not None:
         made.write(out, formats)

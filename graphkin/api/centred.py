@@ -36,7 +36,7 @@ from graphkin.construction.centre_speeds import (
 )
 from graphkin.construction.centres import Centre, Centres, LinkPair, find_centres, normal, wedge
 from graphkin.construction.scales import Room
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol, Value
@@ -306,9 +306,7 @@ class Centred(OfScene, Result):
         taken = {str(v.symbol): v for v in self.velocities}
         if found is None and name not in taken:
             known = [_name(pair) for pair in self.centres.table] + list(taken)
-            raise CallError(
-                Problem(f'"{name}"', Phrase("no centre or velocity of this name"), did_you_mean(name, known))
-            )
+            raise CallError.of(f'"{name}"', "no centre or velocity of this name", did_you_mean(name, known))
         if found is None:
             return taken[name].in_units(self.mechanism)
         where = self.where(found)

@@ -16,7 +16,7 @@ from graphkin.api.centred import found_centres
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result
 from graphkin.construction.centres import Centres
-from graphkin.errors import CallError, Problem, as_text, did_you_mean
+from graphkin.errors import CallError, as_text, did_you_mean
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.words import Phrase
@@ -169,12 +169,11 @@ def centrodes(
     curves = centrode(motion, link)
     turning = np.abs(motion.omega(link)[motion.ok])
     if not len(turning) or turning.max() <= STILL * max(abs(d.values[1]) for d in given.drivers):
-        raise CallError(Problem(f"centrode {link}", Phrase("the link never turns its centre is always"),
-                                Phrase("name a link that turns")))
+        raise CallError.of(f"centrode {link}", "the link never turns its centre is always", "name a link that turns")
     good = curves.fixed[np.isfinite(curves.fixed)]
     if np.abs(good - good[0]).max() <= STILL * given.size:
-        raise CallError(Problem(f"centrode {link}", Phrase("the link turns about a fixed pivot its"),
-                                Phrase("name a link with no fixed pivot")))
+        raise CallError.of(f"centrode {link}", "the link turns about a fixed pivot its",
+                           "name a link with no fixed pivot")
     centroded = Centroded(found_centres(given, values), motion, curves, link, point, language, convention)
     if out is not None:
         centroded.write(out, formats)
@@ -185,13 +184,8 @@ def _check_names(scene: Mechanism, link: str, point: str) -> None:
     as_text("point", point)
     names = [n.name for n in scene.links if not n.redundant]
     if as_text("link", link) not in names:
-        raise CallError(
-            Problem(f"centrode {link}", Phrase("there is no moving link", link=link), did_you_mean(link, names))
-        )
+        raise CallError.of(f"centrode {link}", "there is no moving link", did_you_mean(link, names), link=link)
     points = scene.by_name[link].points
     if point and point not in points:
-        raise CallError(
-            Problem(
-                Phrase("point", point=point), Phrase("link has no such point", link=link), did_you_mean(point, points)
-            )
-        )
+        raise CallError.of(Phrase("point", point=point), "link has no such point", did_you_mean(point, points),
+                           link=link)

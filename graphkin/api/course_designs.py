@@ -222,11 +222,11 @@ def course_design(
     given = for_paper(scene)
     asked_symbols(given, find)
     if students is not None and at is not None:
-        raise CallError.of("at", Phrase("beside students"), Phrase("write each position into the table of the"))
+        raise CallError.of("at", "beside students", "write each position into the table of the")
     count = 12 if positions is None else whole_number("positions", positions, 2, 72)
     spoken, letters = language or given.question.sheet.language, convention or given.question.sheet.convention
     if rows is not None and variants is not None:
-        raise CallError.of("variants", Phrase("beside rows"), Phrase("give one of them"))
+        raise CallError.of("variants", "beside rows", "give one of them")
     sources: Mapping[str, SceneLike] = {"": scene}
     data: tuple[tuple[str, ...], ...] = ()
     if rows is not None:
@@ -361,8 +361,8 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         if head.strip().lower() in names
     }  # fmt: skip
     if "name" not in columns and "id" not in columns:
-        found = Phrase("no column of names", names=', '.join(table.heads)[:200])
-        raise CallError.of(str(students), found, Phrase("write a head name or id"))
+        raise CallError.of(str(students), "no column of names", "write a head name or id",
+                           names=', '.join(table.heads)[:200])
     problems: list[Problem] = []
     head = table.heads[columns["scheme"]].strip().lower() if "scheme" in columns else ""
     may_be_groups = len(course) == 1 and head in GROUPS
@@ -379,27 +379,21 @@ def dealt_out(students: str | os.PathLike[str], course: Mapping[str, Scheme]) ->
         who = Student(**{role: cells[i] if i < len(cells) else "" for role, i in columns.items()})
         where = Phrase("line of students and line", students=students, line=line)
         if who.scheme and who.scheme not in course and not may_be_groups:
-            problems.append(
-                Problem(where, Phrase("there is no scheme", scheme=who.scheme), did_you_mean(who.scheme, course))
-            )
+            problems.append(Problem(where, "there is no scheme", did_you_mean(who.scheme, course), scheme=who.scheme))
             continue
         known = course[scheme_name(course, who)].places if who.scheme or len(course) == 1 else None
         all_known = dict.fromkeys(n for one in course.values() for n in one.places) if known is None else known
         if who.place and who.place not in all_known:
-            problems.append(
-                Problem(where, Phrase("there is no position", at=who.place), did_you_mean(who.place, all_known))
-            )
+            problems.append(Problem(where, "there is no position", did_you_mean(who.place, all_known), at=who.place))
             continue
         if who.place and known is not None and not known[who.place].read:
-            problems.append(
-                Problem(where, Phrase("position cannot be drawn", place=who.place), Phrase("give another one"))
-            )
+            problems.append(Problem(where, "position cannot be drawn", "give another one", place=who.place))
         listed.append(who)
     if problems:
         raise CallError(*problems)
     free = {name: [p for p, v in one.places.items() if v.read] for name, one in course.items()}
     if not any(free.values()):
-        raise CallError.of("positions", Phrase("none of them can be drawn"), Phrase("give others in positions"))
+        raise CallError.of("positions", "none of them can be drawn", "give others in positions")
     taken: dict[str, list[str]] = {}
     for who in listed:
         if who.place:

@@ -33,7 +33,7 @@ from graphkin.construction.limits import TurnOfCrank
 from graphkin.construction.sheet import LimitPosition, Sheet
 from graphkin.drawing.figures import figure_kinds
 from graphkin.drawing.figures.positions import Shown
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable, as_list, unfit
+from graphkin.errors import CallError, GraphkinError, Unsolvable, as_list, unfit
 from graphkin.files import Json
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
@@ -429,8 +429,8 @@ def sheets_beside(
     known = scene.question.positions.names if scene.question.positions else ()
     wished = wished or tuple(n for n in known if n in named or ("all" in named and n.isdigit()))
     if len(wished) < 2:
-        wanted = Phrase("name two or more beside 1 beside 7")
-        raise CallError(Problem("figure polygons", Phrase("shows several positions beside each other"), wanted))
+        raise CallError.of("figure polygons", "shows several positions beside each other",
+                           "name two or more beside 1 beside 7")
     asked = tuple(s for s in scene.question.find if s.scope == "motion" and not s.at)
     sheets = []
     for name in map(str, wished):

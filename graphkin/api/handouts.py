@@ -23,7 +23,7 @@ from graphkin.api.arguments import (
 )
 from graphkin.api.checked import solved_here
 from graphkin.api.results import OfScene, Result, named
-from graphkin.errors import CallError, Problem, as_list
+from graphkin.errors import CallError, as_list
 from graphkin.files import Json, path_of
 from graphkin.papers.documents import KeyRow, key_rows
 from graphkin.papers.exports import PLATFORMS, Question, files_for, question_of
@@ -173,9 +173,7 @@ def handout(
     given = for_paper(scene)
     count = usual_count(given) if positions is None else whole_number("positions", positions, 1, 72)
     if count > 1 and moves_by_law(given):
-        raise CallError(
-            Problem("positions", Phrase("found value", value=count), Phrase("a driver that moves by a law stands"))
-        )
+        raise CallError.of("positions", "found value", "a driver that moves by a law stands", value=count)
     asked = asked_symbols(given, find)
     given, values = placed(given, at)
     motion = solved_here(given, values)
@@ -209,7 +207,7 @@ def papers_of(
 def known_platforms(exports: Sequence[str]) -> tuple[str, ...]:
     """Names of learning platforms, each once.  Raises CallError for an unknown one."""
     if isinstance(exports, str):
-        raise CallError.of("export", Phrase("is a text", formats=exports), Phrase("give a list", formats=exports))
+        raise CallError.of("export", "is a text", "give a list", formats=exports)
     named = as_list("export", exports, Phrase("give a list of", names=", ".join(PLATFORMS)))
     if wrong := unknown_words("export", named, PLATFORMS):
         raise CallError(*wrong)

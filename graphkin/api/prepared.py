@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphkin.api.arguments import SceneLike, as_scene, quantity_shown
 from graphkin.api.results import OfScene, Tabled
-from graphkin.errors import CallError, Problem, as_list, as_text, did_you_mean, unfit
+from graphkin.errors import CallError, as_list, as_text, did_you_mean, unfit
 from graphkin.scene.model import Mechanism
 from graphkin.scene.scene import written
 from graphkin.scene.symbol import Symbol
@@ -44,13 +44,7 @@ def driver_value(value: object) -> float:
     """A value of a driver as a caller gives it.  Raises CallError for what is no number."""
     if isinstance(value, Real) and not isinstance(value, bool) and abs(number := float(value)) <= MOST_VALUE:
         return number
-    raise CallError(
-        Problem(
-            "at",
-            Phrase("is no driver value of value", value=f"{value!r:.60}"),
-            Phrase("give a finite number below 1e9"),
-        )
-    )
+    raise CallError.of("at", "is no driver value of value", "give a finite number below 1e9", value=f"{value!r:.60}")
 
 
 def _have_numba() -> bool:
@@ -92,7 +86,7 @@ class Prepared(Tabled, OfScene):
         """Place of a quantity among those asked for.  Raises CallError for another one."""
         if name not in self.units:
             known = [*self.units, *self.names]
-            raise CallError(Problem(f'"{name}"', Phrase("was not asked for"), did_you_mean(name, known)))
+            raise CallError.of(f'"{name}"', "was not asked for", did_you_mean(name, known))
         return list(self.units).index(name)
 
     @cached_property
@@ -143,12 +137,10 @@ class Prepared(Tabled, OfScene):
         try:
             own = np.atleast_1d(np.asarray(values, dtype=float)).reshape(-1)
         except (TypeError, ValueError):
-            raise unfit("values", values, Phrase("give numbers one for each position")) from None
+            raise unfit("values", values, "give numbers one for each position") from None
         wrong = own[~(np.abs(own) <= MOST_VALUE)]
         if len(wrong):
-            raise CallError(
-                Problem("values", Phrase("found value", value=f"{wrong[0]:g}"), Phrase("give finite numbers below 1e9"))
-            )
+            raise CallError.of("values", "found value", "give finite numbers below 1e9", value=f"{wrong[0]:g}")
         return self.samples(*self.ready.columns(own * self.own_unit.si, fast=self.compiled(len(own))), own)
 
     def sweep(self, n: int, out: Reals | None = None) -> Samples:
@@ -177,10 +169,10 @@ class Prepared(Tabled, OfScene):
     def _fitting(self, n: int, out: Reals) -> None:
         shape = self.ready.rows, n
         if not isinstance(out, np.ndarray):
-            raise unfit("out", out, Phrase("give an array of floats of the shape", shape=shape))
+            raise unfit("out", out, "give an array of floats of the shape", shape=shape)
         if out.shape != shape or out.dtype != float or not out.flags.c_contiguous:
             wanted = Phrase("give an array of floats of the shape in", shape=shape)
-            raise CallError(Problem("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted))
+            raise CallError.of("out", Phrase("of the shape", dtype=out.dtype, shape=out.shape), wanted)
 
     @cached_property
     def _plain(self) -> bool:
@@ -191,13 +183,8 @@ class Prepared(Tabled, OfScene):
     def allowed(n: int) -> None:
         """Raises CallError where n is no number of positions."""
         if isinstance(n, bool) or not isinstance(n, Integral) or not 1 <= n <= MOST:
-            raise CallError(
-                Problem(
-                    "sweep",
-                    Phrase("positions of number", number=f"{n!r:.60}"),
-                    Phrase("give a whole number from 1 to", most=MOST),
-                )
-            )
+            raise CallError.of("sweep", "positions of number", "give a whole number from 1 to", number=f"{n!r:.60}",
+                               most=MOST)
 
     def over(self, designs: Mapping[str, ArrayLike]) -> PreparedDesigns:
         """The same mechanism with other dimensions, nothing read or analysed again: for an optimiser's inner loop.
@@ -217,15 +204,14 @@ class Prepared(Tabled, OfScene):
         from graphkin.study.designs import design_keys
 
         if self.ready.loads:
-            found = Phrase("forces are not given over designs", loads=', '.join(self.ready.loads))
-            raise CallError(Problem("over", found, Phrase("prepare each design or sweep over designs")))
+            raise CallError.of("over", "forces are not given over designs", "prepare each design or sweep over designs",
+                               loads=', '.join(self.ready.loads))
         try:
             values = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in designs.values()))
         except (AttributeError, TypeError, ValueError):
             values = ()
         if not values or values[0].ndim > 1 or not values[0].size:
-            wanted = Phrase("give one number or a list for each")
-            raise CallError(Problem("designs", Phrase("are no numbers for each key"), wanted))
+            raise CallError.of("designs", "are no numbers for each key", "give one number or a list for each")
         keys = tuple(as_text("designs", key) for key in designs)
         if keys not in self._keys:
             self._keys[keys] = design_keys(written(self.source)[0], self.mechanism, keys)
@@ -312,7 +298,7 @@ class Samples(Tabled):
         """How far rounding may have moved a quantity, shape (n,), in its unit: both components of a vector; infinite
         where nothing is known.  Raises CallError where bounds were not asked for."""
         if self._bounds is None:
-            raise CallError(Problem("bound", Phrase("no bounds were asked for"), Phrase("prepare with bounds true")))
+            raise CallError.of("bound", "no bounds were asked for", "prepare with bounds true")
         return np.asarray(self._bounds[self.prepared.place(name)])
 
     @property
@@ -496,13 +482,8 @@ def prepare(
     wanted = Phrase("name quantities for example v_c omega_3")
     asked = tuple(str(name) for name in ([find] if isinstance(find, Symbol) else as_list("find", find, wanted)))
     if not isinstance(bounds, bool) or not (fast is None or isinstance(fast, bool)):
-        raise CallError(
-            Problem(
-                "bounds, fast",
-                Phrase("found of bounds and fast", bounds=f"{bounds!r:.40}", fast=f"{fast!r:.40}"),
-                Phrase("give true or false"),
-            )
-        )
+        raise CallError.of("bounds, fast", "found of bounds and fast", "give true or false", bounds=f"{bounds!r:.40}",
+                           fast=f"{fast!r:.40}")
     if not asked:
-        raise CallError(Problem("find", Phrase("asks for nothing"), Phrase("name quantities for example v_c omega_3")))
+        raise CallError.of("find", "asks for nothing", "name quantities for example v_c omega_3")
     return Prepared(scene, asked, fast, solver.prepare(given, asked, given.units.per_si, bounds))

@@ -164,13 +164,13 @@ def problem_set(
     SceneError, CallError : the scene, the table or the call is wrong
     """
     if (variants is None) == (rows is None):
-        raise CallError.of("variants", Phrase("neither or both of variants and rows"), Phrase("give one of them"))
+        raise CallError.of("variants", "neither or both of variants and rows", "give one of them")
     known_words(language=language, known_languages=ON_SHEETS)
     require_callable("render", render)
     require_callable("progress", progress)
     workers = known_workers(executor, workers)
     if spread is not None and not isinstance(spread, Spread):
-        raise CallError.of("spread", Phrase("found value", value=f'{spread!r:.60}'), Phrase("give a spread"))
+        raise CallError.of("spread", "found value", "give a spread", value=f'{spread!r:.60}')
     source, name = _source(scene)
     if find is not None:
         source["find"] = [str(s) for s in asked_symbols(as_scene(source), find)]
@@ -241,7 +241,7 @@ def _jobs(
         rules_checked(source)
         asked_symbols(as_scene(source), (source.get("vary") or {}).get("find", ()))
         if not varied_keys(source):
-            raise CallError.of("variants", Phrase("nothing in the scene can vary"), Phrase("give lengths and a driver"))
+            raise CallError.of("variants", "nothing in the scene can vary", "give lengths and a driver")
         spread = spread if spread.reach else replace(spread, reach=_reach(as_scene(source)))
         return jobs_of_seed(source, count, whole_number("seed", seed, -MOST_SEED, MOST_SEED), spread), ()
     table, columns = _data_of(source, rows)
@@ -265,8 +265,8 @@ def _data_of(source: Tables, rows: str | os.PathLike[str]) -> tuple[Rows, Column
     table = with_points(table_of(rows))
     columns = columns_of(source, table.heads)
     if not columns.data:
-        raise CallError.of(str(rows), Phrase("no column is a datum of the scene", names=', '.join(table.heads)[:200]),
-                           Phrase("write heads like links.1.length o4b n2 or phi1"))  # fmt: skip
+        raise CallError.of(str(rows), "no column is a datum of the scene",
+                           "write heads like links.1.length o4b n2 or phi1", names=', '.join(table.heads)[:200])
     return table, columns
 
 

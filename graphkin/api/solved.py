@@ -300,7 +300,7 @@ def solve(
     if count is None or not moves_by_law(given):
         given, values = placed(given, at)
     elif at is not None:
-        raise CallError(Problem("sweep", Phrase("stands beside at"), Phrase("a sweep goes over the whole time of")))
+        raise CallError.of("sweep", "stands beside at", "a sweep goes over the whole time of")
     solved = Solved(solver.structure_of(given), values, count)
     names = () if find is None else _known(solved.first, find)
     _ = solved.first.motion

@@ -345,7 +345,7 @@ def sweep(
     require_callable("progress", progress)
     positions = None if positions is None else whole_number("positions", positions, 1, MOST_POSITIONS)
     if executor is not None and scheduler is not None:
-        raise CallError(Problem("executor", Phrase("is given beside a scheduler"), Phrase("give one of them")))
+        raise CallError.of("executor", "is given beside a scheduler", "give one of them")
     workers = known_workers(executor, workers)
     wishes = {
         name: [as_text(name, one) for one in as_list(name, names, Phrase("give names s_6 1"))]
@@ -374,9 +374,7 @@ def sweep(
         for way, name in on_paper:
             known_ordinate(given, name, way)
         if made.keys:
-            raise CallError(
-                Problem("differentiate, integrate", Phrase("do not go with designs"), Phrase("give one design"))
-            )
+            raise CallError.of("differentiate, integrate", "do not go with designs", "give one design")
     elsewhere = () if measured is None else _elsewhere(given, measured)
     if find is None and elsewhere:
         find = list(dict.fromkeys(symbol for symbol, *_ in elsewhere))
@@ -384,7 +382,7 @@ def sweep(
     spoken = language or given.question.sheet.language
     if out is None:
         if over.numbers > IN_MEMORY:
-            raise CallError(Problem("sweep", Phrase("rows", number=over.rows), Phrase("give a folder out or o")))
+            raise CallError.of("sweep", "rows", "give a folder out or o", number=over.rows)
         arrays = None if made.keys else over.base.arrays(positions)
         if arrays is not None:
             good = int(np.count_nonzero(arrays[1]))
@@ -422,9 +420,7 @@ def _elsewhere(scene: Mechanism, measured: AnswersLike) -> tuple[tuple[Symbol, f
 
     rows, _ = as_answers(scene, measured)
     if any(row.at is None for row in rows):
-        raise CallError(
-            Problem("measured", Phrase("has no column at"), Phrase("write the driver's value of each row under"))
-        )
+        raise CallError.of("measured", "has no column at", "write the driver's value of each row under")
     places = [(driver_values(scene, row.at) or {})[scene.drivers[0].key] for row in rows]
     signed = {one.symbol for row in rows for one in row.values if one.shows_sign}
     signed -= {one.symbol for row in rows for one in row.values if isinstance(one.value, complex)}
@@ -452,9 +448,7 @@ def _asked(scene: Mechanism, find: Iterable[str | Symbol] | None) -> tuple[Quant
     for name in [find] if isinstance(find, Symbol) else as_list("find", find, Phrase("give symbols v_b omega_3")):
         named = named_quantity(scene, name) if isinstance(name, str) else None
         if isinstance(name, str) and name.startswith(OF_TURN):
-            problems.append(
-                Problem(f"find {name}", Phrase("is of the whole turn no column"), Phrase("it stands in the summary"))
-            )
+            problems.append(Problem(f"find {name}", "is of the whole turn no column", "it stands in the summary"))
             continue
         try:
             found += [named] if named is not None else map(symbol_quantity, asked_symbols(scene, [name]))

@@ -65,7 +65,7 @@ def answer(desk: Desk, message: object) -> Answer:
     head = {"id": number} if isinstance(number, int | str) else {}
     try:
         if not isinstance(message, Mapping):
-            raise CallError.of("question", Phrase("found value", value=f"{message!r:.40}"), Phrase("send an object"))
+            raise CallError.of("question", "found value", "send an object", value=f"{message!r:.40}")
         name = message.get("do")
         if not isinstance(name, str) or name not in QUESTIONS:
             raise CallError.of("question", f'"{name!s:.40}"', did_you_mean(f"{name!s:.40}", QUESTIONS))
@@ -197,7 +197,7 @@ _NEEDED: Mapping[str, tuple[str | Phrase, Phrase]] = {
 def _refused(key: str, value: object) -> Problem:
     """What of a message is not as its question needs it."""
     where, needed = _NEEDED.get(key, (key, ""))
-    return Problem(where, Phrase("found value", value=f"{value!r:.60}"), needed)
+    return Problem(where, "found value", needed, value=f"{value!r:.60}")
 
 
 def _show(desk: Desk, asked: Message) -> Answer:
@@ -319,13 +319,13 @@ def _export(desk: Desk, asked: Message) -> Answer:
         drawn, _ = pictures.drawn_at(solver.structure_of(scene), asked.at, options)
         figures = drawn.figures
         if not figures:
-            raise CallError.of("figure", Phrase("there is nothing to draw"), Phrase("choose another figure"))
+            raise CallError.of("figure", "there is nothing to draw", "choose another figure")
         name, figure = next(iter(figures.items()))
         return _file(f"{scene.name}-{name}.{kind}", figure.content(kind))
     if kind == "scene":
         return _file(f"{scene.name}.toml", asked.text.encode())
     if kind not in ("papers", "variants"):
-        raise CallError.of("kind", f'"{kind!s:.40}"', Phrase("known here svg pdf png dxf papers variants"))
+        raise CallError.of("kind", f'"{kind!s:.40}"', "known here svg pdf png dxf papers variants")
     with tempfile.TemporaryDirectory() as folder:
         _papers(scene, asked, options, Path(folder))
         return _file(f"{scene.name}-{kind}.zip", _packed(Path(folder)))
@@ -378,9 +378,8 @@ def text_of_link(link: str) -> str:
             raise ValueError
         return text.decode()
     except (ValueError, zlib.error):
-        raise CallError(
-            Problem("link", Phrase("carries no scene", link=link[:40]), Phrase("a link begins with", link=LINK))
-        ) from None
+        raise CallError.of("link", "carries no scene", Phrase("a link begins with", link=LINK),
+                           link=link[:40]) from None
 
 
 def _link(desk: Desk, asked: Message) -> Answer:

@@ -13,7 +13,7 @@ import math
 from collections.abc import Callable, Mapping
 
 from graphkin.board.scene_text import changed
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, did_you_mean
 from graphkin.files import OwnTables, Tables
 from graphkin.plane import cross, degrees, dot
 from graphkin.scene.model import Driver, Mechanism
@@ -122,7 +122,7 @@ def _points(made: Tables) -> set[str]:
 def _at(step: Step, key: str) -> list[float]:
     value = step.get(key)
     if not isinstance(value, list) or not _place(value):
-        raise CallError.of(key, Phrase("found value", value=f"{value!r:.60}"), Phrase("give a place x y or the name"))
+        raise CallError.of(key, "found value", "give a place x y or the name", value=f"{value!r:.60}")
     return [_round(x) for x in value]
 
 
@@ -139,9 +139,7 @@ def _end(
         spots = draft(made)["points"]
         if value not in spots:
             shown = value[:40]
-            raise CallError(
-                Problem(Phrase("point", point=shown), Phrase("has no place in the sketch"), did_you_mean(shown, spots))
-            )
+            raise CallError.of(Phrase("point", point=shown), "has no place in the sketch", did_you_mean(shown, spots))
         return value, [float(x) for x in spots[value]]
     place = _at(step, key)
     taken = {name.split(".")[1] for name in changes if name.startswith("sketch.")}
@@ -153,9 +151,7 @@ def _end(
 def _link_of(made: Tables, step: Step, key: str) -> str:
     name, links = str(step.get(key, "")), _tables(made, "links")
     if name not in links:
-        raise CallError(
-            Problem(Phrase("link", name=name[:40]), Phrase("there is no such link"), did_you_mean(name[:40], links))
-        )
+        raise CallError.of(Phrase("link", name=name[:40]), "there is no such link", did_you_mean(name[:40], links))
     return name
 
 
@@ -175,7 +171,7 @@ def _bar(made: Tables, step: Step) -> OwnTables:
     (one, p), (other, q) = _end(made, step, "from", changes), _end(made, step, "to", changes)
     long = math.dist(p, q)
     if one == other or long == 0.0:
-        raise CallError.of("bar", Phrase("begins and ends in the same place"), Phrase("pull it to another place"))
+        raise CallError.of("bar", "begins and ends in the same place", "pull it to another place")
     return {f"links.{next_link(made)}": {"points": [one, other], "length": _round(long)}, **changes}
 
 
@@ -185,9 +181,7 @@ def _point_on(made: Tables, step: Step) -> OwnTables:
     own = _list(made["links"][name].get("points"))
     spots = draft(made)["points"]
     if len(own) < 2 or any(p not in spots for p in own):
-        raise CallError.of(
-            Phrase("link of name", name=name), Phrase("has no axis of its own"), Phrase("give it two points first")
-        )
+        raise CallError.of(Phrase("link of name", name=name), "has no axis of its own", "give it two points first")
     origin, end = (complex(*spots[p]) for p in own)
     along = (end - origin) / abs(end - origin)
     z = (complex(*place) - origin) / along
@@ -204,7 +198,7 @@ def _slider(made: Tables, step: Step) -> OwnTables:
     guide = next(name for name in ("h", *(f"h{n}" for n in range(2, 1000))) if name not in guides)
     angle = float(step.get("angle", 0.0) or 0.0)
     if not math.isfinite(angle):
-        raise CallError.of("angle", Phrase("found value", value=angle), Phrase("give degrees"))
+        raise CallError.of("angle", "found value", "give degrees", value=angle)
     return {
         f"frame.guides.{guide}": {"through": place, "angle": _round(angle)},
         f"links.{next_link(made)}": {"points": [point], "on": f"{fixed}.{guide}"}, **changes,
@@ -230,7 +224,7 @@ def _pin(made: Tables, step: Step) -> OwnTables:
     point = str(step.get("point", ""))
     if point not in _points(made):
         near = did_you_mean(point[:40], _points(made))
-        raise CallError.of(Phrase("point", point=point[:40]), Phrase("there is no such point"), near)
+        raise CallError.of(Phrase("point", point=point[:40]), "there is no such point", near)
     return {f"pins.{point}": {"of": _link_of(made, step, "of"), "in": _link_of(made, step, "link")}}
 
 
@@ -243,8 +237,8 @@ def _drive(made: Tables, step: Step) -> OwnTables:
     if len(own) < 2:
         on = link.get("on")
         if not own or not isinstance(on, str) or not on.startswith(f"{fixed}."):
-            raise CallError.of(Phrase("link of name", name=name), Phrase("has no axis that could be driven"),
-                               Phrase("drive a bar or a slider"))  # fmt: skip
+            raise CallError.of(Phrase("link of name", name=name), "has no axis that could be driven",
+                               "drive a bar or a slider")
         guide = _tables(made["frame"], "guides").get(on.partition(".")[2], {})
         through = guide.get("through", [0.0, 0.0])
         start = complex(*spots.get(through, (0, 0))) if isinstance(through, str) else complex(*through)
@@ -265,7 +259,7 @@ def _delete(made: Tables, step: Step) -> OwnTables:
     else:
         point = str(step.get("point", ""))
         if point not in _points(made):
-            raise CallError.of(Phrase("point", point=point[:40]), Phrase("there is no such point"))
+            raise CallError.of(Phrase("point", point=point[:40]), "there is no such point")
         gone = {n for n, link in links.items() if point in _list(link.get("points"))}
         changes |= {f"links.{n}.at.{point}": None for n, link in links.items() if point in _tables(link, "at")}
         if point in _frame(made)[1]:
@@ -351,9 +345,7 @@ def pulled(
     scene = motion.scene
     kinds = movable(scene)
     if point not in kinds:
-        raise CallError.of(
-            Phrase("point", point=point[:60]), Phrase("cannot be pulled"), Phrase("its place follows from the others")
-        )
+        raise CallError.of(Phrase("point", point=point[:60]), "cannot be pulled", "its place follows from the others")
     if point in scene.frame.points:
         return _of_frame(raw, scene, point, to), {}
     if kinds[point] == "driver" and not lengths:
@@ -366,9 +358,7 @@ def pulled(
         if point in link.points:
             changes |= _of_link(raw, motion, link.name, point, to)
     if not changes:
-        raise CallError.of(
-            Phrase("point", point=point), Phrase("has no length that could change"), Phrase("pull another point")
-        )
+        raise CallError.of(Phrase("point", point=point), "has no length that could change", "pull another point")
     return changes, {}
 
 
@@ -377,8 +367,8 @@ def _as_drawn(motion: Motion, point: str, to: complex) -> OwnTables:
     scene = motion.scene
     own = [driver.values[0] for driver in scene.drivers]
     if any(abs(v - o) > 1e-9 * max(1.0, abs(o)) for v, o in zip(motion.values[0], own, strict=True)):
-        raise CallError(Problem(Phrase("point", point=point), Phrase("is given as drawn at the scene's own"),
-                                Phrase("go back to that position to pull it")))
+        raise CallError.of(Phrase("point", point=point), "is given as drawn at the scene's own",
+                           "go back to that position to pull it")
     return {f"drawn.{point}": [_length(scene, to.real), _length(scene, to.imag)]}
 
 

@@ -24,7 +24,7 @@ from graphkin.construction.sheet import Sheet
 from graphkin.construction.steps import DiagramName
 from graphkin.drawing.figures.diagrams import figure_in_motion
 from graphkin.drawing.write.svg import svg_element
-from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.errors import GraphkinError, SceneError, Unsolvable
 from graphkin.files import Json, OwnTables
 from graphkin.papers.html import words_html
 from graphkin.scene.model import Mechanism
@@ -84,8 +84,7 @@ def with_own_files(made: OwnTables, folder: Path | None) -> OwnTables:
             continue
         name = table["file"]
         if folder is None or Path(name).name != name or name.startswith(".") or (folder / name).is_symlink():
-            wanted = Phrase("on this page a scene names files of")
-            raise SceneError(Problem(f"{where}.file", Phrase("found of name", name=name[:60]), wanted))
+            raise SceneError.of(f"{where}.file", "found of name", "on this page a scene names files of", name=name[:60])
         table["file"] = str(folder / name)
     return made
 

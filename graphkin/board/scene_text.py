@@ -35,18 +35,16 @@ def changed(text: str, changes: Mapping[str, Json]) -> str:
 
     parsed(text)  # its sentences name the line
     if len(changes) > MOST_CHANGES:
-        raise CallError(
-            Problem("changes", Phrase("found value", value=len(changes)), Phrase("at most at once", most=MOST_CHANGES))
-        )
+        raise CallError.of("changes", "found value", "at most at once", value=len(changes), most=MOST_CHANGES)
     try:
         document = tomlkit.parse(text)
         for key, value in changes.items():
             _put(document, key, value)
         made = _laid_out(tomlkit.dumps(document), text)
     except (TOMLKitError, TypeError, ValueError, KeyError) as error:
-        raise CallError.of(", ".join(changes)[:80], Phrase("cannot be changed", error=str(error)[:180])) from None
+        raise CallError.of(", ".join(changes)[:80], "cannot be changed", error=str(error)[:180]) from None
     if len(made) > LARGEST_FILE:
-        raise CallError.of(Phrase("the file"), Phrase("would be larger than kb", largest=LARGEST_FILE // 1000))
+        raise CallError.of(Phrase("the file"), "would be larger than kb", largest=LARGEST_FILE // 1000)
     return made
 
 
@@ -67,12 +65,12 @@ def _put(document: Any, key: str, value: Any) -> None:
                 place[part] = tomlkit.inline_table() if short else tomlkit.table(is_super_table=holder)
             place = place[part]
         else:
-            raise CallError.of(key, Phrase("has nothing inside", names='.'.join(parts[:depth])))
+            raise CallError.of(key, "has nothing inside", names='.'.join(parts[:depth]))
     last = parts[-1]
     if isinstance(place, list):
         place[_index(place, last, key)] = value
     elif not hasattr(place, "keys"):
-        raise CallError.of(key, Phrase("has nothing inside", names='.'.join(parts[:-1])))
+        raise CallError.of(key, "has nothing inside", names='.'.join(parts[:-1]))
     elif value is None:
         if last in place:
             del place[last]
@@ -129,9 +127,7 @@ def _laid_out(made: str, before: str) -> str:
 def _index(place: list[Any], part: str, key: str) -> int:
     index = item_of(part, len(place))
     if index is None:
-        raise CallError(
-            Problem(key, Phrase("there is no item", part=part), Phrase("it has counted from 1", count=len(place)))
-        )
+        raise CallError.of(key, "there is no item", "it has counted from 1", part=part, count=len(place))
     return index
 
 

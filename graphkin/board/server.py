@@ -70,7 +70,7 @@ def needs_live() -> None:
 
     missing = [name for name in ("starlette", "uvicorn", "websockets") if not have(name)]
     if missing:
-        raise CallError.of("open", Phrase("needs", missing=', '.join(missing)), 'pip install "graphkin[live]"')
+        raise CallError.of("open", "needs", 'pip install "graphkin[live]"', missing=', '.join(missing))
 
 
 @cache
@@ -203,9 +203,7 @@ def serve(desk: Desk, port: int = 0, ready: Callable[[Address], None] | None = N
         listening.bind(("127.0.0.1", port))
     except (OSError, OverflowError) as error:
         listening.close()
-        raise CallError(
-            Problem("port", Phrase("cannot be used", port=port, error=error), Phrase("give another one or none"))
-        ) from None
+        raise CallError.of("port", "cannot be used", "give another one or none", port=port, error=error) from None
     address = Address.new(listening.getsockname()[1])
     gc.set_threshold(10_000, 10, 10)  # a command that ends at once looks for garbage next to never; this one stays
     try:
@@ -261,7 +259,7 @@ def open_board(scene: SceneLike | None = None) -> AnyWidget:
     try:
         return _widget_class()(Desk(text=text))
     except ImportError:
-        raise CallError.of("open_board", Phrase("needs anywidget"), 'pip install "graphkin[live]"') from None
+        raise CallError.of("open_board", "needs anywidget", 'pip install "graphkin[live]"') from None
 
 
 @cache

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 
-from graphkin.errors import CallError, GraphkinError, Problem, did_you_mean
+from graphkin.errors import CallError, GraphkinError, did_you_mean
 from graphkin.files import Json, whole_file
 from graphkin.scene.scene import LARGEST_FILE, file_text, library, library_text
 from graphkin.words import Phrase, from_others
@@ -75,7 +75,7 @@ class Shelf:
         if name in library():
             return library_text(name)
         known = [*self.files(), *library()]
-        raise CallError.of(f'"{name[:60]}"', Phrase("there is no such scene here"), did_you_mean(name[:60], known))
+        raise CallError.of(f'"{name[:60]}"', "there is no such scene here", did_you_mean(name[:60], known))
 
     def save(self, name: str, text: str, mark: str) -> str:
         """Write a file, and return the mark of its new version.
@@ -90,21 +90,19 @@ class Shelf:
         """
         path = self._path(name)
         if len(text) > LARGEST_FILE:
-            raise CallError.of(name, Phrase("is larger than kb", largest=LARGEST_FILE // 1000))
+            raise CallError.of(name, "is larger than kb", largest=LARGEST_FILE // 1000)
         try:
             before = path.read_bytes() if path.is_file() else None
             if before is not None and mark_of(before.decode("utf-8-sig", "replace")) != mark:
-                raise CallError(Problem(name, Phrase("has been changed by somebody else since it"),
-                                        Phrase("open it again or save under another name")))
+                raise CallError.of(name, "has been changed by somebody else since it",
+                                   "open it again or save under another name")
             if before is not None:
                 with whole_file(path.with_name(f"{path.name}~")) as kept:
                     kept.write(before)
             with whole_file(path) as out:
                 out.write(text.encode())
         except OSError as error:
-            raise CallError(
-                Problem(name, Phrase("cannot be written", reason=from_others(error.strerror or str(error))))
-            ) from None
+            raise CallError.of(name, "cannot be written", reason=from_others(error.strerror or str(error))) from None
         return mark_of(text)
 
     def changed(self, name: str, mark: str) -> str | None:
@@ -117,16 +115,16 @@ class Shelf:
 
     def _path(self, name: str) -> Path:
         if self.folder is None:
-            raise CallError(Problem(name[:60] or Phrase("the file"), Phrase("no file was opened that could be written"),
-                                    Phrase("start with a folder graphkin open folder")))
+            raise CallError.of(name[:60] or Phrase("the file"), "no file was opened that could be written",
+                               "start with a folder graphkin open folder")
         if name != self.only and (self.only or not _NAME.fullmatch(name)):
             wanted = (
                 Phrase("only may be written here", names=self.only)
                 if self.only
                 else Phrase("a name like four-bar.toml is wanted")
             )
-            raise CallError.of(f'"{name[:60]}"', Phrase("cannot be written of nothing"), wanted)
+            raise CallError.of(f'"{name[:60]}"', "cannot be written of nothing", wanted)
         path = self.folder / name
         if path.is_symlink() and self.only != name:
-            raise CallError.of(name, Phrase("is a link to another place"), Phrase("open that file itself"))
+            raise CallError.of(name, "is a link to another place", "open that file itself")
         return path

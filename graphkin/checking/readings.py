@@ -108,9 +108,8 @@ def _centres(sheet: Sheet, instrument: Instrument) -> Callable[[str], complex | 
         centre = centres[0].of(*pair)
         if centre.point is None:
             found = Phrase("lies at infinity here") if centre.place is not None else Phrase("has no place here")
-            raise Unsolvable(
-                "not drawn", Problem(name, Phrase("the instant centre of links", pair=" and ".join(pair), value=found))
-            )
+            raise Unsolvable("not drawn", Problem(name, "the instant centre of links", pair=" and ".join(pair),
+                                                  value=found))
         return centre.point
 
     return place

@@ -146,8 +146,8 @@ class Report:
         problems = []
         for row in off:
             drawn, exact = (_written(scene, row.symbol, value) for value in (row.measured, row.true))
-            found = Phrase("by the drawing by computation", value=drawn, exact=exact)
-            problems.append(Problem(str(row.symbol), found, Phrase("no paper is written please report this scene")))
+            problems.append(Problem(str(row.symbol), "by the drawing by computation",
+                                    "no paper is written please report this scene", value=drawn, exact=exact))
         raise Disagreement(*problems)
 
     @property

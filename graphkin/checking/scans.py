@@ -125,15 +125,13 @@ def _judged(sheet: Sheet, scan: PlacedScan) -> JudgedScan:
     (p, q), (one, other) = scan.points, scan.points.values()
     largest = max(abs(a - b) for a, b in combinations(ends.values(), 2))
     if abs(ends[p] - ends[q]) <= SAME * largest:
-        raise CallError(
-            Problem(f"{where}.points", Phrase("and lie at one place", point=p, other=q), Phrase("name two ends apart"))
-        )
+        raise CallError.of(f"{where}.points", "and lie at one place", "name two ends apart", point=p, other=q)
     step = (ends[q] - ends[p]) / (other - one)
     corner = ends[p] - step * one
     places = {name: corner + step * at for name, at in {**scan.points, **scan.read}.items()}
     lines = tuple(_lines(sheet, diagram, ends, places, scan.within))
     if not lines:
-        raise CallError.of(where, Phrase("no line goes from one of these ends"), Phrase("read both ends of a line"))
+        raise CallError.of(where, "no line goes from one of these ends", "read both ends of a line")
     return JudgedScan(scan, diagram, lines, corner, step)
 
 

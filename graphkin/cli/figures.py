@@ -111,7 +111,7 @@ def audit(given: Given) -> None:
     from graphkin.api.audited import audit as auditing
 
     def wrong(text: str, _: str) -> Problem:
-        return Problem("grading", f'"{text[:40]}"', Phrase("write equations 20 drawing 30 values 50"))
+        return Problem("grading", f'"{text[:40]}"', "write equations 20 drawing 30 values 50")
 
     points = named_numbers([text for text in map(str.strip, given.grading.split(",")) if text], wrong) or None
     audited = given.call(auditing, grading=points)
@@ -143,9 +143,9 @@ def centres(given: Given) -> None:
 
     known_words(given.formats, text=given.text)
     if given.point and given.centrode is None:
-        raise CallError(Problem("--point", Phrase("without centrode"), Phrase("write centrode link point p")))
+        raise CallError.of("--point", "without centrode", "write centrode link point p")
     if given.motion and given.centrode is not None:
-        raise CallError(Problem("--motion", Phrase("stands beside centrode"), Phrase("write one of the two")))
+        raise CallError.of("--motion", "stands beside centrode", "write one of the two")
     if given.centrode is not None:
         from graphkin.api.centroded import centrodes
 

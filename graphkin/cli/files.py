@@ -14,7 +14,7 @@ import typer
 from graphkin.cli.options import Given, command, named_numbers
 from graphkin.cli.output import complain, print_json, print_paths, print_table, tell
 from graphkin.errors import CallError, Problem
-from graphkin.words import Phrase, from_others
+from graphkin.words import from_others
 
 __all__ = ["convert", "explain", "open_page", "scenes"]
 
@@ -36,7 +36,7 @@ def scenes(given: Given) -> None:
         else:
             typer.echo(text, nl=False)
     elif given.copy:
-        raise CallError(Problem("--copy", Phrase("no scene is named"), Phrase("write graphkin scenes name copy")))
+        raise CallError.of("--copy", "no scene is named", "write graphkin scenes name copy")
     else:
         _list(given.lang, given.json)
 
@@ -46,7 +46,7 @@ def _begin(kind: str, lengths: list[str], file: Path | None) -> None:
     from graphkin.scene.scene import NEW, new_scene
 
     def wrong(text: str, number: str) -> Problem:
-        return Problem(f"--set {text}", Phrase("is no number", number=number), Phrase("write set crank 150"))
+        return Problem(f"--set {text}", "is no number", "write set crank 150", number=number)
 
     values = named_numbers(lengths, wrong)
     new_scene(kind, values)
@@ -87,15 +87,14 @@ def _write_new(path: Path, text: str) -> None:
     try:
         path.write_text(text, encoding="utf-8")
     except OSError as error:
-        found = Phrase("cannot be written", reason=from_others(error.strerror or str(error)))
-        raise CallError(Problem(str(path), found)) from None
+        raise CallError.of(str(path), "cannot be written", reason=from_others(error.strerror or str(error))) from None
     print_paths([path])
 
 
 def _must_be_new(path: Path) -> None:
     """Raises CallError where a file of that name is there."""
     if path.exists():
-        raise CallError(Problem(str(path), Phrase("a file of that name is there already"), Phrase("name another file")))
+        raise CallError.of(str(path), "a file of that name is there already", "name another file")
 
 
 @command("scene", "lang", "json")

@@ -19,7 +19,7 @@ from graphkin.cli.output import (
     tell,
     unsolvable_as_json,
 )
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -123,10 +123,9 @@ def _replaced(given: Iterable[str]) -> dict[str, str]:
     for text in given:
         key, sign, values = text.partition("=")
         if not sign or not key.strip():
-            wanted = Phrase("write set links.1.length 40 60 21")
-            raise CallError(Problem(f"--set {text}", Phrase("says no key or no values"), wanted))
+            raise CallError.of(f"--set {text}", "says no key or no values", "write set links.1.length 40 60 21")
         if key.strip() in found:
-            raise CallError(Problem(f"--set {text}", Phrase("the key is given twice"), Phrase("write key 40 50 60")))
+            raise CallError.of(f"--set {text}", "the key is given twice", "write key 40 50 60")
         found[key.strip()] = values
     return found
 

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import typer
 
 from graphkin.errors import CallError, Problem
-from graphkin.words import BOTH, LANGUAGES, Phrase
+from graphkin.words import BOTH, LANGUAGES
 
 __all__ = ["At", "Given", "command", "driver_values", "named_numbers", "processes", "split_words"]
 
@@ -205,8 +205,7 @@ def driver_values(at: list[str] | None, position: str | None = None) -> At:
     """
     if position is not None:
         if at:
-            wanted = Phrase("write one of the two")
-            raise CallError(Problem("--position", Phrase("stands beside at of nothing"), wanted))
+            raise CallError.of("--position", "stands beside at of nothing", "write one of the two")
         return position
     if not at:
         return None
@@ -216,14 +215,12 @@ def driver_values(at: list[str] | None, position: str | None = None) -> At:
         try:
             value = float(number)
         except ValueError:
-            found = Phrase("is no number", number=number)
-            raise CallError(Problem(f"--at {text}", found, Phrase("write at 50 or at 1 50"))) from None
+            raise CallError.of(f"--at {text}", "is no number", "write at 50 or at 1 50", number=number) from None
         if name in named:
-            found = Phrase("is given twice for one driver", text=text)
-            raise CallError(Problem("--at", found, Phrase("write at 1 50 at 2 30")))
+            raise CallError.of("--at", "is given twice for one driver", "write at 1 50 at 2 30", text=text)
         named[name] = value
     if len(named) > 1 and "" in named:
-        raise CallError(Problem("--at", Phrase("a bare value beside named ones"), Phrase("write at 1 50 at 2 30")))
+        raise CallError.of("--at", "a bare value beside named ones", "write at 1 50 at 2 30")
     return named.get("", named)
 
 

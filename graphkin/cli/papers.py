@@ -10,7 +10,7 @@ import typer
 
 from graphkin.cli.options import Given, command, processes, split_words
 from graphkin.cli.output import complain, finish, print_json, print_paths, progress_bar, short_bar, tell, tell_unused
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, did_you_mean
 from graphkin.words import Phrase, languages, say
 
 if TYPE_CHECKING:
@@ -32,23 +32,22 @@ def handout(given: Given) -> None:
     from graphkin.scene.designs import is_design
 
     if given.text != "glyphs":
-        wanted = Phrase("their pdf has its letters with it and", scene=given.scene)
-        raise CallError(Problem("text", Phrase("with papers", text=given.text), wanted))
+        raise CallError.of("text", "with papers", "their pdf has its letters with it and", text=given.text,
+                           scene=given.scene)
     if given.template not in TEMPLATES:
-        raise CallError(Problem("template", f'"{given.template}"', did_you_mean(given.template, TEMPLATES)))
+        raise CallError.of("template", f'"{given.template}"', did_you_mean(given.template, TEMPLATES))
     if given.template == "course-design":
         if given.export:
-            raise CallError(Problem("template course-design", Phrase("with export"), Phrase("leave one of them out")))
+            raise CallError.of("template course-design", "with export", "leave one of them out")
         _course(given)
         return
     if given.students is not None:
-        raise CallError(Problem("students", Phrase("without a course design"), Phrase("add template course-design")))
+        raise CallError.of("students", "without a course design", "add template course-design")
     if is_design(given.scene):
         _design(given)
     elif given.variants is not None or given.rows is not None:
         if given.at or given.positions is not None:
-            wanted = Phrase("a set draws positions of its own one")
-            raise CallError(Problem("variants", Phrase("with at or positions"), wanted))
+            raise CallError.of("variants", "with at or positions", "a set draws positions of its own one")
         _problem_set(given)
     else:
         _papers(given)

@@ -72,8 +72,8 @@ class TurnOfCrank:
         """
         driver = structure.scene.drivers[0]
         if not driver.turns:
-            raise Unsolvable("no whole turn", Problem(why, Phrase("belongs to a whole turn but the driver"),
-                                                      Phrase("ask for s_ theta_ or d_ at single")))  # fmt: skip
+            raise Unsolvable("no whole turn", Problem(why, "belongs to a whole turn but the driver",
+                                                      "ask for s_ theta_ or d_ at single"))
         placed = {structure.scene.frame.name, *(n for e in elements for n in e.members)}
         start = LimitPosition(values[driver.key], {name: pose for name, pose in poses.items() if name in placed})
         turn = cls(structure, elements, values, Choices(structure, elements), (start,))
@@ -88,7 +88,7 @@ class TurnOfCrank:
         if found[-1].value < end:
             raise Unsolvable("no whole turn", _short(why, driver.link, found[-1].value))
         if moved(start.poses, found[-1].poses) > CLOSED:
-            raise Unsolvable("no whole turn", Problem(why, Phrase("the motion does not repeat after one turn")))
+            raise Unsolvable("no whole turn", Problem(why, "the motion does not repeat after one turn"))
         return replace(turn, positions=tuple(found))
 
     def near(self, value: float, guess: Poses) -> LimitPosition | None:
@@ -105,12 +105,12 @@ class TurnOfCrank:
         for here in self.positions:
             travels.append(_along(output, here, travels[-1] if travels else 0.0))
         if isinstance(output, str) and abs(travels[-1] - travels[0]) > 1.0:
-            found = Phrase("link turns on and on it has no", output=output)
-            raise Unsolvable("no whole turn", Problem(why, found, Phrase("ask for a link that swings or a")))
+            raise Unsolvable("no whole turn", Problem(why, "link turns on and on it has no",
+                                                      "ask for a link that swings or a", output=output))
         if max(travels) - min(travels) < STILL:
             name = output if isinstance(output, str) else output.key
-            found = Phrase("does not move it has no limit positions", name=name)
-            raise Unsolvable("no whole turn", Problem(why, found, Phrase("ask for an output that moves")))
+            raise Unsolvable("no whole turn", Problem(why, "does not move it has no limit positions",
+                                                      "ask for an output that moves", name=name))
         low, high = (self._extreme(output, travels, sign) for sign in (-1.0, 1.0))
         return low[0], high[0], high[1] - low[1]
 
@@ -202,8 +202,8 @@ def limits_on_paper(
 
 def _short(why: str, link: str, value: float) -> Problem:
     end = Phrase("it stops near deg", degrees=f'{math.degrees(value):.2f}')
-    found = Phrase("belongs to a whole turn but driver does", link=link, end=end)
-    return Problem(why, found, Phrase("ask for s_ theta_ or d_ at single"))
+    return Problem(why, "belongs to a whole turn but driver does", "ask for s_ theta_ or d_ at single", link=link,
+                   end=end)
 
 
 def _along(output: Pair | str, here: LimitPosition, near: float) -> float:

@@ -231,8 +231,8 @@ class Polygons:
             return pushed[1]
         read = self.board.read(frozenset(between), abs(arm))
         if read == 0.0:
-            found = Phrase("mm on paper are too short to be", length=f'{abs(arm):.2g}')
-            raise Unsolvable("not drawn", Problem("".join(between), found, Phrase("draw the mechanism larger")))
+            raise Unsolvable("not drawn", Problem("".join(between), "mm on paper are too short to be",
+                                                  "draw the mechanism larger", length=f'{abs(arm):.2g}'))
         return read * self.scales.length
 
     def found_mm(self, symbol: Symbol, span: complex) -> float:
@@ -454,4 +454,4 @@ def _guide_of(plot: Polygons, of: PointRef, to: PointRef, symbol: Symbol) -> str
         return symbol.to.link  # links of a group that are drawn as one, seen from one of them
     known = ", ".join(s.key for s in plot.structure.slides)
     wanted = Phrase("known are", names=known) if known else Phrase("this mechanism has none")
-    raise CallError(Problem(str(symbol), Phrase("these two points do not lie on the"), wanted))
+    raise CallError.of(str(symbol), "these two points do not lie on the", wanted)

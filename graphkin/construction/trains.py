@@ -455,9 +455,8 @@ def rolled(
         line = plan.line(inside[0])
         assert line is not None
         return made, line.rate, abs(line.foot), steps
-    raise Unsolvable(
-        "not drawn", Problem(Phrase("link of name", name=name), Phrase("no velocity plan leads to what rolls here"))
-    )
+    raise Unsolvable("not drawn", Problem(Phrase("link of name", name=name),
+                                          "no velocity plan leads to what rolls here"))
 
 
 def _alike(structure: Structure, name: str) -> set[str]:

@@ -37,7 +37,7 @@ from graphkin.drawing.write.pdf import (
     own_settings,
     whole_pixels,
 )
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.words import Phrase
 
 if TYPE_CHECKING:
@@ -119,8 +119,8 @@ class ChartPage(Kept):
         return hash((self.width, self.height, self.title, self.desc))
 
     def __reduce__(self) -> tuple[object, ...]:
-        wanted = Phrase("pickle the result that it belongs to or")
-        raise CallError(Problem(Phrase("a chart"), Phrase("is drawn by a function and cannot be"), wanted))
+        raise CallError.of(Phrase("a chart"), "is drawn by a function and cannot be",
+                           "pickle the result that it belongs to or")
 
     def figure(self, dpi: float = 72.0) -> Figure:
         """The page as a matplotlib figure of its own, to be changed at will."""

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, refused
+from graphkin.errors import CallError
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide
 from graphkin.exchange.constructions import read_geogebra
 from graphkin.exchange.joint_lists import is_address, read_address, read_pyslvs, read_table, write_pyslvs
 from graphkin.exchange.linkages import read_linkage2, read_pylinkage, write_linkage2, write_pylinkage
 from graphkin.files import opened
-from graphkin.words import Phrase, from_others
+from graphkin.words import from_others
 
 __all__ = ["FRAME", "READ", "Bodies", "BodyDrive", "BodySlide", "is_address", "read_bodies", "write_bodies"]
 
@@ -37,21 +37,19 @@ def read_bodies(source: str) -> Bodies:
     path = Path(source)
     title, kind = path.stem, path.suffix.lower()
     if kind not in READ:
-        found = Phrase("is of no program known here", kind=kind)
-        raise refused(path.name[:100], found, Phrase("known", names=", ".join(READ)))
+        raise CallError.of(path.name[:100], "is of no program known here", "known", kind=kind, names=", ".join(READ))
     try:
         with opened(path) as stream:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise CallError(Problem(str(path)[:200], Phrase("cannot be read", reason=from_others(reason)))) from None
+        raise CallError.of(str(path)[:200], "cannot be read", reason=from_others(reason)) from None
     if len(data) > LARGEST:
-        raise refused(str(path), Phrase("is larger than 20 mb"), Phrase("a mechanism is smaller"))
+        raise CallError.of(str(path), "is larger than 20 mb", "a mechanism is smaller")
     if kind == ".ggb":
         return read_geogebra(data, title)
     if data.startswith(b"SQLite format 3"):
-        wanted = Phrase("open it in pyslvs and save it as")
-        raise refused(path.name, Phrase("is a data base of an early pyslvs"), wanted)
+        raise CallError.of(path.name, "is a data base of an early pyslvs", "open it in pyslvs and save it as")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -72,6 +70,6 @@ def _read_text(text: str, title: str, kind: str) -> Bodies:
 def write_bodies(bodies: Bodies, ending: str) -> str:
     """The text of a file for another program, by the ending of its name.  Raises CallError for an unknown one."""
     if ending not in WRITTEN:
-        found = Phrase("is of no program that is written here", ending=ending)
-        raise refused("convert", found, Phrase("known", names=", ".join((".toml", *WRITTEN))))
+        raise CallError.of("convert", "is of no program that is written here", "known", ending=ending,
+                           names=", ".join((".toml", *WRITTEN)))
     return WRITTEN[ending](bodies)

@@ -9,11 +9,11 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.files import Json
-from graphkin.words import Phrase, Wording
+from graphkin.words import Phrase
 
-__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number", "refused"]
+__all__ = ["FRAME", "Bodies", "BodyDrive", "BodySlide", "number"]
 
 FRAME = "0"
 FARTHEST = 1e12
@@ -65,8 +65,8 @@ class Bodies:
         """A point by a name that a scene may have, which is returned; ``key`` where the file calls it otherwise."""
         made = _fresh(_point_name(name), self.places)
         if not abs(place) <= FARTHEST:
-            found = Phrase("lies at", place=place)
-            raise refused(Phrase("point", point=made), found, Phrase("its coordinates are finite numbers"))
+            where = Phrase("point", point=made)
+            raise CallError.of(where, "lies at", "its coordinates are finite numbers", place=place)
         self.places[made], self.names[key or name] = place, made
         return made
 
@@ -115,7 +115,7 @@ class Bodies:
         self._tidy()
         moving = [name for name in self.bodies if name != FRAME]
         if not moving:
-            raise refused(self.title, Phrase("holds no moving link"), Phrase("draw one link at least"))
+            raise CallError.of(self.title, "holds no moving link", "draw one link at least")
         shift, tables = self._lines()
         frame: dict[str, Json] = {"name": FRAME}
         frame["points"] = {p: _pair(self.places[p]) for p in self.bodies.get(FRAME, ())}
@@ -242,7 +242,7 @@ class Bodies:
             return {"on": ref} | ({"angle_on": angle} if angle else {})
         if isinstance(before, list):
             where = Phrase("link of name", name=slide.body)
-            raise refused(where, Phrase("slides on more than two others"), Phrase("a scene has two at most"))
+            raise CallError.of(where, "slides on more than two others", "a scene has two at most")
         return {"on": [before, ref], "angle_on": [angles, angle]}
 
     def _driver(self, drive: BodyDrive) -> dict[str, Json]:
@@ -253,11 +253,6 @@ class Bodies:
             return {"slide": f"{name}/{slide.on}", "travel": number(at.real), "velocity": number(drive.rate)}
         angle = _degrees(cmath.phase(self._axis(drive.body)[1]))
         return {"link": drive.body, "angle": angle, "omega": number(drive.rate)}
-
-
-def refused(where: Wording, found: Wording, wanted: Wording) -> CallError:
-    """What is raised of a file that cannot be read."""
-    return CallError(Problem(where, found, wanted))
 
 
 def number(value: float) -> float:

@@ -24,7 +24,8 @@ from itertools import combinations
 from xml.etree import ElementTree
 from zipfile import BadZipFile, ZipFile
 
-from graphkin.exchange.bodies import FRAME, Bodies, refused
+from graphkin.errors import CallError
+from graphkin.exchange.bodies import FRAME, Bodies
 from graphkin.files import Tables
 from graphkin.plane import cross_arcs
 from graphkin.words import Phrase
@@ -102,7 +103,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
         with ZipFile(BytesIO(data)) as archive:
             entry = archive.getinfo("geogebra.xml")
             if entry.file_size > LARGEST:
-                raise refused(title, Phrase("is too large to be a linkage"), Phrase("save the construction alone"))
+                raise CallError.of(title, "is too large to be a linkage", "save the construction alone")
             root = ElementTree.fromstring(archive.read(entry)).find("construction")
             elements = list(root) if root is not None else []
             made = _Construction(Bodies(title))
@@ -110,7 +111,7 @@ def read_geogebra(data: bytes, title: str) -> Bodies:
                 if element.tag == "element" and element.get("type") == "point":
                     made.made.point(element.get("label", ""), _place(element))
     except DAMAGED as error:
-        raise refused(title, Phrase("is no file of geogebra", error=error), Phrase("save it as ggb")) from None
+        raise CallError.of(title, "is no file of geogebra", "save it as ggb", error=error) from None
     circles: dict[str, str] = {}
     lines: dict[str, tuple[str, str]] = {}
     for command in (element for element in elements if element.tag == "command"):

@@ -19,7 +19,7 @@ from collections.abc import Iterable, Sequence
 from urllib.parse import parse_qs, unquote, urlparse
 
 from graphkin.errors import CallError, Problem
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number, refused
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
 from graphkin.words import Phrase
 
 __all__ = ["is_address", "read_address", "read_pyslvs", "read_table", "write_pyslvs"]
@@ -100,7 +100,7 @@ def read_table(text: str, title: str) -> Bodies:
             continue  # the head
         if not at or len(numbers) < 2 or (cells[at].upper() != "R" and len(numbers) < 3):
             where, found = Phrase("row", name=title, number=count), Phrase("is no joint", joint=row.strip()[:60])
-            problems.append(Problem(where, found, Phrase("write links r p or rp x y")))
+            problems.append(Problem(where, found, "write links r p or rp x y"))
             continue
         angle = math.radians(numbers[2]) if cells[at].upper() != "R" else 0.0
         _join(made, known, _letter(len(made.places)), cells[at].upper(), complex(*numbers[:2]), cells[:at], angle)
@@ -125,7 +125,7 @@ def _whole(text: str, title: str) -> int:
     value = 0
     for sign in text:
         if sign not in DIGITS or len(text) > MOST_DIGITS:
-            raise refused(title, Phrase("is no number of pmks", text=text[:20]), Phrase("copy the whole link"))
+            raise CallError.of(title, "is no number of pmks", "copy the whole link", text=text[:20])
         value = value * 64 + DIGITS.index(sign)
     return -value if text.startswith("0") else value
 
@@ -134,8 +134,7 @@ def read_address(text: str, title: str) -> Bodies:
     """The bodies of a shared link of PMKS+.  Raises CallError where it is none."""
     body = _payload(text)
     if "*" in body:
-        found = Phrase("is a link of today's pmks with a")
-        raise refused(title, found, Phrase("draw it anew as a scene"))
+        raise CallError.of(title, "is a link of today's pmks with a", "draw it anew as a scene")
     parts = body.split(".")
     heads, rest = parts[:4], parts[4:]
     sections: list[list[str]] = [[]]
@@ -145,7 +144,7 @@ def read_address(text: str, title: str) -> Bodies:
         else:
             sections.append([])
     if len(sections) < 3 or not sections[0] or not sections[1]:
-        raise refused(title, Phrase("is no link of pmks with joints and"), Phrase("copy the whole link"))
+        raise CallError.of(title, "is no link of pmks with joints and", "copy the whole link")
     flags, speeds = _whole(heads[0], title), heads[2].split(",")
     decimals = heads[1].split(",")
     made = Bodies(title, unit=UNITS[min(_whole(heads[3][:1], title), 2)] if heads[3] else "cm")
@@ -162,7 +161,7 @@ def read_address(text: str, title: str) -> Bodies:
         cells = piece.split(",")
         own = cells[7:]
         if len(own) < 1 or len(piece) < 2:
-            raise refused(title, Phrase("is no link of pmks", piece=piece[:30]), Phrase("copy the whole address"))
+            raise CallError.of(title, "is no link of pmks", "copy the whole address", piece=piece[:30])
         ends = own[: own.index("")] if "" in own else own
         if piece[:2] == "NR":
             continue  # a part of a welded link, which is there as a whole
@@ -193,7 +192,7 @@ class _SharedJoint:
     def __init__(self, text: str, title: str) -> None:
         cells = text[1:].split(",")
         if len(cells) < 5:
-            raise refused(title, Phrase("is no joint of pmks", text=text[:30]), Phrase("copy the whole link"))
+            raise CallError.of(title, "is no joint of pmks", "copy the whole link", text=text[:30])
         flags = _whole(text[:1], title)
         self.slides, self.driven, self.grounded, self.welded = (bool(flags >> k & 1) for k in range(4))
         self.id, self.name = cells[0], cells[1]
@@ -237,17 +236,16 @@ def read_pyslvs(text: str, title: str) -> Bodies:
     plain = re.sub(r"#\[[\s\S]*?#\][^\n]*|#[^\n]*", "", text)
     begin = re.search(r"\bM\s*\[", plain)
     if begin is None:
-        raise refused(title, Phrase("holds no expression m"), Phrase("copy the expression from pyslvs"))
+        raise CallError.of(title, "holds no expression m", "copy the expression from pyslvs")
     inner, end = _inside(plain, begin.end(), title)
     made, known = Bodies(title), dict[str, str]()
     rest = _JOINT.sub("", inner)
     if re.sub(r"[\s,]+", "", rest):
-        found = Phrase("is no joint", joint=rest.strip(" ,")[:60])
-        raise refused(title, found, Phrase("write j r p 0 0 l ground"))
+        raise CallError.of(title, "is no joint", "write j r p 0 0 l ground", joint=rest.strip(" ,")[:60])
     for kind, angle, x, y, links in _JOINT.findall(inner):
         names = tuple(filter(None, (n.strip() for n in links.split(","))))
         if not names:
-            raise refused(title, Phrase("the joint at has no link", value=x, other=y), Phrase("write l ground link_1"))
+            raise CallError.of(title, "the joint at has no link", "write l ground link_1", value=x, other=y)
         place, turn = complex(float(x), float(y)), math.radians(float(angle or 0))
         _join(made, known, f"P{len(made.places)}", kind, place, names, turn)
     made.bodies.setdefault(FRAME, [])
@@ -274,7 +272,7 @@ def _inside(text: str, begin: int, title: str) -> tuple[str, int]:
         depth += {"[": 1, "]": -1}.get(text[k], 0)
         if not depth:
             return text[begin:k], k + 1
-    raise refused(title, Phrase("a bracket is not closed"), Phrase("copy the whole expression"))
+    raise CallError.of(title, "a bracket is not closed", "copy the whole expression")
 
 
 def _first_crank(made: Bodies) -> list[tuple[str, str]]:

@@ -16,7 +16,8 @@ import json
 import math
 from xml.etree import ElementTree
 
-from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number, refused
+from graphkin.errors import CallError
+from graphkin.exchange.bodies import FRAME, Bodies, BodyDrive, BodySlide, number
 from graphkin.exchange.constructions import STEP, construct_linkage
 from graphkin.files import OwnTables, Tables
 from graphkin.words import Phrase
@@ -35,9 +36,9 @@ def read_linkage2(text: str, title: str) -> Bodies:
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
-        raise refused(title, Phrase("is not xml", error=error), Phrase("save it from linkage anew")) from None
+        raise CallError.of(title, "is not xml", "save it from linkage anew", error=error) from None
     if root.tag != "linkage2":
-        raise refused(title, Phrase("begins with", tag=root.tag), Phrase("a file of linkage begins with linkage2"))
+        raise CallError.of(title, "begins with", "a file of linkage begins with linkage2", tag=root.tag)
     made = Bodies(title)
     elements = [e for e in root if e.tag in ("element", "Link", "link")]
     used = {c.get("id") for e in elements for c in e}
@@ -83,7 +84,7 @@ def _number(node: ElementTree.Element, key: str, usual: float = 0.0) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise refused(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', Phrase("a number is wanted"))
+        raise CallError.of(f"{node.tag} {node.get('id')}", f'{key} is "{node.get(key)}"', "a number is wanted")
     return value
 
 
@@ -179,9 +180,9 @@ def read_pylinkage(text: str, title: str) -> Bodies:
     try:
         data = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise refused(title, Phrase("is not json", error=error), Phrase("save it from pylinkage anew")) from None
+        raise CallError.of(title, "is not json", "save it from pylinkage anew", error=error) from None
     if not isinstance(data, dict) or not isinstance(data.get("joints"), list):
-        raise refused(title, Phrase("has no list of joints"), Phrase("a file of pylinkage has joints"))
+        raise CallError.of(title, "has no list of joints", "a file of pylinkage has joints")
     made = Bodies(str(data.get("name") or title)[:200])
     try:
         if isinstance(data.get("links"), list):
@@ -189,8 +190,7 @@ def read_pylinkage(text: str, title: str) -> Bodies:
         else:
             construct_linkage(made, data["joints"])
     except (KeyError, TypeError, ValueError, AttributeError, IndexError, ArithmeticError) as error:
-        found = Phrase("is no mechanism of pylinkage", error=f"{error!r:.100}")
-        raise refused(title, found, Phrase("save it anew")) from None
+        raise CallError.of(title, "is no mechanism of pylinkage", "save it anew", error=f"{error!r:.100}") from None
     return made
 
 

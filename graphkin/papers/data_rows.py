@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from functools import partial
 from itertools import permutations, product
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.files import Tables, opened, path_of
 from graphkin.papers.fresh_numbers import drivers_of
 from graphkin.words import Phrase, from_others
@@ -76,11 +76,9 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
-        raise CallError(
-            Problem(shown, Phrase("cannot be read", reason=from_others(reason)), Phrase("name a csv file"))
-        ) from None
+        raise CallError.of(shown, "cannot be read", "name a csv file", reason=from_others(reason)) from None
     if len(data) > LARGEST:
-        raise CallError.of(shown, Phrase("is larger than mb", largest=LARGEST // 1_000_000), Phrase("give fewer rows"))
+        raise CallError.of(shown, "is larger than mb", "give fewer rows", largest=LARGEST // 1_000_000)
     text = ""
     for encoding in (_MARKS.get(data[:2], "utf-8-sig"), "gb18030"):
         try:
@@ -94,9 +92,9 @@ def table_of(path: str | os.PathLike[str]) -> Rows:
         reader = csv.reader(io.StringIO(text), delimiter=sign, strict=True)
         lines = [(reader.line_num, tuple(c.strip() for c in row)) for row in reader if any(c.strip() for c in row)]
     except csv.Error as error:
-        raise CallError.of(shown, Phrase("is no table", error=error), Phrase("save it as csv")) from None
+        raise CallError.of(shown, "is no table", "save it as csv", error=error) from None
     if len(lines) < 2:
-        raise CallError.of(shown, Phrase("has no rows"), Phrase("write a line of heads and a line"))
+        raise CallError.of(shown, "has no rows", "write a line of heads and a line")
     return Rows(lines[0][1], tuple(lines[1:]), sign)
 
 

@@ -400,12 +400,11 @@ def rules_checked(source: Tables) -> None:
     ]  # fmt: skip
     for key, (low, high) in table.get("ranges", {}).items():
         if low > high:
-            found = Phrase("from to", least=f"{low:g}", greatest=f"{high:g}")
-            problems.append(Problem(f"vary.ranges.{key}", found, Phrase("give the smaller value first")))
+            problems.append(Problem(f"vary.ranges.{key}", "from to", "give the smaller value first", least=f"{low:g}",
+                                    greatest=f"{high:g}"))
     asked, most = table.get("ask"), len(table.get("find", ()))
     if asked is not None and asked > most:
-        found = Phrase("of quantities", asked=asked, most=most)
-        problems.append(Problem("vary.ask", found, Phrase("list more of them in vary.find")))
+        problems.append(Problem("vary.ask", "of quantities", "list more of them in vary.find", asked=asked, most=most))
     if problems:
         raise CallError(*problems)
 

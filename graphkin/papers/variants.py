@@ -21,7 +21,7 @@ from graphkin.checking.readings import read_off
 from graphkin.checking.uncertainty import predict
 from graphkin.construction import Sheet, execute
 from graphkin.construction.steps import Ray
-from graphkin.errors import GraphkinError, Problem, SceneError, Unsolvable
+from graphkin.errors import GraphkinError, SceneError, Unsolvable
 from graphkin.files import OwnTables, Tables
 from graphkin.jobs import Checkpoints, Progress, Started, Workers, key_of
 from graphkin.papers.fresh_numbers import LEVELS, Bounds, Spread, candidate, level_of, round_step, varied_keys
@@ -34,7 +34,7 @@ from graphkin.scene.tables import put_at, value_at
 from graphkin.solver import Motion, exact_values, solve
 from graphkin.solver.quantities import transmission
 from graphkin.structure import Dyad, LargerGroup, Pair, analyse
-from graphkin.words import Phrase, Wording
+from graphkin.words import Wording
 
 __all__ = [
     "Answer", "Job", "Render", "Unfit", "Variant", "accepted", "asked_of", "distinct", "examined", "jobs_of_seed",
@@ -330,7 +330,7 @@ def _answers(
     for symbol, found in values.items():
         least = NOTHING * max(abs(other) for s, other in values.items() if s.measure == symbol.measure)
         if symbol in drawn and abs(drawn[symbol] - found) > max(1e-6 * abs(found), least, 1e-15):
-            raise SceneError(Problem(str(symbol), Phrase("the drawing and the solver disagree")))
+            raise SceneError.of(str(symbol), "the drawing and the solver disagree")
         yield symbol, 0.0 if abs(found) < least else abs(found) if symbol.is_vector else found.real
 
 

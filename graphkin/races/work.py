@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from graphkin import solver
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.solver import Motion
@@ -160,11 +160,10 @@ def work_of(scene: Mechanism, mp: MPContext, count: int) -> Work:
     larger = next((group for group in structure.groups if not isinstance(group, Dyad)), None)
     if larger is not None:
         what = Phrase("links", links=", ".join(larger.links))
-        raise CallError(Problem(what, Phrase("have no closed form"), Phrase("solve such a mechanism with solve")))
+        raise CallError.of(what, "have no closed form", "solve such a mechanism with solve")
     outputs = compared_points(structure)
     if not outputs or not any(d.values[1] for d in scene.drivers):
-        nothing = Phrase("nothing moves that could be looked at")
-        raise CallError(Problem(scene.name or "scene", nothing, Phrase("give the driver a rate")))
+        raise CallError.of(scene.name or "scene", "nothing moves that could be looked at", "give the driver a rate")
     fine = solver.solve(structure.scene, sweep=FINE).require()
     good = np.flatnonzero(fine.ok)
     full = len(good) == FINE and scene.drivers[0].turns

@@ -42,14 +42,14 @@ def _symbol(where: str, text: str, reading: Reading) -> Symbol | Problem:
     if symbol.at and symbol.at not in reading.positions:
         unnamed = Phrase("name positions in positions")
         wanted = did_you_mean(symbol.at, reading.positions) if reading.positions else unnamed
-        return Problem(where, Phrase("there is no position", at=symbol.at), wanted)
+        return Problem(where, "there is no position", wanted, at=symbol.at)
     if symbol.of is None:
         return symbol
     if symbol.to == symbol.of:
-        return Problem(where, Phrase("is relative to itself", text=text), Phrase("name two different points"))
+        return Problem(where, "is relative to itself", "name two different points", text=text)
     if symbol.kind in ("ak", "ar") and symbol.to and symbol.to.point != symbol.of.point:
-        wanted = Phrase("it is between coincident points of two links", kind=symbol.kind)
-        return Problem(where, Phrase("names two different points", text=text), wanted)
+        return Problem(where, "names two different points", "it is between coincident points of two links", text=text,
+                       kind=symbol.kind)
     return symbol
 
 
@@ -76,8 +76,7 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
 
     def how(table: str, by: object) -> Literal["drawing", "computation"] | None:
         if by not in BY:
-            reading.say(f"{table}.by", Phrase("found value", value=f"{by!r:.40}"),
-                        Phrase("one of drawing computation is possible"))
+            reading.say(f"{table}.by", "found value", "one of drawing computation is possible", value=f"{by!r:.40}")
             return None
         return "computation" if by == "computation" else "drawing"
 
@@ -89,11 +88,11 @@ def stated_values(reading: Reading) -> tuple[StatedValues, ...]:
         where, at = f"printed_rows.{number}", row.get("at")
         if not isinstance(at, int | float | str):
             said = Phrase("is missing") if at is None else Phrase("is two numbers")
-            reading.say(f"{where}.at", said, Phrase("write the driver's value or the name of"))
+            reading.say(f"{where}.at", said, "write the driver's value or the name of")
         elif isinstance(at, str) and at not in positions:
             unnamed = Phrase("name positions in positions or write a driver")
             wanted = did_you_mean(at, positions) if positions else unnamed
-            reading.say(f"{where}.at", Phrase("there is no position", at=at), wanted)
+            reading.say(f"{where}.at", "there is no position", wanted, at=at)
         elif by := how(where, row.get("by", usual)):
             found.append(StatedValues(at, _values(where, row, reading), by))
     if file.printed_table is not None:
@@ -122,15 +121,15 @@ def _values(table: str, values: Mapping[str, Stated], reading: Reading) -> dict[
         if isinstance(symbol, Problem):
             reading.wrong(symbol)
         elif symbol in found:
-            reading.say(where, Phrase("is given twice", symbol=symbol), Phrase("give it once"))
+            reading.say(where, "is given twice", "give it once", symbol=symbol)
         elif not isinstance(value, int | float | str) and not symbol.is_vector:
-            reading.say(where, Phrase("found two numbers"), Phrase("it is one number no vector"))
+            reading.say(where, "found two numbers", "it is one number no vector")
         else:
             try:
                 found[symbol] = _printed(symbol, value, unit, reading.units)
             except ValueError as error:
                 like = "-1220 mm/s" if symbol.is_vector else "2.82 cw"
-                reading.say(where, error.args[0], Phrase("write a number its digits as printed 1.0", example=like))
+                reading.say(where, error.args[0], "write a number its digits as printed 1.0", example=like)
     return found
 
 
@@ -161,32 +160,32 @@ def positions_named(table: Positions, reading: Reading) -> Positions:
     """The positions that a scene names, in SI; what is wrong with them is noted."""
     slides = reading.slides
     if any(driver.law is not None for driver in reading.drivers.values()):
-        reading.say("positions", Phrase("stand beside a driver with a law"), Phrase("name a moment at time 0.25"))
+        reading.say("positions", "stand beside a driver with a law", "name a moment at time 0.25")
     if slides and (table.count or table.first is not None):
-        reading.say(f"positions.{'count' if table.count else 'first'}", Phrase("the driver slides it makes no turn"),
-                    Phrase("name its positions in positions.also by travel"))
+        reading.say(f"positions.{'count' if table.count else 'first'}", "the driver slides it makes no turn",
+                    "name its positions in positions.also by travel")
 
     def place(where: str, value: float | StrokeStart) -> float | StrokeStart:
         if not isinstance(value, StrokeStart):
             return value * reading.metres if slides else math.radians(value)
         if value.stroke not in reading.pairs:
-            reading.say(f"{where}.stroke", Phrase("there is no sliding pair of stroke", stroke=value.stroke),
-                        did_you_mean(value.stroke, reading.pairs))
+            reading.say(f"{where}.stroke", "there is no sliding pair of stroke",
+                        did_you_mean(value.stroke, reading.pairs), stroke=value.stroke)
         if slides:
-            reading.say(where, Phrase("the driver slides there is no stroke of"), Phrase("give a travel"))
+            reading.say(where, "the driver slides there is no stroke of", "give a travel")
         return value
 
     first = None if table.first is None else place("positions.first", table.first)
     also = {name: place(f"positions.also.{name}", value) for name, value in table.also.items()}
     for name in table.also:
         if name in table.names[: table.count or 0]:
-            reading.say(f"positions.also.{name}", Phrase("is one of the numbered ones", count=table.count),
-                        Phrase("give it another name"))
+            reading.say(f"positions.also.{name}", "is one of the numbered ones", "give it another name",
+                        count=table.count)
     show = tuple(map(str, table.show))
     known = ("limits", "all", *table.names)
     for name in show:
         if name not in known:
-            reading.say("positions.show", Phrase("there is no position", at=name), did_you_mean(name, known))
+            reading.say("positions.show", "there is no position", did_you_mean(name, known), at=name)
     return replace(table, count=table.count or 0, first=first, also=also, show=show)
 
 
@@ -204,8 +203,7 @@ def loops_named(reading: Reading) -> dict[str, tuple[str, ...]]:
         where = f"loops.{name}"
         reading.wrong(*(reading.no_point(where, point) for point in points))
         if len(points) < 3:
-            wanted = Phrase("a loop goes through three points or more")
-            reading.say(where, Phrase("has points", count=len(points)), wanted)
+            reading.say(where, "has points", "a loop goes through three points or more", count=len(points))
         elif len(set(points)) < len(points):
-            reading.say(where, Phrase("comes twice to one point"), Phrase("name each point once it closes by itself"))
+            reading.say(where, "comes twice to one point", "name each point once it closes by itself")
     return {name: tuple(points) for name, points in loops.items()}

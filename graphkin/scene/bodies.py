@@ -201,9 +201,9 @@ class Reading:
         moving = [(f"links.{name}", name, link) for name, link in self.links.items()]
         return [*moving, ("frame", self.frame.name, self.frame)]
 
-    def say(self, where: Wording, found: Wording, wanted: Wording) -> None:
+    def say(self, where: Wording, found: Wording, wanted: Wording, **gaps: object) -> None:
         """Note a problem."""
-        self.problems.append(Problem(where, found, wanted))
+        self.problems.append(Problem(where, found, wanted, **gaps))
 
     def wrong(self, *problems: Problem | None) -> bool:
         """Note what of these is a problem; whether there is one."""
@@ -216,21 +216,21 @@ class Reading:
         if name in self.points or ("" in self.unsure and self.frame.name in self.unsure):
             return None
         known = [link for link in self.points if not (moving and link == self.frame.name)]
-        return Problem(where, Phrase("there is no link", name=name), did_you_mean(name, known))
+        return Problem(where, "there is no link", did_you_mean(name, known), name=name)
 
     def no_point(self, where: str, point: str) -> Problem | None:
         """The problem of a point that no link has."""
         everywhere = {p for own in self.points.values() for p in own} | self.contacts
         if point in everywhere or "" in self.unsure:
             return None
-        return Problem(where, Phrase("no link has a point", point=point), did_you_mean(point, everywhere))
+        return Problem(where, "no link has a point", did_you_mean(point, everywhere), point=point)
 
     def no_point_of(self, where: str, link: str, point: str) -> Problem | None:
         """The problem of a point that this link does not have."""
         own = self.points.get(link, ())
         if point in own or link in self.unsure:
             return None
-        return Problem(where, Phrase("is nowhere placed on link", point=point, link=link), did_you_mean(point, own))
+        return Problem(where, "is nowhere placed on link", did_you_mean(point, own), point=point, link=link)
 
     def no_guide(self, where: str, ref: str) -> Problem | None:
         """The problem of a guide LINK or LINK.GUIDE that does not exist."""
@@ -240,7 +240,7 @@ class Reading:
             return missing
         own = self.guides.get(link, frozenset())
         hint = did_you_mean(guide, own) if own else Phrase("its own axis is the guide", link=link)
-        return Problem(where, Phrase("link has no guide", link=link, guide=guide), hint)
+        return Problem(where, "link has no guide", hint, link=link, guide=guide)
 
 
 # -- own points and what is placed from them ---------------------------------------------------------------------------
@@ -250,24 +250,22 @@ def check_own_points(reading: Reading) -> None:
     """Note what is wrong with the own points of the links."""
     frame, say = reading.frame.name, reading.say
     if frame in reading.links:
-        say("frame.name", Phrase("the frame is named as a moving link", frame=frame),
-            Phrase("give the frame a name of its own"))
+        say("frame.name", "the frame is named as a moving link", "give the frame a name of its own", frame=frame)
     for name, link in reading.links.items():
         where, own = f"links.{name}", link.points
         if len(own) > 2:
-            say(f"{where}.points", Phrase("found names", count=len(own), name=", ".join(own[:6])),
-                Phrase("two at most place in at x y", name=own[2], other=own[2]))
+            say(f"{where}.points", "found names", Phrase("two at most place in at x y", name=own[2], other=own[2]),
+                count=len(own), name=", ".join(own[:6]))
         twice = sorted({p for p in own if own.count(p) > 1})
         if twice:
-            found = Phrase("stands there twice", name=twice[0])
-            say(f"{where}.points", found, Phrase("a bar has two different points"))
+            say(f"{where}.points", "stands there twice", "a bar has two different points", name=twice[0])
         if link.length is not None and len(own) < 2 and name not in reading.unsure:
             key = "found with own points" if len(own) != 1 else "found with own point"
             say(f"{where}.length", Phrase(key, length=f"{link.length:g}", count=len(own)),
-                Phrase("a length needs two names in points"))
+                "a length needs two names in points")
         lost = name in reading.unsure or reading.lost_under("links", name, "on")
         if not own and link.on is None and not lost:
-            say(where, Phrase("has neither points nor on so nothing places"), Phrase("write points a b or on for a"))
+            say(where, "has neither points nor on so nothing places", "write points a b or on for a")
 
 
 def check_references(reading: Reading) -> None:
@@ -282,25 +280,24 @@ def check_references(reading: Reading) -> None:
             elif isinstance(entry, Compass):
                 reading.wrong(*(reading.no_point_of(f"{where}.from", name, ref) for ref in entry.origins))
             elif entry == "drawn" and point not in drawn and point not in fixed and not drawn_lost:
-                reading.say(where, Phrase("is drawn but is not in drawn", point=point),
-                            Phrase("write x y in drawn", point=point))
+                reading.say(where, "is drawn but is not in drawn", "write x y in drawn", point=point)
         circle = _circle_of_references(link)
         if circle:
-            reading.say(f"links.{name}.at", Phrase("are placed from one another", points=", ".join(circle)),
-                        Phrase("place one of them by x y or"))
+            reading.say(f"links.{name}.at", "are placed from one another", "place one of them by x y or",
+                        points=", ".join(circle))
     for where, name, body in reading.bodies:
         for guide, rail in body.guides.items():
             here, aim = f"{where}.guides.{guide}", rail.toward
             if rail.through is None:
-                reading.say(f"{here}.through", Phrase("is missing"), Phrase("write a point of the guide a circular"))
+                reading.say(f"{here}.through", "is missing", "write a point of the guide a circular")
             if isinstance(rail.through, str):
                 reading.wrong(reading.no_point_of(f"{here}.through", name, rail.through))
             if rail.angle is None and aim is None:
-                reading.say(here, Phrase("has no direction"), Phrase("write angle in degrees or toward a point"))
+                reading.say(here, "has no direction", "write angle in degrees or toward a point")
             placed = aim is None or aim in drawn or aim in fixed or drawn_lost
             if aim and not placed and reading.no_point_of("", name, aim):
-                reading.say(f"{here}.toward", Phrase("is no point of link nor fixed or", point=aim, name=name),
-                            Phrase("write x y in drawn or the direction", point=aim))
+                reading.say(f"{here}.toward", "is no point of link nor fixed or", "write x y in drawn or the direction",
+                            point=aim, name=name)
 
 
 def _circle_of_references(link: Link) -> list[str]:
@@ -329,13 +326,13 @@ def sliding_pairs(reading: Reading) -> tuple[SlidingPair, ...]:
             lost = name in reading.unsure or reading.lost_under("links", name, "on")
             if link.angle_on is not None and not lost:
                 where = f"links.{name}.angle_on"
-                reading.say(where, Phrase("stands without on"), Phrase("say what the link slides on"))
+                reading.say(where, "stands without on", "say what the link slides on")
             continue
         refs = listed(link.on)
         angles = _angles(link.angle_on) or [0.0] * len(refs)
         if len(angles) != len(refs):
-            reading.say(f"links.{name}.angle_on", Phrase("found for guides", count=len(angles), guides=len(refs)),
-                        Phrase("write one number for each guide"))
+            reading.say(f"links.{name}.angle_on", "found for guides", "write one number for each guide",
+                        count=len(angles), guides=len(refs))
             angles = [0.0] * len(refs)
         for ref, angle in zip(refs, angles, strict=True):
             on, _, guide = ref.partition(".")
@@ -352,13 +349,13 @@ def _angles(angles: float | Sequence[float] | None) -> list[float]:
 def _sliding_problem(name: str, on: str, link: Link, reading: Reading, pairs: list[SlidingPair]) -> Problem | None:
     where = f"links.{name}.on"
     if on == name:
-        return Problem(where, Phrase("link slides on itself", name=name), Phrase("name the link that guides it"))
+        return Problem(where, "link slides on itself", "name the link that guides it", name=name)
     if any({p.link, p.on} == {name, on} for p in pairs):
-        found = Phrase("link already has a sliding pair with link", name=name, on=on)
-        return Problem(where, found, Phrase("two links have one sliding pair at most"))
+        return Problem(where, "link already has a sliding pair with link", "two links have one sliding pair at most",
+                       name=name, on=on)
     if link.points and link.points[0] in reading.points.get(on, ()):
-        found = Phrase("is a point of link too which pins", points=link.points[0], on=on)
-        return Problem(where, found, Phrase("take away from one of them or do", points=link.points[0], name=name))
+        return Problem(where, "is a point of link too which pins", "take away from one of them or do",
+                       points=link.points[0], on=on, name=name)
     return None
 
 
@@ -376,8 +373,7 @@ def pins_in_slots(reading: Reading) -> tuple[PinInSlot, ...]:
             if reading.wrong(problem):
                 continue
             if any(s.key == f"{point}/{on}" for s in reading.slidings):
-                reading.say(where, Phrase("is also the name of a sliding pair", point=point, on=on),
-                            Phrase("rename link", point=point))
+                reading.say(where, "is also the name of a sliding pair", "rename link", point=point, on=on)
             elif not unknown:
                 pins.append(PinInSlot(point, pin.of, on, guide))
     return tuple(pins)
@@ -440,8 +436,8 @@ def not_held(group: tuple[str, ...], frame: str) -> Problem:
     """The problem of links that nothing holds."""
     hint = Phrase("share a point with another link or slide", frame=frame)
     if len(group) == 1:
-        return Problem(f"links.{group[0]}", Phrase("nothing holds this link"), hint)
-    return Problem(Phrase("links", links=", ".join(group)), Phrase("nothing joins these links to the frame"), hint)
+        return Problem(f"links.{group[0]}", "nothing holds this link", hint)
+    return Problem(Phrase("links", links=", ".join(group)), "nothing joins these links to the frame", hint)
 
 
 # -- carriages ---------------------------------------------------------------------------------------------------------
@@ -514,13 +510,13 @@ def with_bars(reading: Reading) -> Reading:
             kept[point] = replace(pin, slots=straight)
         for slot in filter(None, map(arc_of, refs)):
             if pin.of not in points:
-                reading.say(f"{where}.of", Phrase("there is no link", name=pin.of), did_you_mean(pin.of, taken))
+                reading.say(f"{where}.of", "there is no link", did_you_mean(pin.of, taken), name=pin.of)
             elif point not in points[pin.of]:
-                reading.say(f"{where}.of", Phrase("link has no point of name and centre", name=pin.of, centre=point),
-                            did_you_mean(point, sorted(points[pin.of])))
+                reading.say(f"{where}.of", "link has no point of name and centre",
+                            did_you_mean(point, sorted(points[pin.of])), name=pin.of, centre=point)
             elif pin.of == slot[0] or point in points[slot[0]]:
-                reading.say(f"{where}.in", Phrase("is a point of link itself", point=point, key=slot[0]),
-                            Phrase("name the slot of another link"))
+                reading.say(f"{where}.in", "is a point of link itself", "name the slot of another link", point=point,
+                            key=slot[0])
             elif centres[slot]:
                 bar = _free(slot[1], taken)
                 taken.add(bar)
@@ -538,10 +534,9 @@ def with_bars(reading: Reading) -> Reading:
             if key is None:
                 continue
             if key[0] == name:
-                reading.say(f"links.{name}.on", Phrase("link slides on itself", name=name), Phrase("name another link"))
+                reading.say(f"links.{name}.on", "link slides on itself", "name another link", name=name)
             elif not link.points:
-                reading.say(f"links.{name}.points", Phrase("is missing"),
-                            Phrase("name the point of the block that runs"))
+                reading.say(f"links.{name}.points", "is missing", "name the point of the block that runs")
             elif centres[key]:
                 # along the guide's sense, turned back by angle_on, lies the own x axis: the centre is to the left of it
                 way = 1j * direction(-angle) * (arcs[key].r or 0.0)
@@ -565,21 +560,20 @@ def _centre(
     where = f"{body}.guides.{key[1]}"
     both = [k for k in ("through", "angle", "toward") if getattr(arc, k) is not None]
     if both:
-        reading.say(f"{where}.{both[0]}", Phrase("stands in a slot along a circle"),
-                    Phrase("a straight guide has through and angle a"))
+        reading.say(f"{where}.{both[0]}", "stands in a slot along a circle", "a straight guide has through and angle a")
     if arc.centre is None:
-        reading.say(f"{where}.centre", Phrase("is missing"), Phrase("write centre m or x y and r"))
+        reading.say(f"{where}.centre", "is missing", "write centre m or x y and r")
         return ""
     if arc.r is None:
-        reading.say(f"{where}.r", Phrase("is missing"), Phrase("write the slot's radius"))
+        reading.say(f"{where}.r", "is missing", "write the slot's radius")
     if not isinstance(arc.centre, str):
         point = _free("M", {p for each in points.values() for p in each})
         given[point] = list(arc.centre)
         own.add(point)
         return point
     if arc.centre not in own and not reading.lost_under(*where.split(".")[:2]):
-        reading.say(f"{where}.centre", Phrase("link has no point of name and centre", name=name, centre=arc.centre),
-                    did_you_mean(arc.centre, sorted(own)))
+        reading.say(f"{where}.centre", "link has no point of name and centre", did_you_mean(arc.centre, sorted(own)),
+                    name=name, centre=arc.centre)
         return ""
     return arc.centre
 

@@ -201,8 +201,8 @@ def cams_of(reading: Reading, lines: Mapping[str, Line], drawn: Mapping[str, com
     for name, cam in reading.file.cams.items():
         other = moved.setdefault(cam.follower, name)
         if other != name:
-            said = Phrase("link is moved by cam already", follower=cam.follower, other=other)
-            reading.say(f"cams.{name}.follower", said, Phrase("a follower has one cam"))
+            reading.say(f"cams.{name}.follower", "link is moved by cam already", "a follower has one cam",
+                        follower=cam.follower, other=other)
         placed = _cam(name, cam, reading, lines, drawn)
         if placed is not None:
             found.append(placed)
@@ -219,15 +219,15 @@ def _cam(
     roller = si.roller or 0.0
     base = si.base.r + (roller if cam.base.of == "profile" else 0.0)
     if cam.flat and cam.roller is not None:
-        reading.say(f"{where}.flat", Phrase("stands beside roller"), Phrase("the face is flat or it has a"))
+        reading.say(f"{where}.flat", "stands beside roller", "the face is flat or it has a")
     if not cam.flat and base <= roller:
-        reading.say(f"{where}.base.r", Phrase("found with a roller of", r=f"{cam.base.r:g}", roller=f"{cam.roller:g}"),
-                    Phrase("the base circle of the pitch curve is"))
+        reading.say(f"{where}.base.r", "found with a roller of", "the base circle of the pitch curve is",
+                    r=f"{cam.base.r:g}", roller=f"{cam.roller:g}")
     for side in ("rise", "fall"):
         angle = getattr(cam.allow, side, None)
         if angle is not None and not 0.0 < angle < 90.0:
-            reading.say(f"{where}.allow.{side}", Phrase("found value", value=f"{angle:g}"),
-                        Phrase("a pressure angle lies between 0 and 90"))
+            reading.say(f"{where}.allow.{side}", "found value", "a pressure angle lies between 0 and 90",
+                        value=f"{angle:g}")
     if not point or swings is None or len(reading.problems) > before:
         return None
     axis = _fixed(reading)[point]
@@ -252,7 +252,7 @@ def _axis(where: str, name: str, reading: Reading) -> str:
     if reading.wrong(reading.no_link(where, name, moving=True)):
         return ""
     if name == reading.frame.name:
-        reading.say(where, Phrase("link is the frame", name=name), Phrase("a cam turns"))
+        reading.say(where, "link is the frame", "a cam turns", name=name)
         return ""
     link = reading.links.get(name)
     if link is None or reading.lost_under("links", name):
@@ -262,7 +262,7 @@ def _axis(where: str, name: str, reading: Reading) -> str:
     if not reading.lost_under("frame"):
         no_point = Phrase("link has no point", name=name)
         said = Phrase("is no point of the frame", points=link.points[0]) if link.points else no_point
-        reading.say(where, said, Phrase("a cam turns about its first point which"))
+        reading.say(where, said, "a cam turns about its first point which")
     return ""
 
 
@@ -273,7 +273,7 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
         return None
     if follower in (name, frame):
         said = Phrase("the cam itself") if follower == name else Phrase("link is the frame", name=follower)
-        reading.say(where, said, Phrase("name the link that the cam moves"))
+        reading.say(where, said, "name the link that the cam moves")
         return None
     if follower in lines:
         return False
@@ -282,18 +282,16 @@ def _swings(here: str, name: str, cam: Cam, reading: Reading, lines: Mapping[str
         return None
     pivots = [p for p in link.points if p in _fixed(reading)]
     if len(pivots) != 1 or link.on is not None:
-        reading.say(where, Phrase("link neither slides on a guide of the", follower=follower),
-                    Phrase("write on guide or points with a pivot", frame=frame))
+        reading.say(where, "link neither slides on a guide of the", "write on guide or points with a pivot",
+                    follower=follower, frame=frame)
         return None
     if len(link.points) != 2:
-        reading.say(where, Phrase("link has no point but its pivot", follower=follower),
-                    Phrase("it is a bar from its pivot to"))
+        reading.say(where, "link has no point but its pivot", "it is a bar from its pivot to", follower=follower)
         return None
     sliding = {"offset": (cam.offset is not None, Phrase("an offset")), "flat": (cam.flat, Phrase("a flat face"))}
     for beside, (there, kind) in sliding.items():
         if there:
-            reading.say(f"{here}.{beside}", Phrase("link swings", name=follower),
-                        Phrase("is for a sliding follower", kind=kind))
+            reading.say(f"{here}.{beside}", "link swings", "is for a sliding follower", name=follower, kind=kind)
     return True
 
 
@@ -302,8 +300,8 @@ def _sliding(where: str, si: Cam, reading: Reading, axis: complex, line: Line) -
     pair, through, along = line
     offset, metres = cross(along, axis - through), reading.metres
     if si.offset is not None and abs(si.offset - offset) > AGREES * max(abs(axis - through), si.base.r):
-        found = Phrase("found but the guide makes it", offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
-        reading.say(f"{where}.offset", found, Phrase("one is wrong positive where the axis is"))
+        reading.say(f"{where}.offset", "found but the guide makes it", "one is wrong positive where the axis is",
+                    offset=f"{si.offset / metres:g}", other=f"{offset / metres:.9g}")
         return None
     travel = dot(along, axis - through)
     return SlidingFollower(pair, through + along * travel, along, travel, offset)
@@ -318,12 +316,10 @@ def _swinging(
     pivot, tip = (first, second) if first in places else (second, first)
     centre = places[pivot]
     if centre == axis:
-        reading.say(f"{where}.follower", Phrase("swings about the cam's own axis", pivot=pivot),
-                    Phrase("its pivot lies elsewhere"))
+        reading.say(f"{where}.follower", "swings about the cam's own axis", "its pivot lies elsewhere", pivot=pivot)
         return None
     if link.length is None:
-        reading.say(f"links.{cam.follower}.length", Phrase("is missing"),
-                    Phrase("the length of a swinging follower is written"))
+        reading.say(f"links.{cam.follower}.length", "is missing", "the length of a swinging follower is written")
         return None
     left = tip not in drawn or cross(axis - centre, drawn[tip] - centre) >= 0.0
     return SwingingFollower(pivot, tip, centre, link.length * reading.metres, 1 if left else -1, pivot == second)

@@ -217,13 +217,11 @@ def design_of(source: DesignLike) -> Design:
     elif isinstance(source, str | os.PathLike):
         text = os.fspath(source)
         if "/" not in text and not text.endswith(".toml") and not os.path.isfile(text):
-            missing = Phrase("there is no such file and no design")
-            raise SceneError(Problem(text[:200], missing, did_you_mean(text[:60], designs())))
+            raise SceneError.of(text[:200], "there is no such file and no design", did_you_mean(text[:60], designs()))
         raw, name = parsed(file_text(text)), Path(text).stem
     else:
         if not isinstance(source, Mapping):
-            wanted = Phrase("give a file the name of a design")
-            raise unfit("design", source, wanted)
+            raise unfit("design", source, "give a file the name of a design")
         raw, name = plain(source), "design"
     return _read(raw, safe_name(name))
 
@@ -233,9 +231,9 @@ def _read(raw: Tables, name: str) -> Design:
     given = plain(raw)
     if "links" in given:
         found = Phrase("unknown table") if isinstance(given.pop("links"), dict) else Phrase("unknown key")
-        problems.append(Problem("links", found, Phrase("this is a scene a design file has")))
+        problems.append(Problem("links", found, "this is a scene a design file has"))
     if given.get("design") is None:
-        problems.append(Problem("design", Phrase("is missing"), Phrase("a design file has a table design with")))
+        problems.append(Problem("design", "is missing", "a design file has a table design with"))
     own, wrong, _ = DESIGN.checked(given)
     task = _task(own.design, problems) if own.design else None
     problems += wrong
@@ -248,10 +246,10 @@ def _task(raw: OwnTables, problems: list[Problem]) -> DesignTask | None:
     """The task that a table says; None where something is wrong with it, which is added to ``problems``."""
     kind = raw.pop("kind", None)
     if kind is None:
-        problems.append(Problem("design.kind", Phrase("is missing"), Phrase("one of", names=", ".join(KINDS))))
+        problems.append(Problem("design.kind", "is missing", "one of", names=", ".join(KINDS)))
         return None
     if not isinstance(kind, str) or kind not in KINDS:
-        problems.append(Problem("design.kind", Phrase("found value", value=shown(kind)), _kind_meant(str(kind))))
+        problems.append(Problem("design.kind", "found value", _kind_meant(str(kind)), value=shown(kind)))
         return None
     wrong: tuple[Problem, ...] | list[Problem]
     try:
@@ -275,19 +273,19 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
     bars: list[PlacedBar] = list(task.positions)  # type: ignore[arg-type]  # as the file has them
     length, before = task.BC or 0.0, len(problems)
 
-    def say(where: str, found: Wording, wanted: Wording) -> None:
-        problems.append(Problem(f"design.{where}", found, wanted))
+    def say(where: str, found: Wording, wanted: Wording, **gaps: object) -> None:
+        problems.append(Problem(f"design.{where}", found, wanted, **gaps))
 
     for i, bar in enumerate(bars, 1):
         if (bar.C is None) == (bar.angle is None):
             found = Phrase("has neither c nor angle") if bar.C is None else Phrase("has both c and angle")
-            say(f"positions.{i}", found, Phrase("a bar lies where b and c lie"))
+            say(f"positions.{i}", found, "a bar lies where b and c lie")
     by_angle = any(bar.angle is not None for bar in bars)
     if by_angle and not length:
-        say("BC", Phrase("is missing"), Phrase("length of the bar since its places are"))
+        say("BC", "is missing", "length of the bar since its places are")
     if (task.A is None) != (task.D is None):
         missing = "A" if task.A is None else "D"
-        say(missing, Phrase("is missing"), Phrase("both fixed pivots are given or none"))
+        say(missing, "is missing", "both fixed pivots are given or none")
     if len(problems) > before:
         return None
     placed = [BarPlace(bar.B, bar.B + length * direction(bar.angle or 0.0) if bar.C is None else bar.C) for bar in bars]
@@ -298,10 +296,9 @@ def _bar_positions(task: BarPositionsTask, problems: list[Problem]) -> BarPositi
     for i, place in enumerate(placed, 1):
         here = abs(place.C - place.B)
         if here < SMALLEST:
-            say(f"positions.{i}", Phrase("b and c lie at one place"), Phrase("a bar has a length"))
+            say(f"positions.{i}", "b and c lie at one place", "a bar has a length")
         elif abs(here - own) > SAME_BAR * own:
-            said = Phrase("the bar is long", value=f"{here:.6g}")
-            say(f"positions.{i}", said, Phrase("in position 1", name=f"{own:.6g}"))
+            say(f"positions.{i}", "the bar is long", "in position 1", value=f"{here:.6g}", name=f"{own:.6g}")
     first, second, third = placed
     angles = tuple(degrees(place.C - place.B) for place in placed)
     return None if len(problems) > before else replace(task, positions=(first, second, third), angles=angles)

@@ -77,23 +77,23 @@ def _law(where: str, driver: Driver | DrivenSlide, reading: Reading) -> MotionLa
     """How a driver moves over the time, at the moment that the file asks."""
     if driver.law is None:
         if driver.time is not None:
-            reading.say(f"{where}.time", Phrase("tells the moment of a law"), Phrase("write law with it"))
+            reading.say(f"{where}.time", "tells the moment of a law", "write law with it")
         return None
     value, given = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
     for name in ("omega", "rpm", "speed", "velocity", "alpha", "acceleration", "sense", "position", "origin"):
         there = getattr(driver, name, None)
         if there is not None and not (name in ("alpha", "acceleration") and not there):
-            reading.say(f"{where}.{'from' if name == 'origin' else name}", Phrase("stands beside law"),
-                        Phrase("the law gives it leave one of them"))
+            reading.say(f"{where}.{'from' if name == 'origin' else name}", "stands beside law",
+                        "the law gives it leave one of them")
     if driver.time is not None and given is not None:
-        reading.say(f"{where}.time", Phrase("stands beside", value=value), Phrase("write one of the two"))
+        reading.say(f"{where}.time", "stands beside", "write one of the two", value=value)
     unit = math.pi / 180 if value == "angle" else reading.metres
     law = motion_law(f"{where}.law", driver.law, unit, reading)
     if law is None or driver.time is None:
         return law
     if not law.pieces[0].start <= driver.time <= law.duration:
-        reading.say(f"{where}.time", Phrase("found value", value=f"{driver.time:g}"),
-                    Phrase("the law goes from to s", start=f"{law.pieces[0].start:g}", duration=f"{law.duration:g}"))
+        reading.say(f"{where}.time", "found value", "the law goes from to s", value=f"{driver.time:g}",
+                    start=f"{law.pieces[0].start:g}", duration=f"{law.duration:g}")
     return replace(law, time=driver.time)
 
 
@@ -101,24 +101,23 @@ def _too_slow(where: str, driver: Driver | DrivenSlide) -> Iterator[Problem]:
     for name in ("omega", "rpm", "speed", "alpha", "velocity", "acceleration"):
         rate = getattr(driver, name, None)
         if rate and abs(rate) < SMALLEST:
-            yield Problem(f"{where}.{name}", Phrase("found value", value=f"{rate:g}"),
-                          Phrase("write 0 or at least", smallest=f"{SMALLEST:g}"))
+            yield Problem(f"{where}.{name}", "found value", "write 0 or at least", value=f"{rate:g}",
+                          smallest=f"{SMALLEST:g}")
 
 
 def _origin_problems(where: str, driver: Driver | DrivenSlide, reading: Reading) -> Iterator[Problem]:
     what, value = ("angle", driver.angle) if isinstance(driver, Driver) else ("travel", driver.travel)
     if driver.origin is None:
         if driver.near is not None:
-            yield Problem(f"{where}.near", Phrase("tells which dead point"), Phrase("write from dead point with it"))
+            yield Problem(f"{where}.near", "tells which dead point", "write from dead point with it")
         return
     if value is None or value == 0.0:
         found = Phrase("is missing") if value is None else Phrase("0 is the dead point itself")
-        yield Problem(f"{where}.{what}", found, Phrase("write the distance from the dead point"))
+        yield Problem(f"{where}.{what}", found, "write the distance from the dead point")
     if len(reading.drivers) > 1:
-        yield Problem(f"{where}.from", Phrase("a dead point is found for a single"), Phrase("give the value itself"))
+        yield Problem(f"{where}.from", "a dead point is found for a single", "give the value itself")
     if reading.file.drawn:
-        yield Problem(f"{where}.from", Phrase("with drawn the value of the driver follows"),
-                      Phrase("leave one of the two out"))
+        yield Problem(f"{where}.from", "with drawn the value of the driver follows", "leave one of the two out")
 
 
 def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]) -> Iterator[Problem]:
@@ -131,41 +130,38 @@ def _angle_problems(where: str, driver: Driver, reading: Reading, lost: set[str]
         if missing:
             yield missing
         elif link in links and links[link].redundant:
-            yield Problem(
-                f"{where}.{name}", Phrase("link is redundant", what=link), Phrase("drive by a link that counts")
-            )
+            yield Problem(f"{where}.{name}", "link is redundant", "drive by a link that counts", what=link)
     if driver.link == frame and driver.link not in links:
-        yield Problem(f"{where}.link", Phrase("link is the frame", name=driver.link),
-                      Phrase("drive a moving link", moving=", ".join(list(links)[:12])))
+        yield Problem(f"{where}.link", "link is the frame", "drive a moving link", name=driver.link,
+                      moving=", ".join(list(links)[:12]))
     if driver.relative_to == driver.link:
-        yield Problem(f"{where}.relative_to", Phrase("link is driven relative to itself", link=driver.link),
-                      Phrase("name another link or leave it out for"))
+        yield Problem(f"{where}.relative_to", "link is driven relative to itself",
+                      "name another link or leave it out for", link=driver.link)
     rates = {name: rate for name in ("omega", "rpm", "speed") if (rate := getattr(driver, name)) is not None}
     if "omega" in rates and "rpm" in rates:
-        yield Problem(f"{where}.omega", Phrase("found omega and rpm", omega=f"{driver.omega:g}", rpm=f"{driver.rpm:g}"),
-                      Phrase("write one of the two"))
+        yield Problem(f"{where}.omega", "found omega and rpm", "write one of the two", omega=f"{driver.omega:g}",
+                      rpm=f"{driver.rpm:g}")
     for other, rate in rates.items():
         if "speed" in rates and other != "speed":
-            found = Phrase("found speed and", speed=f"{driver.speed:g}", other=other, rate=f"{rate:g}")
-            yield Problem(f"{where}.speed", found, Phrase("write one of the two"))
+            yield Problem(f"{where}.speed", "found speed and", "write one of the two", speed=f"{driver.speed:g}",
+                          other=other, rate=f"{rate:g}")
     if "speed" in rates and driver.of is None and "of" not in lost:
-        yield Problem(f"{where}.of", Phrase("is missing"), Phrase("write of b the point whose speed it"))
+        yield Problem(f"{where}.of", "is missing", "write of b the point whose speed it")
     if driver.of is not None:
         if "speed" not in rates and "speed" not in lost:
-            said = Phrase("names a point whose speed is not given")
-            yield Problem(f"{where}.of", said, Phrase("write speed or leave it out"))
+            yield Problem(f"{where}.of", "names a point whose speed is not given", "write speed or leave it out")
         moving_points = [p for n, points in reading.points.items() if n != frame for p in points]
         if driver.of not in moving_points and not reading.unsure:
             wanted = did_you_mean(driver.of, moving_points)
-            yield Problem(f"{where}.of", Phrase("no moving link has a point", name=driver.of), wanted)
+            yield Problem(f"{where}.of", "no moving link has a point", wanted, name=driver.of)
         if len(reading.drivers) > 1:
-            yield Problem(f"{where}.speed", Phrase("the speed of a point tells the rate"), Phrase("give omega"))
+            yield Problem(f"{where}.speed", "the speed of a point tells the rate", "give omega")
     for name, rate in rates.items():
         if driver.sense is not None and rate < 0:
-            yield Problem(f"{where}.{name}", Phrase("found beside the sense", rate=f"{rate:g}", sense=driver.sense),
-                          Phrase("with sense write the size or leave sense"))
+            yield Problem(f"{where}.{name}", "found beside the sense", "with sense write the size or leave sense",
+                          rate=f"{rate:g}", sense=driver.sense)
     if not rates and driver.law is None and not lost & {"omega", "rpm", "speed", "law"}:
-        yield Problem(f"{where}.omega", Phrase("is missing"), Phrase("write omega in rad s or rpm it"))
+        yield Problem(f"{where}.omega", "is missing", "write omega in rad s or rpm it")
 
 
 def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> Iterator[Problem]:
@@ -173,24 +169,22 @@ def _position_problems(where: str, i: int, driver: Driver, reading: Reading) -> 
     named, here, known = str(driver.position), f"{where}.position", reading.positions
     positions = reading.file.positions or Positions()
     if i > 0:
-        yield Problem(here, Phrase("positions are those of the first driver"), Phrase("give the angle"))
+        yield Problem(here, "positions are those of the first driver", "give the angle")
     elif named not in known:
         wanted = did_you_mean(named, known) if known else Phrase("name it in positions")
-        yield Problem(here, Phrase("there is no position", at=driver.position), wanted)
+        yield Problem(here, "there is no position", wanted, at=driver.position)
     elif positions.first is None and named not in positions.also:
-        said = Phrase("the numbered positions count from the driver's own")
-        yield Problem(here, said, Phrase("write positions.first or the angle"))
+        yield Problem(here, "the numbered positions count from the driver's own", "write positions.first or the angle")
     if driver.angle is not None:
-        yield Problem(here, Phrase("found angle too", angle=f"{driver.angle:g}"), Phrase("write one of the two"))
+        yield Problem(here, "found angle too", "write one of the two", angle=f"{driver.angle:g}")
     if driver.origin is not None or reading.file.drawn:
-        said = Phrase("what gives the driver's value stands here twice")
-        yield Problem(here, said, Phrase("leave one of them out"))
+        yield Problem(here, "what gives the driver's value stands here twice", "leave one of them out")
 
 
 def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) -> str:
     """The key of the pair that a table drives, as far as it is known; what is wrong with it is noted."""
     if driver.velocity is None and driver.law is None and not lost & {"velocity", "law"}:
-        reading.say(f"{where}.velocity", Phrase("is missing"), Phrase("write velocity per second it may be 0"))
+        reading.say(f"{where}.velocity", "is missing", "write velocity per second it may be 0")
     what, _, on = driver.slide.partition("/")
     pairs = {p.key: p.on for p in reading.slidings if p.link == what}
     pairs = pairs or {p.key: p.on for p in reading.running if p.point == what}
@@ -200,19 +194,19 @@ def _pair_of(where: str, driver: DrivenSlide, reading: Reading, lost: set[str]) 
     if "" in reading.unsure or (link is not None and link.on is not None and not pairs):
         return meant  # its pair has a problem of its own
     if not pairs and what not in reading.points:
-        reading.say(here, Phrase("there is no sliding link", what=what), did_you_mean(what, known))
+        reading.say(here, "there is no sliding link", did_you_mean(what, known), what=what)
     elif not pairs:
         drive = Phrase("drive a sliding pair", pairs=", ".join(known)) if known else Phrase("there is no sliding pair")
-        reading.say(here, Phrase("link slides on nothing", what=what), drive)
+        reading.say(here, "link slides on nothing", drive, what=what)
     elif not keys:
         name, rail = ("slide", on) if on and on not in pairs.values() else ("relative_to", driver.relative_to)
-        reading.say(f"{where}.{name}", Phrase("does not slide on link", what=what, name=rail),
-                    Phrase("it may be", names=alternatives(pairs)))
+        reading.say(f"{where}.{name}", "does not slide on link", "it may be", what=what, name=rail,
+                    names=alternatives(pairs))
     elif len(keys) > 1:
-        reading.say(here, Phrase("slides on links", what=what, count=len(keys)),
-                    Phrase("write a key", names=alternatives([f'"{pair}"' for pair in keys])))
+        reading.say(here, "slides on links", "write a key", what=what, count=len(keys),
+                    names=alternatives([f'"{pair}"' for pair in keys]))
     if link is not None and link.redundant:
-        reading.say(here, Phrase("link is redundant", what=what), Phrase("drive by a link that counts"))
+        reading.say(here, "link is redundant", "drive by a link that counts", what=what)
     return meant
 
 
@@ -248,7 +242,7 @@ def placed_driver(where: str, driver: model.Driver, value: float, reading: Readi
             wanted = Phrase("write angle in degrees or draw two points", key=driver.key)
         else:
             wanted = Phrase("write travel or draw the points that give")
-        problems.append(Problem(f"{where}.{name}", Phrase("is missing"), wanted))
+        problems.append(Problem(f"{where}.{name}", "is missing", wanted))
         return driver
     driver = replace(driver, value=value)
     if law is None:
@@ -258,8 +252,8 @@ def placed_driver(where: str, driver: model.Driver, value: float, reading: Readi
         if time is None:
             unit = math.pi / 180 if driver.turns else reading.metres
             low, high = (f"{end / unit:.6g}" for end in law.span)
-            wanted = Phrase("the law goes from to", least=low, greatest=high, turns=" deg" * driver.turns)
-            problems.append(Problem(f"{where}.{name}", Phrase("found value", value=f"{value / unit:.6g}"), wanted))
+            problems.append(Problem(f"{where}.{name}", "found value", "the law goes from to",
+                                    value=f"{value / unit:.6g}", least=low, greatest=high, turns=" deg" * driver.turns))
             return driver
         law = replace(law, time=time)
     return driver.moving(law)
@@ -316,8 +310,8 @@ def at_time(scene: Mechanism, time: float) -> tuple[Mechanism, dict[str, float]]
     """
     low, high = time_span(scene)
     if not low <= time <= high:
-        wanted = Phrase("the law goes from to s", start=f"{low:g}", duration=f"{high:g}")
-        raise CallError(Problem("at time", Phrase("found s", time=f"{time:g}"), wanted))
+        raise CallError.of("at time", "found s", "the law goes from to s", time=f"{time:g}", start=f"{low:g}",
+                           duration=f"{high:g}")
     drivers: list[model.Driver] = []
     values: dict[str, float] = {}
     since = time - asked_time(scene)

@@ -10,7 +10,6 @@ from typing import Literal
 from graphkin.errors import Problem, did_you_mean
 from graphkin.scene.model import Mechanism
 from graphkin.scene.symbol import Symbol
-from graphkin.words import Phrase
 
 __all__ = ["ForceJoint", "force_names", "joints", "no_force", "opposite"]
 
@@ -104,14 +103,14 @@ def no_force(mechanism: Mechanism, where: str, symbol: Symbol) -> Problem | None
     """What is wrong with a symbol of a force or a flywheel that the mechanism does not have; None for one that it
     has."""
     if symbol.scope == "cycle" and mechanism.loading.flywheel is None:
-        return Problem(where, Phrase("belongs to a flywheel but there is none", symbol=symbol), Phrase("give flywheel"))
+        return Problem(where, "belongs to a flywheel but there is none", "give flywheel", symbol=symbol)
     if symbol.scope != "force" or symbol.kind in ("h", "arm"):
         return None
     known = force_names(mechanism)
     if not known:
-        wanted = Phrase("give masses.link or loads.name or springs.name")
-        return Problem(where, Phrase("is a force but nothing makes any", symbol=symbol), wanted)
+        return Problem(where, "is a force but nothing makes any", "give masses.link or loads.name or springs.name",
+                       symbol=symbol)
     name = str(replace(symbol, at="", plus=False))
     if name in known or opposite(name) in known:
         return None
-    return Problem(where, Phrase("there is no here", symbol=symbol), did_you_mean(name, known))
+    return Problem(where, "there is no here", did_you_mean(name, known), symbol=symbol)

@@ -308,12 +308,12 @@ def _rise(reading: Reading, where: str, piece: LawPiece) -> float:
     """By how much a piece rises, in the unit of the file; what is wrong with it is noted."""
     moves = piece.rise is not None or piece.fall is not None
     if piece.rise is not None and piece.fall is not None:
-        reading.say(where, Phrase("has both rise and fall"), Phrase("give one of them or none for a"))
+        reading.say(where, "has both rise and fall", "give one of them or none for a")
     elif moves and piece.by is None:
         *names, last = (f'"{name}"' for name in LAWS)
-        reading.say(where, Phrase("does not say its law"), f"by = {', '.join(names)} or {last}")
+        reading.say(where, "does not say its law", f"by = {', '.join(names)} or {last}")
     elif piece.by is not None and not moves:
-        reading.say(where, Phrase("has by without rise or fall", by=piece.by), Phrase("a dwell has no law"))
+        reading.say(where, "has by without rise or fall", "a dwell has no law", by=piece.by)
     return (piece.rise or 0.0) - (piece.fall or 0.0)
 
 
@@ -333,24 +333,23 @@ def follower_law(where: str, pieces: Sequence[LawPiece], unit: float, reading: R
         high = low + _rise(reading, here, piece)
         sense, size = ("rise", piece.rise) if piece.rise is not None else ("fall", piece.fall)
         if size is not None and not size > 0.0:
-            reading.say(here, f"{sense} = {size:g}", Phrase("it must be positive a dwell has neither"))
+            reading.say(here, f"{sense} = {size:g}", "it must be positive a dwell has neither")
         if not piece.to > start:
-            reading.say(here, Phrase("ends at deg where it begins at", to=f"{piece.to:g}", start=f"{start:g}"),
-                        Phrase("degrees grow from 0 to 360"))
+            reading.say(here, "ends at deg where it begins at", "degrees grow from 0 to 360", to=f"{piece.to:g}",
+                        start=f"{start:g}")
         elif piece.to > 360.0:
-            reading.say(here, Phrase("ends at deg", start=f"{piece.to:g}"), Phrase("the law ends at 360"))
+            reading.say(here, "ends at deg", "the law ends at 360", start=f"{piece.to:g}")
         most = max(most, abs(high), abs(low))
         high = 0.0 if abs(high) < 1e-9 * most else high
         found.append(LiftPiece(math.radians(start), math.radians(piece.to), low * unit, high * unit, form_of(piece.by)))
         start, low = piece.to, high
     if not pieces:
-        reading.say(where, Phrase("is empty"), Phrase("write to 60 rise 28 by harmonic"))
+        reading.say(where, "is empty", "write to 60 rise 28 by harmonic")
     elif len(reading.problems) == before and start != 360.0:
-        reading.say(f"{where}.{len(pieces)}", Phrase("ends at deg", start=f"{start:g}"),
-                    Phrase("the last piece ends at 360"))
+        reading.say(f"{where}.{len(pieces)}", "ends at deg", "the last piece ends at 360", start=f"{start:g}")
     if len(reading.problems) == before and low != 0.0:
-        said = Phrase("does not come back a turn leaves the", least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
-        reading.say(where, said, Phrase("all that rises falls again"))
+        reading.say(where, "does not come back a turn leaves the", "all that rises falls again",
+                    least=f"{abs(low):.9g}", way="up" if low > 0 else "down")
     return FollowerLaw(tuple(found)) if len(reading.problems) == before else None
 
 
@@ -364,13 +363,13 @@ def motion_law(where: str, law: DriverLaw, unit: float, reading: Reading) -> Mot
     given = [name for name, there in ways.items() if there]
     if len(given) != 1:
         found = Phrase("says its motion by", ways=", ".join(given)) if given else Phrase("says nothing")
-        reading.say(where, found, Phrase("write from and to or pieces or a table"))
+        reading.say(where, found, "write from and to or pieces or a table")
         return None
     if given == ["table"]:
         return _by_table(where, law, unit, reading)
     before = len(reading.problems)
     if law.origin is None:
-        reading.say(f"{where}.from", Phrase("is missing"), Phrase("write the driver's value at 0 s"))
+        reading.say(f"{where}.from", "is missing", "write the driver's value at 0 s")
     pieces = _one(where, law, unit, reading) if given == ["by"] else _several(where, law, unit, reading)
     return None if len(reading.problems) > before else MotionLaw(tuple(pieces))
 
@@ -379,11 +378,11 @@ def _one(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[Lift
     """The piece of a law that goes from one value to another."""
     if (law.to is None) == (law.rise is None):
         both = Phrase("stands beside rise") if law.to is not None else Phrase("is missing")
-        reading.say(f"{where}.to", both, Phrase("write to the value at the end or"))
+        reading.say(f"{where}.to", both, "write to the value at the end or")
     if law.duration is None:
-        reading.say(f"{where}.duration", Phrase("is missing"), Phrase("write the seconds that it takes"))
+        reading.say(f"{where}.duration", "is missing", "write the seconds that it takes")
     if law.by is None:
-        reading.say(f"{where}.by", Phrase("is missing"), Phrase("write by cycloidal harmonic 345 or another law"))
+        reading.say(f"{where}.by", "is missing", "write by cycloidal harmonic 345 or another law")
     start = law.origin or 0.0
     end = law.to if law.to is not None else start + (law.rise or 0.0)
     return [LiftPiece(0.0, law.duration or 1.0, start * unit, end * unit, form_of(law.by))]
@@ -397,8 +396,7 @@ def _several(where: str, law: DriverLaw, unit: float, reading: Reading) -> list[
         here = f"{where}.pieces.{i}"
         high = low + _rise(reading, here, piece) * unit
         if not piece.to > time:
-            found = Phrase("ends at s where it begins at", to=f"{piece.to:g}", time=f"{time:g}")
-            reading.say(here, found, Phrase("seconds grow"))
+            reading.say(here, "ends at s where it begins at", "seconds grow", to=f"{piece.to:g}", time=f"{time:g}")
         pieces.append(LiftPiece(time, piece.to, low, high, form_of(piece.by)))
         time, low = piece.to, high
     return pieces
@@ -408,16 +406,15 @@ def _by_table(where: str, law: DriverLaw, unit: float, reading: Reading) -> Moti
     """A law through the values of a table."""
     here = f"{where}.table"
     if law.origin is not None:
-        reading.say(f"{where}.from", Phrase("stands beside a table"), Phrase("the table says where it begins"))
+        reading.say(f"{where}.from", "stands beside a table", "the table says where it begins")
         return None
     times, values = [t for t, _ in law.table], [v * unit for _, v in law.table]
     if len(times) < 2:
-        reading.say(here, Phrase("has one row"), Phrase("write time value two rows or more"))
+        reading.say(here, "has one row", "write time value two rows or more")
         return None
     for i, (a, b) in enumerate(pairwise(times), 2):
         if not b > a:
-            found = Phrase("is at s after one at s", other=f"{b:g}", name=f"{a:g}")
-            reading.say(f"{here}.{i}", found, Phrase("seconds grow"))
+            reading.say(f"{here}.{i}", "is at s after one at s", "seconds grow", other=f"{b:g}", name=f"{a:g}")
             return None
     rates = _spline(times, values)
     rows = zip(times, times[1:], values, values[1:], rates, rates[1:], strict=False)

@@ -35,11 +35,10 @@ def loading_of(reading: Reading) -> Loading:
     if file.flywheel is not None and not _not_moving(reading, "flywheel.on", file.flywheel.on):
         evening = file.flywheel
         if evening.delta >= 2.0:
-            reading.say("flywheel.delta", Phrase("found value", value=f"{evening.delta:g}"),
-                        Phrase("a part of the mean speed below 2"))
+            reading.say("flywheel.delta", "found value", "a part of the mean speed below 2", value=f"{evening.delta:g}")
     if (balancing or evening) and not (file.masses or file.loads or file.springs):
         where = "balance" if balancing else "flywheel"
-        reading.say(where, Phrase("there is nothing to balance"), Phrase("give masses.link loads.name or springs.name"))
+        reading.say(where, "there is nothing to balance", "give masses.link loads.name or springs.name")
     return Loading(down, tuple(filter(None, weighing)), tuple(filter(None, carried)), balancing, evening,
                    tuple(filter(None, pulling)))  # fmt: skip
 
@@ -49,10 +48,10 @@ def _not_moving(reading: Reading, where: str, link: str) -> bool:
     if reading.wrong(reading.no_link(where, link)):
         return True
     if link == reading.frame.name:
-        reading.say(where, Phrase("link is the frame", name=link), Phrase("what acts on the fixed link moves nothing"))
+        reading.say(where, "link is the frame", "what acts on the fixed link moves nothing", name=link)
         return True
     if link in reading.links and reading.links[link].redundant:
-        reading.say(where, Phrase("link is redundant", what=link), Phrase("its share of the forces is not determined"))
+        reading.say(where, "link is redundant", "its share of the forces is not determined", what=link)
         return True
     return False
 
@@ -82,7 +81,7 @@ def _mass(reading: Reading, link: str, table: Mass, g: float) -> LinkMass | None
         return None
     if (table.mass is None) == (table.weight is None):
         found = Phrase("has neither mass nor weight") if table.mass is None else Phrase("has both mass and weight")
-        reading.say(where, found, Phrase("give one of them"))
+        reading.say(where, found, "give one of them")
         return None
     si = in_si(table, reading.units)
     heavy = si.weight / g if si.weight is not None else si.mass or 0.0
@@ -96,18 +95,17 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
         return None
     if (load.force is None) == (load.moment is None):
         neither, both = Phrase("has neither force nor moment"), Phrase("has both force and moment")
-        say(where, neither if load.force is None else both, Phrase("give one of them"))
+        say(where, neither if load.force is None else both, "give one of them")
         return None
     phase = _phase(reading, f"{where}.when", load.when) if load.when is not None else None
     if si.moment is not None:
         for beside in ("at", "angle", "follows", "against"):
             if getattr(load, beside) is not None:
-                say(f"{where}.{beside}", Phrase("stands beside moment"),
-                    Phrase("a moment has neither place nor direction"))
+                say(f"{where}.{beside}", "stands beside moment", "a moment has neither place nor direction")
         return LoadOn(name, load.on, si.moment, False, phase=phase)
     at = 0j
     if si.at is None:
-        say(f"{where}.at", Phrase("is missing"), Phrase("a point of the link or x y"))
+        say(f"{where}.at", "is missing", "a point of the link or x y")
     else:
         at = _place(reading, f"{where}.at", load.on, si.at)
     turn = direction(load.angle) if load.angle is not None else 1 + 0j
@@ -115,12 +113,12 @@ def _load(reading: Reading, name: str, load: Load) -> LoadOn | None:
     if load.against is not None:
         against = _pair(reading, f"{where}.against", load.against)
         if load.angle is not None or load.follows is not None:
-            say(f"{where}.against", Phrase("stands beside angle or follows"), Phrase("a force has one direction"))
+            say(f"{where}.against", "stands beside angle or follows", "a force has one direction")
     elif load.follows is not None:
         reading.wrong(reading.no_link(f"{where}.follows", load.follows))
         follows = load.follows
     elif load.angle is None:
-        say(f"{where}.angle", Phrase("is missing"), Phrase("write angle follows or against a force has"))
+        say(f"{where}.angle", "is missing", "write angle follows or against a force has")
     return LoadOn(name, load.on, si.force or 0.0, True, at, turn, follows, against, phase)
 
 
@@ -128,21 +126,20 @@ def _spring(reading: Reading, name: str, table: Spring) -> SpringOn | None:
     """A spring, whose name is none of a load."""
     where, say, known = f"springs.{name}", reading.say, len(reading.problems)
     if name in reading.file.loads:
-        say(where, Phrase("a load is called too", name=name), Phrase("another name both would be p_", name=name))
+        say(where, "a load is called too", "another name both would be p_", name=name)
     if len(table.between) != 2 or table.between[0] == table.between[1]:
         given = ", ".join(table.between) or "nothing"
-        say(f"{where}.between", Phrase("found value", value=given), Phrase("two different points"))
+        say(f"{where}.between", "found value", "two different points", value=given)
     elif table.links is not None and len(table.links) != 2:
         given = ", ".join(table.links) or "nothing"
-        say(f"{where}.links", Phrase("found value", value=given), Phrase("two links one for each point"))
+        say(f"{where}.links", "found value", "two links one for each point", value=given)
     if len(reading.problems) > known:
         return None
     ends = [_end(reading, where, point, table.links[k] if table.links else "") for k, point in enumerate(table.between)]
     if len(reading.problems) > known or "" in ends:
         return None
     if ends[0] == ends[1]:
-        found = Phrase("both ends are on link", ends=ends[0])
-        say(where, found, Phrase("two links where several have a point write"))
+        say(where, "both ends are on link", "two links where several have a point write", ends=ends[0])
         return None
     (a, b), (p, q) = ends, table.between
     at = reading.places.get(a, {}).get(p, 0j), reading.places.get(b, {}).get(q, 0j)
@@ -158,8 +155,7 @@ def _end(reading: Reading, where: str, point: str, link: str) -> str:
         order = [reading.frame.name, *(n for n, each in reading.links.items() if not each.redundant)]
         having = [n for n in order if point in reading.places.get(n, {})]
         if not having and not missing:
-            reading.say(f"{where}.between", Phrase("is placed on no link", point=point),
-                        Phrase("a point of a link or the frame"))
+            reading.say(f"{where}.between", "is placed on no link", "a point of a link or the frame", point=point)
         return having[0] if having else ""
     if link != reading.frame.name and _not_moving(reading, f"{where}.links", link):
         return ""
@@ -172,25 +168,24 @@ def _phase(reading: Reading, where: str, when: LoadPhase) -> Phase | None:
     say = reading.say
     if (when.stroke is None) == (when.driver is None):
         neither, both = Phrase("has neither stroke nor driver"), Phrase("has both stroke and driver")
-        say(where, neither if when.stroke is None else both, Phrase("give one of them"))
+        say(where, neither if when.stroke is None else both, "give one of them")
         return None
     if when.stroke is not None:
         if not when.start < when.end <= 1.0:
-            say(where, Phrase("from to", least=f"{when.start:g}", greatest=f"{when.end:g}"),
-                Phrase("parts of the stroke grow from 0 to"))
+            say(where, "from to", "parts of the stroke grow from 0 to", least=f"{when.start:g}",
+                greatest=f"{when.end:g}")
         if when.sense not in (1, -1):
-            say(f"{where}.sense", Phrase("found value", value=f"{when.sense:g}"),
-                Phrase("1 along the guide's sense 1 against it"))
+            say(f"{where}.sense", "found value", "1 along the guide's sense 1 against it", value=f"{when.sense:g}")
         return Phase(_pair(reading, f"{where}.stroke", when.stroke), int(when.sense), when.start, when.end)
     assert when.driver is not None
     for beside, said in (("sense", when.sense != 1.0), ("from", when.start != 0.0), ("to", when.end != 1.0)):
         if said:
-            say(f"{where}.{beside}", Phrase("stands beside driver"), Phrase("it is of a stroke the driver's two"))
+            say(f"{where}.{beside}", "stands beside driver", "it is of a stroke the driver's two")
     slides = reading.slides
     start, end = (value * reading.units.of("length" if slides else "angle").si for value in when.driver)
     found = Phrase("found of bounds and fast", bounds=f"{when.driver[0]:g}", fast=f"{when.driver[1]:g}")
     if slides and start >= end:
-        say(f"{where}.driver", found, Phrase("the travel grows between them"))
+        say(f"{where}.driver", found, "the travel grows between them")
     elif not slides and not 0.0 < (span := end - start if end >= start else end - start + math.tau) <= TURN:
         wanted = Phrase("two different values") if span <= 0.0 else Phrase("at most a turn lies between them")
         say(f"{where}.driver", found, Phrase("a load that acts always has no when", wanted=wanted))
@@ -203,15 +198,14 @@ def _balance(reading: Reading, table: Balance | None) -> BalanceAt | None:
         return None
     say, si = reading.say, in_si(table, reading.units)
     if len(reading.drivers) > 1:
-        say("balance", Phrase("one balance cannot stand for several drivers"),
-            Phrase("leave it out each driver has its own"))
+        say("balance", "one balance cannot stand for several drivers", "leave it out each driver has its own")
     if si.at is None:
         if table.angle is not None:
-            say("balance.angle", Phrase("stands without at"), Phrase("a force has a place a moment has"))
+            say("balance.angle", "stands without at", "a force has a place a moment has")
         return BalanceAt(table.on, "moment")
     at = _place(reading, "balance.at", table.on, si.at)
     if table.angle is None:
-        say("balance.angle", Phrase("is missing"), Phrase("degrees in the frame or square to the"))
+        say("balance.angle", "is missing", "degrees in the frame or square to the")
     square = table.angle == "square"
     turn = 1 + 0j if square or not isinstance(table.angle, int | float) else direction(table.angle)
     return BalanceAt(table.on, "force", at, turn, square)

@@ -63,12 +63,11 @@ def scans_of(reading: Reading) -> tuple[PlacedScan, ...]:
         where, before = f"scans.{diagram}", len(reading.problems)
         points, read = ({n: complex(x, -y) for n, (x, y) in ends.items()} for ends in (scan.points, scan.read))
         if len(points) != 2 or len(set(points.values())) < len(points):
-            hint = Phrase("two ends at two places set scale and")
-            reading.say(f"{where}.points", Phrase("found value", value=len(points)), hint)
+            reading.say(f"{where}.points", "found value", "two ends at two places set scale and", value=len(points))
         for name in sorted(set(points) & set(read)):
-            reading.say(f"{where}.read.{name}", Phrase("stands in points too"), Phrase("leave one of them out"))
+            reading.say(f"{where}.read.{name}", "stands in points too", "leave one of them out")
         if not read:
-            reading.say(f"{where}.read", Phrase("is empty"), Phrase("write the ends that were read c 812"))
+            reading.say(f"{where}.read", "is empty", "write the ends that were read c 812")
         picture = _picture(f"{where}.file", scan.file) if scan.file is not None else ("", 0, 0, b"")
         if isinstance(picture, Problem):
             reading.wrong(picture)
@@ -85,18 +84,17 @@ def background_of(wish: Background, known: Mapping[str, complex], reading: Readi
     if isinstance(picture, Problem):
         reading.wrong(picture)
     if len(wish.points) != 2:
-        hint = Phrase("two points whose pixels are known set scale")
-        reading.say(f"{where}.points", Phrase("found value", value=len(wish.points)), hint)
+        reading.say(f"{where}.points", "found value", "two points whose pixels are known set scale",
+                    value=len(wish.points))
     for point in wish.points:
         if point not in known:
-            hint = Phrase("write a point of the frame or of", hint=did_you_mean(point, known))
-            reading.say(f"{where}.points.{point}", Phrase("is no point that stays where the picture"), hint)
+            reading.say(f"{where}.points.{point}", "is no point that stays where the picture",
+                        "write a point of the frame or of", hint=did_you_mean(point, known))
     if isinstance(picture, Problem) or len(reading.problems) > before:
         return None
     (p, q), (pixel, other) = wish.points, (complex(x, -y) for x, y in wish.points.values())
     if pixel == other or known[p] == known[q]:
-        found = Phrase("and lie at the same place", point=p, other=q)
-        reading.say(f"{where}.points", found, Phrase("name two points apart"))
+        reading.say(f"{where}.points", "and lie at the same place", "name two points apart", point=p, other=q)
         return None
     step = (known[q] - known[p]) / (other - pixel)
     kind, width, height, data = picture
@@ -113,25 +111,23 @@ def _picture(where: str, file: str) -> tuple[str, int, int, bytes] | Problem:
             data = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        found = Phrase("cannot be read of shown and reason", shown=shown, reason=from_others(reason))
-        return Problem(where, found, Phrase("name a png or jpeg beside the scene"))
+        return Problem(where, "cannot be read of shown and reason", "name a png or jpeg beside the scene", shown=shown,
+                       reason=from_others(reason))
     if len(data) > LARGEST:
-        found = Phrase("is larger than mb of shown and largest", shown=shown, largest=LARGEST // 1_000_000)
-        return Problem(where, found, Phrase("save it smaller"))
+        return Problem(where, "is larger than mb of shown and largest", "save it smaller", shown=shown,
+                       largest=LARGEST // 1_000_000)
     try:
         with warnings.catch_warnings(), Image.open(BytesIO(data), formats=list(KINDS)) as image:
             warnings.simplefilter("ignore")
             if image.width * image.height > MOST_PIXELS:
-                found = Phrase("has so many pixels", name=shown, width=image.width, height=image.height)
-                return Problem(where, found, Phrase("at most million are possible", most=MOST_PIXELS // 1_000_000))
+                return Problem(where, "has so many pixels", "at most million are possible", name=shown,
+                               width=image.width, height=image.height, most=MOST_PIXELS // 1_000_000)
             if image.getexif().get(TURNED, 1) != 1:
-                found = Phrase("is stored turned and only a note in", shown=shown)
-                return Problem(where, found, Phrase("save it upright"))
+                return Problem(where, "is stored turned and only a note in", "save it upright", shown=shown)
             image.load()
             return KINDS[str(image.format)], image.width, image.height, data
     except Image.DecompressionBombError:
-        found = Phrase("has too many pixels", shown=shown)
-        return Problem(where, found, Phrase("million are possible", most=MOST_PIXELS // 1_000_000))
+        return Problem(where, "has too many pixels", "million are possible", shown=shown, most=MOST_PIXELS // 1_000_000)
     except (OSError, SyntaxError, ValueError, EOFError) as error:
         key = "is no picture that can be read" if isinstance(error, UnidentifiedImageError) else "is damaged"
-        return Problem(where, Phrase(key, name=shown), Phrase("a png or jpeg is wanted"))
+        return Problem(where, Phrase(key, name=shown), "a png or jpeg is wanted")

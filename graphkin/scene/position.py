@@ -73,8 +73,8 @@ def _polar(where: str, entry: Polar, local: Places) -> complex | Problem | None:
             return None
         way = local[entry.toward] - start
         if way == 0:
-            found = Phrase("lies at itself", toward=entry.toward, origin=entry.origin)
-            return Problem(f"{where}.toward", found, Phrase("name a point that lies elsewhere"))
+            return Problem(f"{where}.toward", "lies at itself", "name a point that lies elsewhere", toward=entry.toward,
+                           origin=entry.origin)
         sense = way / abs(way)
     return start + entry.r * sense * direction(entry.angle)
 
@@ -88,18 +88,15 @@ def _compass(where: str, entry: Compass, metres: float, local: Places) -> comple
     r, s = entry.r
     c = abs(q - p)
     if c == 0:
-        found = Phrase("and lie at the same place", point=first, other=second)
-        return Problem(f"{where}.from", found, Phrase("name two points apart"))
+        return Problem(f"{where}.from", "and lie at the same place", "name two points apart", point=first, other=second)
     both = cross_arcs(p, r, q, s)
     if both is None and min(abs(r + s - c), abs(abs(r - s) - c)) <= 1e-12 * max(r, s, c):
         both = (p + (q - p) / c * math.copysign(r, c * c + r * r - s * s),) * 2  # the arcs touch
     if both is None:
         least, most = abs(c - r) / metres, (c + r) / metres
-        found = Phrase("arcs of about and about do not meet", r=f"{r / metres:g}", first=first,
-                       other=f"{s / metres:g}", second=second)
-        wanted = Phrase("with the second may be from to", first=first, second=second, name=f"{c / metres:.6g}",
-                        least=f"{least:.6g}", most=f"{most:.6g}")
-        return Problem(where, found, wanted)
+        return Problem(where, "arcs of about and about do not meet", "with the second may be from to",
+                       r=f"{r / metres:g}", first=first, other=f"{s / metres:g}", second=second,
+                       name=f"{c / metres:.6g}", least=f"{least:.6g}", most=f"{most:.6g}")
     return both[0 if entry.side == "left" else 1]
 
 
@@ -130,16 +127,15 @@ def _guide_of(
         return None
     way = aim - through
     if abs(way) <= tolerance:
-        found = Phrase("lies where the guide goes through", toward=entry.toward)
-        return Problem(f"{where}.toward", found, Phrase("name a point that lies elsewhere"))
+        return Problem(f"{where}.toward", "lies where the guide goes through", "name a point that lies elsewhere",
+                       toward=entry.toward)
     sense = way / abs(way)
     if entry.angle is None:
         return PlacedGuide(name, through, sense)
     given = direction(entry.angle)
     if abs(given - sense) * abs(way) > tolerance:
-        found = Phrase("found deg but toward it is deg", angle=f"{entry.angle:g}", toward=entry.toward,
-                       degrees=f"{degrees(sense):.8g}")
-        return Problem(f"{where}.angle", found, Phrase("leave one of the two out or correct"))
+        return Problem(f"{where}.angle", "found deg but toward it is deg", "leave one of the two out or correct",
+                       angle=f"{entry.angle:g}", toward=entry.toward, degrees=f"{degrees(sense):.8g}")
     return PlacedGuide(name, through, given)
 
 
@@ -161,14 +157,13 @@ def bodies_of(reading: Reading, drawn: Places) -> dict[str, Placement]:
             if body.length is None and own[0] in given and own[1] in given:
                 body.length = abs(given[own[1]] - given[own[0]])
                 if body.length == 0.0:
-                    reading.say(body.where, Phrase("and are given at the same place", name=own[0], other=own[1]),
-                                Phrase("a bar has two points apart"))
+                    reading.say(body.where, "and are given at the same place", "a bar has two points apart",
+                                name=own[0], other=own[1])
             if body.length is not None:
                 body.local[own[1]] = complex(body.length)
             elif not reading.lost_under("links", name, "length") and not reading.lost_under("drawn"):
                 undrawn = " and ".join(p for p in own if p not in given)
-                reading.say(f"{body.where}.length", Phrase("is missing"),
-                            Phrase("write length or give in drawn", undrawn=undrawn))
+                reading.say(f"{body.where}.length", "is missing", "write length or give in drawn", undrawn=undrawn)
         bodies[name] = body
     frame = Placement(reading.frame.name, "frame", (), {}, in_si(reading.frame, reading.units).guides)
     frame.local, frame.turn, frame.origin = dict(fixed), 1 + 0j, 0j
@@ -487,8 +482,8 @@ def check_starts(position: DrawnPosition) -> None:
             seen = f"{degrees(turn):.10g} deg"
         else:
             continue
-        found = Phrase("found but the given places make it", start=f"{link.start:.10g}", value=seen)
-        position.reading.say(f"links.{name}.start", found, Phrase("one of the two is wrong leave start"))
+        position.reading.say(f"links.{name}.start", "found but the given places make it",
+                             "one of the two is wrong leave start", start=f"{link.start:.10g}", value=seen)
 
 
 def starts_of(position: DrawnPosition, contacts: Iterable[PlacedContact]) -> dict[str, float]:
@@ -523,14 +518,13 @@ def check_placed_twice(position: DrawnPosition) -> None:
                 if abs(local - own) > position.tolerance:
                     places = {"pair": position.pair(local), "other": position.pair(own)}
                     found = Phrase("puts it at but as an own point", **places)
-                    position.reading.say(f"{body.where}.at.{point}", found,
-                                         Phrase("leave one of the two out or correct"))
+                    position.reading.say(f"{body.where}.at.{point}", found, "leave one of the two out or correct")
         for point, place in body.local.items() if body.where == "frame" else ():
             drawn = position.drawn.get(point, place)
             if abs(drawn - place) > position.tolerance:
                 places = {"pair": position.pair(drawn), "other": position.pair(place)}
                 found = Phrase("found but it is a fixed point at", **places)
-                position.reading.say(f"drawn.{point}", found, Phrase("leave it out or correct it"))
+                position.reading.say(f"drawn.{point}", found, "leave it out or correct it")
 
 
 def check_all_found(position: DrawnPosition) -> None:
@@ -539,9 +533,8 @@ def check_all_found(position: DrawnPosition) -> None:
         missing = [f"at.{point}" for point in body.at if point not in body.local]
         missing += [f"guides.{guide}" for guide in body.rails if guide not in body.guides]
         for key in missing:
-            found = Phrase("where link lies does not follow from what", body=body.name)
-            position.reading.say(f"{body.where}.{key}", found,
-                                 Phrase("draw two points of link or give it", body=body.name))
+            position.reading.say(f"{body.where}.{key}", "where link lies does not follow from what",
+                                 "draw two points of link or give it", body=body.name)
 
 
 def check_distances(position: DrawnPosition) -> None:
@@ -559,10 +552,9 @@ def check_distances(position: DrawnPosition) -> None:
     far, where = max(places, key=lambda place: place[0])
     if far > FARTHEST * short:
         metres = position.reading.metres
-        said = Phrase("lies away beside a bar of link", distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}",
-                      body=body.name)
-        wanted = Phrase("too far apart sixteen digits hold at most", farthest=f"{FARTHEST:.0e}")
-        position.reading.say(where, said, wanted)
+        position.reading.say(where, "lies away beside a bar of link", "too far apart sixteen digits hold at most",
+                             distance=f"{far / metres:.3g}", short=f"{short / metres:.3g}", body=body.name,
+                             farthest=f"{FARTHEST:.0e}")
 
 
 def check_agreement(position: DrawnPosition) -> None:
@@ -586,7 +578,7 @@ def check_agreement(position: DrawnPosition) -> None:
                 off = f"{beside / position.reading.metres:.6g}"
                 said = Phrase("the given places put it beside the guide", beside=off, ref=ref)
                 where = f"links.{what}.on" if what in position.bodies else f"pins.{what}.in"
-                position.reading.say(where, said, Phrase("correct a coordinate or the guide"))
+                position.reading.say(where, said, "correct a coordinate or the guide")
     for link, base, turn in position.angles:
         driven, from_body = position.bodies[link], position.bodies[base]
         if driven.turn is not None and from_body.turn is not None:
@@ -595,9 +587,9 @@ def check_agreement(position: DrawnPosition) -> None:
     for key, travel in position.travels.items():
         seen_travel = position.travel_of(key)
         if seen_travel is not None and abs(seen_travel - travel) > position.tolerance:
-            said = Phrase("found but the given places make it", start=position.number(travel),
-                          value=position.number(seen_travel))
-            position.reading.say(Phrase("driver.travel of", key=key), said, Phrase("one of the two is wrong"))
+            position.reading.say(Phrase("driver.travel of", key=key), "found but the given places make it",
+                                 "one of the two is wrong", start=position.number(travel),
+                                 value=position.number(seen_travel))
 
 
 def _reach(body: Placement, local: complex) -> float:
@@ -611,9 +603,8 @@ def _check_angle(
     """Hold a given angle of two links against that of the known position, by how far it moves the points that gave
     it."""
     if abs(seen - given) * min(one.arm, other.arm, position.size) > position.tolerance:
-        said = Phrase("found deg but the given places make it", degrees=f"{degrees(given):.10g}",
-                      other=f"{degrees(seen):.10g}")
-        position.reading.say(where, said, Phrase("one of the two is wrong"))
+        position.reading.say(where, "found deg but the given places make it", "one of the two is wrong",
+                             degrees=f"{degrees(given):.10g}", other=f"{degrees(seen):.10g}")
 
 
 def _check_points(position: DrawnPosition, body: Placement) -> None:
@@ -622,18 +613,18 @@ def _check_points(position: DrawnPosition, body: Placement) -> None:
     if len(own) == 2 and body.length is not None and all(p in given for p in own):
         drawn = abs(given[own[1]] - given[own[0]])
         if abs(drawn - body.length) > position.tolerance:
-            said = Phrase("found but and are given apart", length=position.number(body.length), name=own[0],
-                          other=own[1], value=position.number(drawn))
-            position.reading.say(f"links.{body.name}.length", said, Phrase("one of the two is wrong"))
+            position.reading.say(f"links.{body.name}.length", "found but and are given apart",
+                                 "one of the two is wrong", length=position.number(body.length), name=own[0],
+                                 other=own[1], value=position.number(drawn))
             return
     for point, local in body.local.items():
         place = body.world(local)
         if place is None or point not in given:
             continue
         if abs(given[point] - place) > position.tolerance * _reach(body, local):
-            said = Phrase("link puts it at but it is given", body=body.name, pair=position.pair(place),
-                          other=position.pair(given[point]))
-            position.reading.say(Phrase("point", point=point), said, Phrase("one of the two is wrong"))
+            position.reading.say(Phrase("point", point=point), "link puts it at but it is given",
+                                 "one of the two is wrong", body=body.name, pair=position.pair(place),
+                                 other=position.pair(given[point]))
 
 
 def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -> None:
@@ -655,5 +646,5 @@ def check_contacts(contacts: Iterable[PlacedContact], position: DrawnPosition) -
             key = "puts the centre to the left of the face" if c.left else "puts the centre to the right of the face"
         if abs(found - wanted) > position.tolerance:
             drawn = Phrase(key, distance=position.number(found), given=position.number(wanted))
-            position.reading.say(f"contacts.{c.name}", Phrase("what is drawn", value=drawn),
-                         Phrase("correct a place a radius or the side"))
+            position.reading.say(f"contacts.{c.name}", "what is drawn", "correct a place a radius or the side",
+                                 value=drawn)

@@ -37,7 +37,6 @@ from graphkin.scene.pictures import background_of, scans_of
 from graphkin.scene.scene_tables import Frame, Guide, Link, SceneTables
 from graphkin.scene.tables import KeyPath, path_name, plain, tidy
 from graphkin.scene.touching import contacts_of, discs_of, gears_of, wrong_distances
-from graphkin.words import Phrase
 
 __all__ = ["as_mapping", "mechanism_said"]
 
@@ -134,12 +133,11 @@ def _refuse_too_much(file: SceneTables, problems: list[Problem]) -> None:
     """Raises SceneError for a file with too many links, or too many points of a link."""
     before = len(problems)
     if len(file.links) > MOST_LINKS:
-        found = Phrase("found moving links", count=len(file.links))
-        problems.append(Problem("links", found, Phrase("at most are possible", limit=MOST_LINKS)))
+        problems.append(Problem("links", "found moving links", "at most are possible", count=len(file.links),
+                                limit=MOST_LINKS))
     for name, link in file.links.items():
         if len(link.at) + len(link.guides) + len(link.points) > MOST_POINTS:
-            found = Phrase("has too many points and guides")
-            problems.append(Problem(f"links.{name}", found, Phrase("at most", most=MOST_POINTS)))
+            problems.append(Problem(f"links.{name}", "has too many points and guides", "at most", most=MOST_POINTS))
     if len(problems) > before:
         raise SceneError(*problems)
 
@@ -148,8 +146,7 @@ def _check_texts(reading: Reading) -> None:
     """Note texts that cannot be written on one line of a sheet."""
     for where in ("title", "title_zh", "source", "source_zh"):
         if any(unicodedata.category(c) in ("Cc", "Cs", "Cn", "Zl", "Zp") for c in getattr(reading.file, where)):
-            found = Phrase("holds a control character or a line break")
-            reading.say(where, found, Phrase("write one line of plain text"))
+            reading.say(where, "holds a control character or a line break", "write one line of plain text")
 
 
 def _check_forces(made: Mechanism) -> None:

@@ -83,11 +83,9 @@ def parsed(text: str) -> OwnTables:
         raise SceneError(deep) from None
     except ValueError as error:
         if "int_max_str_digits" in str(error):
-            found = Phrase("is not toml a number of thousands of")
-            wanted = Phrase("no number of a scene may exceed 1e")
-            raise SceneError(Problem(Phrase("the file"), found, wanted)) from None
-        found = Phrase("is not toml of message", message=error)
-        raise SceneError(Problem(Phrase("the file"), found, Phrase("see https toml.io"))) from None
+            raise SceneError.of(Phrase("the file"), "is not toml a number of thousands of",
+                                "no number of a scene may exceed 1e") from None
+        raise SceneError.of(Phrase("the file"), "is not toml of message", "see https toml.io", message=error) from None
 
 
 def _depth(text: str) -> int:
@@ -112,35 +110,34 @@ def file_text(path: str) -> str:
     shown = path if path.isprintable() and len(path) <= 200 else ascii(path)[:200]
     try:
         if os.path.isdir(path):
-            raise SceneError(Problem(shown, Phrase("is a directory"), Phrase("name a scene file in it")))
+            raise SceneError.of(shown, "is a directory", "name a scene file in it")
         with opened(path) as stream:
             data = stream.read(LARGEST_FILE + 1)
     except FileNotFoundError:
         raise SceneError(_no_scene(path, shown)) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        found = Phrase("cannot be read", reason=from_others(reason))
-        raise SceneError(Problem(shown or Phrase("the scene"), found)) from None
+        raise SceneError.of(shown or Phrase("the scene"), "cannot be read", reason=from_others(reason)) from None
     if len(data) > LARGEST_FILE:
         raise SceneError(_too_large())
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        wanted = Phrase("a scene file is toml saved as utf-8")
-        raise SceneError(Problem(Phrase("line", line=line), Phrase("is not utf-8 text"), wanted)) from None
+        raise SceneError.of(Phrase("line", line=line), "is not utf-8 text",
+                            "a scene file is toml saved as utf-8") from None
 
 
 def _too_large() -> Problem:
-    found = Phrase("is larger than kb", largest=LARGEST_FILE // 1000)
-    return Problem(Phrase("the file"), found, Phrase("a scene file is one mechanism as toml"))
+    return Problem(Phrase("the file"), "is larger than kb", "a scene file is one mechanism as toml",
+                   largest=LARGEST_FILE // 1000)
 
 
 def _no_scene(name: str, shown: str = "") -> Problem:
     shown = shown or name
     if name.endswith(".toml") or "/" in name or os.sep in name:
-        return Problem(shown, Phrase("there is no such file"), Phrase("name a scene file or a scene that"))
-    return Problem(shown or Phrase("the scene"), Phrase("there is no such file and no scene"),
+        return Problem(shown, "there is no such file", "name a scene file or a scene that")
+    return Problem(shown or Phrase("the scene"), "there is no such file and no scene",
                    did_you_mean(name[:60], library()))
 
 
@@ -148,7 +145,7 @@ def _syntax(message: str, text: str) -> Problem:
     """What the TOML parser says, with the line it happened in."""
     match = _AT_LINE.match(message)
     if not match:
-        return Problem(Phrase("the file"), Phrase("is not toml of message", message=message))
+        return Problem(Phrase("the file"), "is not toml of message", message=message)
     line = int(match[2]) if match[2] else text.count("\n") + 1
     lines = text.splitlines()
     here = lines[line - 1].strip() if line <= len(lines) else ""
@@ -156,7 +153,7 @@ def _syntax(message: str, text: str) -> Problem:
     if here and here.isprintable():
         said = Phrase("where and what", where=said, found=here[:80])
     hint = _toml_hint(match[1], here)
-    return Problem(Phrase("line", line=line), Phrase("is not toml", text=said), hint)
+    return Problem(Phrase("line", line=line), "is not toml", hint, text=said)
 
 
 def _toml_hint(message: str, line: str) -> Wording:
@@ -342,8 +339,8 @@ class Scene(SceneTables):
             with whole_file(target) as out:
                 out.write(toml_text(self.to_dict()).encode())
         except OSError as error:
-            found = Phrase("cannot be written", reason=from_others(error.strerror or str(error)))
-            raise CallError(Problem(str(path), found)) from None
+            raise CallError.of(str(path), "cannot be written",
+                               reason=from_others(error.strerror or str(error))) from None
         return target
 
     def __hash__(self) -> int:
@@ -410,13 +407,12 @@ def written(source: SceneLike) -> tuple[OwnTables, str]:
         text = os.fspath(source)
         if isinstance(text, str):
             if "\n" in text and "=" in text:
-                raise SceneError(Problem(Phrase("the scene"), Phrase("found the text of a scene file instead"),
-                                         Phrase("save it as a file or give tomllib.loads")))
+                raise SceneError.of(Phrase("the scene"), "found the text of a scene file instead",
+                                    "save it as a file or give tomllib.loads")
             if isinstance(source, str) and text in library() and not _is_file(text):
                 return parsed(library_text(text)), text
             return _beside(parsed(file_text(text)), Path(text)), Path(text).stem
-    raise SceneError(Problem(Phrase("the scene"), Phrase("found a", name=type(source).__name__),
-                             Phrase("give a file the name of a scene")))
+    raise SceneError.of(Phrase("the scene"), "found a", "give a file the name of a scene", name=type(source).__name__)
 
 
 def _beside(made: OwnTables, path: Path) -> OwnTables:
@@ -445,24 +441,23 @@ def put(made: OwnTables, key: str, value: object) -> Problem | None:
         table, old = value_at(made, path[:-1]), value_at(made, path)
         if isinstance(table, dict) and isinstance(old, dict | list) and not isinstance(value, dict | list):
             inside = ", ".join(map(str, old if isinstance(old, dict) else ("x", "y")))
-            return Problem(key, Phrase("is a table or a list not a"), Phrase("add one of", inside=inside))
+            return Problem(key, "is a table or a list not a", "add one of", inside=inside)
         table[path[-1]] = value
         return None
     there = next(n for n in range(len(parts)) if path_of_key(made, ".".join(parts[: n + 1])) is None)
     before, part = ".".join(parts[:there]), parts[there]
     place, said = value_at(made, path_of_key(made, before) or ()), before or Phrase("the scene as a whole")
     if isinstance(place, list):
-        found = Phrase("has no item", before=said, part=part)
-        return Problem(key, found, Phrase("it has counted from 1", count=len(place)))
+        return Problem(key, "has no item", "it has counted from 1", before=said, part=part, count=len(place))
     if not isinstance(place, dict):
-        return Problem(key, Phrase("is and has nothing inside", before=said, place=f"{place!r:.40}"))
+        return Problem(key, "is and has nothing inside", before=said, place=f"{place!r:.40}")
     known = set(SCENE.keys_at(parts[:there]))
     if parts[:1] == ["driver"] and there:
         known = {k for kind in ("<angle>", "<slide>") for k in SCENE.keys_at(("driver", "<one>", kind))}
     if part in known and there == len(parts) - 1:
         place[part] = value
         return None
-    return Problem(key, Phrase("has no", before=said, part=part), did_you_mean(part, map(str, place)))
+    return Problem(key, "has no", did_you_mean(part, map(str, place)), before=said, part=part)
 
 
 # -- new scenes --------------------------------------------------------------------------------------------------------
@@ -489,7 +484,7 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
     CallError : an unknown kind, an unknown name, a length that is not positive
     """
     if kind not in NEW:
-        raise CallError(Problem("--new", f'"{kind}"', did_you_mean(kind, NEW)))
+        raise CallError.of("--new", f'"{kind}"', did_you_mean(kind, NEW))
     asks = NEW[kind]
     problems = [Problem(f"--new {kind}", Phrase("asks for no", number=name), did_you_mean(name, asks))
                 for name in given if name not in asks]  # fmt: skip
@@ -497,7 +492,7 @@ def new_scene(kind: str, given: Mapping[str, float]) -> str:
         signed = name in ("offset", "angle", "rpm")
         if not math.isfinite(value) or abs(value) > 1e9 or (not signed and value <= 0):
             wanted = Phrase("a finite number") if signed else Phrase("a length is positive")
-            problems.append(Problem(name, Phrase("found value", value=f"{value:g}"), wanted))
+            problems.append(Problem(name, "found value", wanted, value=f"{value:g}"))
     if problems:
         raise CallError(*problems)
     text = (shelf() / "new" / f"{kind}.toml").read_text(encoding="utf-8")

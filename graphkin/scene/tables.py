@@ -504,11 +504,11 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
         nonlocal left
         left -= 1
         if len(path) > DEEPEST:
-            found = Phrase("is nested more than levels deep", most=DEEPEST)
-            raise SceneError(Problem(path_name(path[:4]), found, Phrase("a scene needs at most four")))
+            raise SceneError.of(path_name(path[:4]), "is nested more than levels deep", "a scene needs at most four",
+                                most=DEEPEST)
         if left < 0:
-            found = Phrase("holds more than values", most=MOST_VALUES)
-            raise SceneError(Problem(Phrase("the file"), found, Phrase("a scene is one mechanism")))
+            raise SceneError.of(Phrase("the file"), "holds more than values", "a scene is one mechanism",
+                                most=MOST_VALUES)
         if isinstance(value, FileTable):
             value = entries(value)
         elif hasattr(value, "tolist"):  # arrays and numbers of NumPy
@@ -516,8 +516,7 @@ def plain(source: Mapping[Any, object] | FileTable) -> OwnTables:
         if isinstance(value, Mapping):
             for key in value:
                 if not isinstance(key, str | int) or str(key).startswith(("<", "[")):  # signs that pydantic's paths use
-                    found = Phrase("has the key", key=f"{key!a:.60}")
-                    raise SceneError(Problem(path_name(path), found, Phrase("keys are words")))
+                    raise SceneError.of(path_name(path), "has the key", "keys are words", key=f"{key!a:.60}")
             return {str(key): copy(item, (*path, str(key))) for key, item in value.items()}
         if isinstance(value, list | tuple):
             return [copy(item, (*path, i)) for i, item in enumerate(value)]

@@ -32,12 +32,11 @@ def discs_of(reading: Reading) -> dict[tuple[str, str], PlacedDisc]:
         for name, disc in body.discs.items():
             here = f"{where}.discs.{name}"
             if name in reading.guides.get(link, ()):
-                reading.say(here, Phrase("is the name of a guide too", link=link, name=name),
-                            Phrase("give one of them another"))
+                reading.say(here, "is the name of a guide too", "give one of them another", link=link, name=name)
             if reading.wrong(reading.no_point_of(f"{here}.centre", link, disc.centre)):
                 continue
             if disc.r == 0:
-                reading.say(f"{here}.r", Phrase("found 0"), Phrase("write a radius a negative one is a"))
+                reading.say(f"{here}.r", "found 0", "write a radius a negative one is a")
             else:
                 found[link, name] = PlacedDisc(link, name, disc.centre, disc.r * reading.metres)
     return found
@@ -54,8 +53,7 @@ def contacts_of(reading: Reading, discs: Discs) -> tuple[PlacedContact, ...]:
     for name, contact in reading.file.contacts.items():
         where = f"contacts.{name}"
         if any(name in points for points in reading.points.values()):
-            reading.say(where, Phrase("is a point of a link already", name=name),
-                        Phrase("give the contact a letter of its own"))
+            reading.say(where, "is a point of a link already", "give the contact a letter of its own", name=name)
         sides = [_side(f"{where}.between", ref, reading, discs) for ref in contact.between]
         known = [side for side in sides if side is not None]
         if len(known) < 2:
@@ -85,8 +83,8 @@ def _side(where: str, ref: str, reading: Reading, discs: Discs) -> Side | None:
         return link, None, part
     known = [*outlines, *reading.guides.get(link, ())]
     unknown = Phrase("write it in links. discs or links. guides", link=link, other=link)
-    reading.say(where, Phrase("link has no disc and no guide", link=link, part=part),
-                did_you_mean(part, known) if known else unknown)
+    reading.say(where, "link has no disc and no guide", did_you_mean(part, known) if known else unknown, link=link,
+                part=part)
     return None
 
 
@@ -94,36 +92,32 @@ def _contact_problems(where: str, contact: Contact, one: Side, two: Side) -> Ite
     """What is wrong with two sides that there are."""
     refs, between, side = " and ".join(contact.between), f"{where}.between", f"{where}.side"
     if one[0] == two[0]:
-        found = Phrase("are outlines of the same link", refs=refs, link=one[0])
-        yield Problem(between, found, Phrase("name two links"))
+        yield Problem(between, "are outlines of the same link", "name two links", refs=refs, link=one[0])
         return
     discs = [disc for _, disc, _ in (one, two) if disc is not None]
     if not discs:
-        yield Problem(between, Phrase("are two guides", refs=refs), Phrase("one of them at least is a disc"))
+        yield Problem(between, "are two guides", "one of them at least is a disc", refs=refs)
         return
     if len(discs) == 1:
         if contact.side in ("outside", "inside"):
-            found = Phrase("found with a flat face", side=contact.side)
-            yield Problem(side, found, Phrase("a face has a left and a right"))
+            yield Problem(side, "found with a flat face", "a face has a left and a right", side=contact.side)
         if discs[0].radius < 0:
-            found = Phrase("is hollow", link=discs[0].link, disc=discs[0].name)
-            yield Problem(between, found, Phrase("no flat face touches a hollow outline"))
+            yield Problem(between, "is hollow", "no flat face touches a hollow outline", link=discs[0].link,
+                          disc=discs[0].name)
         return
     if contact.side in ("left", "right"):
-        found = Phrase("found with two discs", side=contact.side)
-        yield Problem(side, found, Phrase("two discs touch outside or inside"))
+        yield Problem(side, "found with two discs", "two discs touch outside or inside", side=contact.side)
     r1, r2 = (disc.radius for disc in discs)
     hollow = [d for d in discs if d.radius < 0]
     if len(hollow) == 2:
-        yield Problem(between, Phrase("are both hollow", refs=refs), Phrase("one of them has a positive radius"))
+        yield Problem(between, "are both hollow", "one of them has a positive radius", refs=refs)
     elif contact.side == "outside" and hollow:
-        wanted = Phrase("leave side out or write inside")
-        yield Problem(side, Phrase("found outside with a hollow outline"), wanted)
+        yield Problem(side, "found outside with a hollow outline", "leave side out or write inside")
     elif hollow and r1 + r2 >= 0:
-        found = Phrase("the hollow outline is no larger than what", link=hollow[0].link, hollow=hollow[0].name)
-        yield Problem(between, found, Phrase("its radius must be the larger one"))
+        yield Problem(between, "the hollow outline is no larger than what", "its radius must be the larger one",
+                      link=hollow[0].link, hollow=hollow[0].name)
     elif contact.side == "inside" and abs(r1) == abs(r2):
-        yield Problem(side, Phrase("both radii are equal"), Phrase("inside one must be smaller than the other"))
+        yield Problem(side, "both radii are equal", "inside one must be smaller than the other")
 
 
 def _contact(name: str, contact: Contact, one: Side, two: Side, reading: Reading) -> PlacedContact:
@@ -161,30 +155,28 @@ def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | N
     rack, before, say = isinstance(z2, str), len(reading.problems), reading.say
     unknown = reading.wrong(*(reading.no_link(between, link) for link in (first, second)))
     if isinstance(z1, str):
-        say(teeth, Phrase("the first is rack"), Phrase("the rack is the second one of between"))
+        say(teeth, "the first is rack", "the rack is the second one of between")
         return None
     if part or (guide and not rack):
         ref = gear.between[0] if part else gear.between[1]
-        say(between, Phrase("found of name", name=ref), Phrase("a wheel is named by its link alone"))
+        say(between, "found of name", "a wheel is named by its link alone", name=ref)
     elif guide and not unknown:
         reading.wrong(reading.no_guide(between, gear.between[1]))
     for z in (z1, z2):
         if not isinstance(z, str) and (z == 0 or not float(z).is_integer()):
-            say(teeth, Phrase("found value", value=f"{z:g}"), Phrase("write a number of teeth negative for internal"))
+            say(teeth, "found value", "write a number of teeth negative for internal", value=f"{z:g}")
     if rack and z1 < 0:
-        say(teeth, Phrase("found with a rack", teeth=f"{z1:g}"), Phrase("the wheel of a rack has external teeth"))
+        say(teeth, "found with a rack", "the wheel of a rack has external teeth", teeth=f"{z1:g}")
     if not isinstance(z2, str):
         if z1 < 0 and z2 < 0:
-            say(teeth, Phrase("both have internal teeth"), Phrase("one of them has external teeth"))
+            say(teeth, "both have internal teeth", "one of them has external teeth")
         elif min(z1, z2) < 0 <= z1 + z2:
-            found = Phrase("found and", teeth=f"{z1:g}", other=f"{z2:g}")
-            say(teeth, found, Phrase("a ring has more teeth than what runs"))
+            say(teeth, "found and", "a ring has more teeth than what runs", teeth=f"{z1:g}", other=f"{z2:g}")
     if first == second:
-        say(between, Phrase("link meshes with itself", first=first), Phrase("name two links"))
+        say(between, "link meshes with itself", "name two links", first=first)
     missing = gear.carrier is not None and reading.wrong(reading.no_link(carrier_key, gear.carrier))
     if gear.carrier in (first, second) and not missing:
-        say(carrier_key, Phrase("link is one of the wheels", carrier=gear.carrier),
-            Phrase("name the link that holds both axes"))
+        say(carrier_key, "link is one of the wheels", "name the link that holds both axes", carrier=gear.carrier)
     if len(reading.problems) > before:
         return None
     if "" in reading.unsure or any(n not in reading.points for n in (first, second)):
@@ -203,11 +195,11 @@ def _gear(where: str, name: str, gear: Gear, reading: Reading) -> PlacedGear | N
     held = Phrase("the wheel's axis and the rack's slide") if rack else Phrase("both axes")
     if gear.carrier:
         sharing = "it shares a point with a link and slides" if rack else "it shares a point with each of two links"
-        say(carrier_key, Phrase("link does not hold", carrier=gear.carrier, held=held),
-            Phrase(sharing, first=first, second=second))
+        say(carrier_key, "link does not hold", Phrase(sharing, first=first, second=second), carrier=gear.carrier,
+            held=held)
     else:
-        say(where, Phrase("no link holds of wheels and", held=held, first=first, second=second),
-            Phrase("pin both wheels to one carrier and name"))
+        say(where, "no link holds of wheels and", "pin both wheels to one carrier and name", held=held, first=first,
+            second=second)
     return None
 
 
@@ -238,22 +230,21 @@ def wrong_distances(
             if abs(held - wanted) > AGREE * max(abs(one.radius), abs(two.radius)):
                 apart = {"held": f"{held / reading.metres:.10g}", "wanted": f"{wanted / reading.metres:.10g}"}
                 reading.say(where, Phrase("link holds the centres apart the radii make", carrier=c.carrier, **apart),
-                            Phrase("correct a radius or the distance"))
+                            "correct a radius or the distance")
         if not c.flat and c.round[0].centre == c.round[1].centre:
-            reading.say(where, Phrase("both outlines have the same centre"), Phrase("two centres lie apart"))
+            reading.say(where, "both outlines have the same centre", "two centres lie apart")
     for g in gears:
         where, carried = f"gears.{g.name}", points[g.carrier]
         if not g.is_rack:
             if abs(carried[g.axes[1]] - carried[g.axes[0]]) == 0:
-                reading.say(where, Phrase("both axes lie at the same place"), Phrase("two wheels have axes apart"))
+                reading.say(where, "both axes lie at the same place", "two wheels have axes apart")
             continue
         height, tilt, far = rack_place(g, reading.slidings, points, guides)
         if abs(tilt) > AGREE:
-            reading.say(where, Phrase("the pitch line is not parallel to the", slide=g.slide),
-                        Phrase("name a guide of link along which it", wheels=g.wheels[1]))
+            reading.say(where, "the pitch line is not parallel to the", "name a guide of link along which it",
+                        slide=g.slide, wheels=g.wheels[1])
         elif abs(height) <= AGREE * max(far, 1e-300):
-            reading.say(where, Phrase("the wheel's axis lies on the pitch line"),
-                        Phrase("the distance of the two is the radius"))
+            reading.say(where, "the wheel's axis lies on the pitch line", "the distance of the two is the radius")
 
 
 def rack_place(

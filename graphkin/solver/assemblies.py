@@ -108,10 +108,8 @@ def _started(structure: Structure) -> Mapping[str, Pose]:
             abs(group.sine[0]) < state.singular[0])  # fmt: skip
         if dead:
             names = ", ".join(there.elements[i].members)
-            wanted = Phrase("let what rolls start a little beside it")
-            raise Unsolvable(
-                "dead point", Problem(Phrase("links", links=names), Phrase("they start in a dead point"), wanted)
-            )
+            raise Unsolvable("dead point", Problem(Phrase("links", links=names), "they start in a dead point",
+                                                   "let what rolls start a little beside it"))
     return state.poses
 
 
@@ -216,12 +214,8 @@ def _choose_place(structure: Structure, i: int, group: LargerGroup, drive: Drive
     drive = drive.followed(structure)
     found = _assemblies(structure, group, drive, known)
     if not len(found):
-        raise Unsolvable(
-            "not assembled",
-            Problem(
-                Phrase("links", links=', '.join(group.links)), Phrase("no assembly of this group was found in")
-            ),
-        )
+        raise Unsolvable("not assembled", Problem(Phrase("links", links=', '.join(group.links)),
+                                                  "no assembly of this group was found in"))
     placed = [{**known, **Constraints(structure, group, known, drive).poses(place[None])} for place in found]
     candidates = [new_places(structure, i, group.links, poses) for poses in placed]
     return np.asarray(found[pick(structure.scene, group.links, candidates, None).index])

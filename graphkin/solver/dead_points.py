@@ -59,7 +59,7 @@ def dead_points(structure: Structure, near: float = 0.0) -> list[DeadPoint]:
     """
     for group in structure.larger_groups:
         where = links_words(group.links)
-        raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for groups of two")))
+        raise Unsolvable("dead point", Problem(where, "dead points are found for groups of two"))
     if not all(e.explicit for e in structure.elements):
         where = Phrase("cams named", cams=", ".join(cam.link for cam in structure.scene.cams))
         raise Unsolvable("dead point", Problem(where, Phrase("dead points are found for mechanisms without cams")))

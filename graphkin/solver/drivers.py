@@ -13,10 +13,9 @@ from decimal import ROUND_HALF_EVEN, Context, Decimal, DivisionByZero, InvalidOp
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, did_you_mean
 from graphkin.scene.model import Driver, Mechanism
 from graphkin.solver.pose import GIVEN, Array, turned
-from graphkin.words import Phrase
 
 __all__ = [
     "GivenValues", "UniformGrid", "conversion_error", "cos_sin", "goal_values", "meant", "meant_angle",
@@ -141,9 +140,9 @@ def goal_values(scene: Mechanism, at: Mapping[str, float] | None) -> Array:
     keys = [d.key for d in scene.drivers]
     for key, value in (at or {}).items():
         if key not in keys:
-            raise CallError(Problem(f'at "{key}"', Phrase("there is no such driver"), did_you_mean(key, keys)))
+            raise CallError.of(f'at "{key}"', "there is no such driver", did_you_mean(key, keys))
         if not np.isfinite(value):
-            raise CallError(Problem(f'at "{key}"', Phrase("is no driver value of value", value=value)))
+            raise CallError.of(f'at "{key}"', "is no driver value of value", value=value)
         goal[keys.index(key)] = value
     return goal
 

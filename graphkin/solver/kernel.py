@@ -16,9 +16,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.solver.expressions import Code, ExpressionGraph, Name, Real, defined, operands
-from graphkin.words import Phrase
 
 __all__ = ["LONG", "Kernel", "kernel_text"]
 
@@ -172,9 +171,7 @@ def _library() -> dict[str, Any]:
     try:
         import numba  # type: ignore[import-not-found, import-untyped, unused-ignore]
     except ImportError:
-        raise CallError(
-            Problem("compiled", Phrase("needs numba which is not installed"), 'pip install "graphkin[fast]"')
-        ) from None
+        raise CallError.of("compiled", "needs numba which is not installed", 'pip install "graphkin[fast]"') from None
 
     def njit(function: Function, inside: bool = False) -> Function:
         options = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True, "forceinline": inside}

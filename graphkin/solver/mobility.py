@@ -103,25 +103,17 @@ def _unit(scene: Mechanism) -> float:
 def _verdict(tried: list[tuple[str, Fit, bool]]) -> Problem | None:
     mobile = [name for name, _, moves in tried if moves]
     if mobile:
-        return Problem(
-            Phrase("link of name", name=mobile[0]),
-            Phrase("it only repeats what the other links already"),
-            Phrase("write redundant true in links", link=mobile[0]),
-        )
+        return Problem(Phrase("link of name", name=mobile[0]), "it only repeats what the other links already",
+                       "write redundant true in links", link=mobile[0])
     here = [name for name, laid, _ in tried if laid.position[0] < 1e-9]
     if here:
-        return Problem(
-            Phrase("link of name", name=here[0]),
-            Phrase("it fits in this position but locks the"),
-            Phrase("leave link out or one of its joints", value=here[0]),
-        )
+        return Problem(Phrase("link of name", name=here[0]), "it fits in this position but locks the",
+                       "leave link out or one of its joints", value=here[0])
     if tried:
         name, laid, _ = min(tried, key=lambda x: float(x[1].position[0]))
-        return Problem(
-            Phrase("link of name", name=name),
-            Phrase("it does not fit between the others here", position=f'{100 * float(laid.position[0]):.3g}'),
-            Phrase("leave link out or one of its joints", value=name),
-        )
+        return Problem(Phrase("link of name", name=name), "it does not fit between the others here",
+                       "leave link out or one of its joints", position=f'{100 * float(laid.position[0]):.3g}',
+                       value=name)
     return None
 
 
@@ -236,12 +228,8 @@ def at_given_speed(structure: Structure) -> Structure:
             if once > STANDS * scene.size
             else Phrase("stands still here however fast it turns")
         )
-        raise Unsolvable(
-            "dead point",
-            Problem(
-                Phrase("driver of key and name", key=driver.key, name=name), said, Phrase("give omega or another place")
-            ),
-        )
+        raise Unsolvable("dead point", Problem(Phrase("driver of key and name", key=driver.key, name=name), said,
+                                               "give omega or another place"))
     return analyse(replace(scene, drivers=(replace(driver, rate=speed / once, given_speed=None),)))
 
 
@@ -283,8 +271,8 @@ def from_dead_point(structure: Structure) -> Structure:
         raise Unsolvable("dead point", Problem(what, Phrase(key), clauses(wanted)))
     if dead.near is None and len(found) > 1:
         names = listed([driver_text(scene, driver, float(p.value)) for p, _ in found])
-        raise Unsolvable("dead point", Problem(what, Phrase("there are dead points at", names=names),
-                                               Phrase("write near to tell which one")))
+        raise Unsolvable("dead point", Problem(what, "there are dead points at", "write near to tell which one",
+                                               names=names))
 
     def away(point: DeadPoint) -> float:
         return abs(driver.wrapped(float(point.value) - (dead.near or 0.0)))

@@ -218,13 +218,8 @@ class Motion:
         """A sliding pair or pin in slot by its key ("2/3", "B/3").  Raises CallError for an unknown one."""
         pair = next((s for s in self.slides if s.key == key), None)
         if pair is None:
-            raise CallError(
-                Problem(
-                    Phrase("slide", key=key),
-                    Phrase("there is no such sliding pair"),
-                    did_you_mean(key, [s.key for s in self.slides]),
-                )
-            )
+            raise CallError.of(Phrase("slide", key=key), "there is no such sliding pair",
+                               did_you_mean(key, [s.key for s in self.slides]))
         guide = self.posed.guide(pair)
         seen = guide.inverse().of(self.poses[pair.a])
         return Sliding(seen.z.real, seen.v.real, seen.a.real, 2j * guide.omega * guide.u * seen.v.real)

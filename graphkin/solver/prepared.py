@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.scene.force_names import force_names, opposite
 from graphkin.scene.model import Dimension, Mechanism, dimensions
 from graphkin.scene.symbol import PointRef, Symbol
@@ -27,7 +27,6 @@ from graphkin.solver.pose import FIELDS, GIVEN, UNIT, Array, Drive, turned
 from graphkin.solver.program import DimensionedProgram, Program, program_of
 from graphkin.solver.quantities import ORDERS, VALUES, Posed, bound_of_symbol
 from graphkin.structure import Structure
-from graphkin.words import Phrase
 
 __all__ = ["Column", "PreparedMechanism", "Units", "force_heads", "force_rows", "formulas", "prepare"]
 
@@ -480,8 +479,7 @@ class Column:
 
     def __post_init__(self) -> None:
         if self.symbol.kind not in ORDERS:
-            hint = Phrase("ask for places v_ a_ theta_ omega_ alpha_")
-            raise CallError(Problem(f'"{self.name}"', Phrase("is no column"), hint))
+            raise CallError.of(f'"{self.name}"', "is no column", "ask for places v_ a_ theta_ omega_ alpha_")
 
     @cached_property
     def symbol(self) -> Symbol:
@@ -495,7 +493,7 @@ class Column:
         try:
             return Symbol.parse(self.name)
         except ValueError as error:
-            raise CallError(Problem(f'"{self.name}"', error.args[0])) from None
+            raise CallError.of(f'"{self.name}"', error.args[0]) from None
 
     @cached_property
     def posed(self) -> Posed[Vec, Real]:

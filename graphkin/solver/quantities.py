@@ -13,7 +13,7 @@ from typing import Any, Generic
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import dot
 from graphkin.scene.bodies import SlidingPair
 from graphkin.scene.model import Mechanism, PlacedLink
@@ -62,7 +62,7 @@ class Posed(Generic[V, R]):
         """Of a link or the block of a pin.  Raises CallError for an unknown name."""
         if link not in self.poses:
             known = did_you_mean(link, self.structure.scene.by_name)
-            raise CallError(Problem(Phrase("link", name=link), Phrase("there is no such link"), known))
+            raise CallError.of(Phrase("link", name=link), "there is no such link", known)
         return self.poses[link]
 
     def link(self, name: str) -> PlacedLink:
@@ -79,7 +79,7 @@ class Posed(Generic[V, R]):
         block = next((name for name, link in self.structure.links.items() if point in link.points), None)
         if block is None:
             known = did_you_mean(point, [*scene.holders, *(c.name for c in scene.contacts)])
-            raise CallError(Problem(Phrase("point of point", point=point), Phrase("there is no such point"), known))
+            raise CallError.of(Phrase("point of point", point=point), "there is no such point", known)
         return block
 
     @cached_property
@@ -137,10 +137,8 @@ def value_of_symbol(posed: Posed, symbol: Symbol) -> Array:
     if symbol.kind in VALUES:
         return np.asarray(VALUES[symbol.kind](posed, symbol))
     if symbol.scope == "force":
-        raise CallError(Problem(str(symbol), Phrase("is no motion"), Phrase("forces stand in solve of a scene with")))
-    raise CallError(
-        Problem(str(symbol), Phrase("belongs to the whole turn not to one"), Phrase("ask check audit or sweep"))
-    )
+        raise CallError.of(str(symbol), "is no motion", "forces stand in solve of a scene with")
+    raise CallError.of(str(symbol), "belongs to the whole turn not to one", "ask check audit or sweep")
 
 
 def _rate(field: str) -> Callable[[Posed[V, R], Symbol], V]:
@@ -193,7 +191,7 @@ def _place(posed: Posed, symbol: Symbol, name: str) -> Array:
         return np.asarray(posed.point(PointRef(name, contact.carrier or contact.block)).z)
     pair = centre_links(name, scene.by_name)
     if pair is None:
-        raise CallError(Problem(str(symbol), Phrase("there is no point", name=name), did_you_mean(name, scene.holders)))
+        raise CallError.of(str(symbol), "there is no point", did_you_mean(name, scene.holders), name=name)
     shared = next((p for p in scene.by_name[pair[0]].points if p in scene.by_name[pair[1]].points), None)
     if shared is not None:  # a joint, whether the two turn or not
         return _place(posed, symbol, shared)
@@ -312,7 +310,7 @@ def _of_turning(posed: Posed, symbol: Symbol, of: PointRef) -> Array:
         if to
         else Phrase("turns about no fixed point write a with", name=of, symbol=symbol)
     )
-    raise CallError(Problem(str(symbol), Phrase("no link makes this part"), wanted))
+    raise CallError.of(str(symbol), "no link makes this part", wanted)
 
 
 def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array:
@@ -335,9 +333,7 @@ def _relative(posed: Posed, symbol: Symbol, of: PointRef, to: PointRef) -> Array
     together = [{*group.members} for group in posed.structure.larger_groups]
     if of.point == to.point and any({of.link, to.link} <= members for members in together):
         return _against(posed, symbol, of, to, to.link)
-    raise CallError(
-        Problem(str(symbol), Phrase("these are not coincident points of two links"), _example(symbol, posed.slides))
-    )
+    raise CallError.of(str(symbol), "these are not coincident points of two links", _example(symbol, posed.slides))
 
 
 def _example(symbol: Symbol, slides: Iterable[Pair]) -> Phrase:

@@ -71,10 +71,8 @@ def redundant_poses(
                 break
         else:
             names = ", ".join(link.name for link in waiting)
-            raise Unsolvable(
-                "mobility",
-                Problem(Phrase("links", links=names), Phrase("redundant but nothing holds both ends of them")),
-            )
+            raise Unsolvable("mobility", Problem(Phrase("links", links=names),
+                                                 "redundant but nothing holds both ends of them"))
         waiting.remove(link)
         bad = ok & ~found.fits_within(bound)
         if bad.any():
@@ -85,8 +83,8 @@ def redundant_poses(
                 if found.position[k] >= FITS
                 else Phrase("it fits here but would stop the motion")
             )
-            wanted = Phrase("a redundant link must repeat what the others")
-            raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how, wanted))
+            raise Unsolvable("mobility", Problem(f"links.{link.name}.redundant", how,
+                                                 "a redundant link must repeat what the others"))
         poses[link.name] = placed[link.name] = found.pose
     return placed
 

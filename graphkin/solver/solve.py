@@ -12,7 +12,7 @@ from functools import partial
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem, Unsolvable
+from graphkin.errors import CallError, Unsolvable
 from graphkin.scene.drivers import at_time
 from graphkin.scene.model import Mechanism
 from graphkin.solver.assemblies import choose_forms
@@ -66,7 +66,7 @@ def solve(
     structure = structure_of(scene)
     goal = goal_values(structure.scene, at)
     if sweep is not None and sweep < 1:
-        raise CallError(Problem("sweep", Phrase("positions of number", number=sweep), Phrase("give 1 or more")))
+        raise CallError.of("sweep", "positions of number", "give 1 or more", number=sweep)
     start = _start(structure, goal, sweep)
     if isinstance(start, Motion):
         return start

@@ -59,7 +59,7 @@ def value_of(motion: Motion, symbol: Symbol) -> Array:
         return np.full(len(motion), wheel.excess if symbol.kind == "excess" else wheel.inertia)
     found = forces_of(motion).value(str(symbol.here))
     if found is None:
-        raise CallError(Problem(str(symbol), Phrase("is read off the drawing alone"), Phrase("ask check for it")))
+        raise CallError.of(str(symbol), "is read off the drawing alone", "ask check for it")
     return found
 
 
@@ -136,19 +136,12 @@ def force_values(motion: Motion) -> tuple[Callable[[Symbol], Value], float]:
     forces = forces_of(motion)
     for name, where in without_line(motion).items():
         if where[0]:
-            found = Phrase("its two points coincide in this position so")
-            raise Unsolvable(
-                "dead point", Problem(f"springs.{name}", found, Phrase("move the driver off this position"))
-            )
+            raise Unsolvable("dead point", Problem(f"springs.{name}", "its two points coincide in this position so",
+                                                   "move the driver off this position"))
     if not forces.ok[0]:
         drivers = ", ".join(d.key for d in motion.scene.drivers)
-        raise Unsolvable(
-            "dead point",
-            Problem(
-                Phrase("driver of driver", driver=drivers),
-                Phrase("the balance does no work in this position of nothing"),
-            ),
-        )
+        raise Unsolvable("dead point", Problem(Phrase("driver of driver", driver=drivers),
+                                               "the balance does no work in this position of nothing"))
     moving = motion if any(d.values[1] for d in motion.scene.drivers) else _growing(motion)
 
     def value(symbol: Symbol) -> Value:

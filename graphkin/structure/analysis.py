@@ -280,9 +280,9 @@ def _element_of(structure: Structure, members: list[str], known: set[str]) -> El
         if members == [cam.follower] and cam.link in known and len(pairs) == 1 and not drivers:
             return Driven(cam.follower, pairs[0], cam)
         if cam.follower in inside or (cam.link in inside and cam.follower in known):
-            raise Unsolvable("mobility", Problem(
-                f"cams.{cam.link}", Phrase("link is not moved by the cam alone", follower=cam.follower),
-                Phrase("drive cam what else moves hangs on the", link=cam.link)))  # fmt: skip
+            raise Unsolvable("mobility", Problem(f"cams.{cam.link}", "link is not moved by the cam alone",
+                                                 "drive cam what else moves hangs on the", follower=cam.follower,
+                                                 link=cam.link))
     rolling = tuple(r for r in structure.relations if _touches(structure, r, inside, known))
     real = tuple(m for m in members if m in scene.by_name)
     if len(members) == 1 and len(pairs) == 1 and len(drivers) + len(rolling) == 1:
@@ -478,8 +478,8 @@ def _with_starts(structure: Structure) -> Structure:
             continue
         return whole
     names = ", ".join(dict.fromkeys(r.name for g in groups for r in g.rolling))
-    wanted = Phrase("write the start of a link that rolls")
-    raise Unsolvable("mobility", Problem(names, Phrase("nothing tells where what rolls here stands"), wanted))
+    raise Unsolvable("mobility", Problem(names, "nothing tells where what rolls here stands",
+                                         "write the start of a link that rolls"))
 
 
 def started(structure: Structure) -> Structure:
@@ -544,7 +544,7 @@ def _wrong_count(structure: Structure) -> Problem:
         wanted = [more or Phrase("it is a structure no driver can move")]
     counted = Phrase("drivers counted" if found > 1 else "driver counted", count=found)
     drivers = counted if found else Phrase("no driver")
-    return Problem(Phrase("status mobility"), Phrase("but given", count=count, drivers=drivers), clauses(wanted))
+    return Problem(Phrase("status mobility"), "but given", clauses(wanted), count=count, drivers=drivers)
 
 
 def _sliding_loop(structure: Structure) -> list[str]:
@@ -580,7 +580,7 @@ def _wrong_part(structure: Structure, unknowns: list[list[Unknown]], given: Mapp
     if loop:
         wanted = Phrase("links slide on each other in a closed", loop=', '.join(loop))
     held = names(u for i in over for u in unknowns[i])
-    return Problem("mobility", Phrase("links held too much links left free", names=held, other=names(free)), wanted)
+    return Problem("mobility", "links held too much links left free", wanted, names=held, other=names(free))
 
 
 def _loose_ends(structure: Structure) -> Iterator[Problem]:
@@ -607,13 +607,13 @@ def _loose_ends(structure: Structure) -> Iterator[Problem]:
             like = _like(point, unused) or _like(point, [p for p in lonely if p not in link.points])
             meant = Phrase("did you mean a point of the frame" if like in unused else "did you mean a point", name=like)
             hangs: Wording = Phrase("so that it hangs on one joint alone", joint=joints[0]) if joints else ""
-            found = Phrase("no other link has its point", point=point, link=hangs)
-            yield Problem(where, found, meant if like else Phrase("write the same name in the link that"))
+            yield Problem(where, "no other link has its point",
+                          meant if like else Phrase("write the same name in the link that"), point=point, link=hangs)
         if not ends and len(joints) == 1 and structure.mobility.value > len(scene.drivers):
-            found = Phrase("it hangs on alone and turns there freely", joints=joints[0])
-            yield Problem(where, found, Phrase("join it to another link too or leave"))
+            yield Problem(where, "it hangs on alone and turns there freely", "join it to another link too or leave",
+                          joints=joints[0])
         if not ends and not joints:
-            yield Problem(where, Phrase("nothing holds it"), Phrase("name a point of another link or a"))
+            yield Problem(where, "nothing holds it", "name a point of another link or a")
 
 
 def _like(point: str, names: Sequence[str]) -> str:
@@ -633,8 +633,8 @@ def driven_by(scene: Mechanism, link: str) -> Structure:
     frame, where = scene.frame, Phrase("driver of driver", driver=link)
     known = [one.name for one in scene.links]
     if link not in known:
-        raise CallError(Problem(where, Phrase("there is no link", name=link), did_you_mean(link, known)))
+        raise CallError.of(where, "there is no link", did_you_mean(link, known), name=link)
     slide = next((s.key for s in scene.slidings if s.link == link and s.on == frame.name), "")
     if not slide and not any(p in frame.points for p in scene.by_name[link].points):
-        raise CallError(Problem(where, Phrase("neither turns about the frame nor slides on")))
+        raise CallError.of(where, "neither turns about the frame nor slides on")
     return analyse(replace(scene, drivers=(Driver(link, frame.name, 0.0, 0.0, 0.0, slide), *scene.drivers[1:])))

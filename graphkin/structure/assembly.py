@@ -58,9 +58,9 @@ def pick(
         off = [[(abs(z - scene.drawn[p]), p) for p, z in c.items() if p in scene.drawn] for c in candidates]
         (miss, point), nearest = min((max(one, default=(0.0, "")), i) for i, one in enumerate(off))
         if miss > 1e-6 * scene.size:
-            found = Phrase("drawn at but what is given for links", place=shown(scene.drawn[point]),
-                           links=", ".join(links), other=shown(candidates[nearest][point]))  # fmt: skip
-            raise SceneError(Problem(f"drawn.{point}", found, Phrase("what is given twice must agree to 1e-6")))
+            raise SceneError.of(f"drawn.{point}", "drawn at but what is given for links",
+                                "what is given twice must agree to 1e-6", place=shown(scene.drawn[point]),
+                                links=", ".join(links), other=shown(candidates[nearest][point]))
     if len(candidates) == 1:
         return Choice(0, "only")
     told: tuple[tuple[Literal["drawn", "sketch"], Mapping[str, complex]], ...]
@@ -76,11 +76,8 @@ def pick(
     if default is None:
         places = (", ".join(f"{p} = {shown(z)}" for p, z in candidate.items()) for candidate in candidates)
         rows = "\n".join(f"  sketch = {{ {row} }}" for row in places)
-        raise SceneError(Problem(
-            Phrase("links", links=', '.join(links)),
-            Phrase("this group has assemblies here and no sketch", count=len(candidates)),
-            Phrase("paste one of these at the head of the file", rows=rows),
-        ))  # fmt: skip
+        raise SceneError.of(Phrase("links", links=', '.join(links)), "this group has assemblies here and no sketch",
+                            "paste one of these at the head of the file", count=len(candidates), rows=rows)
     return Choice(default, "rule")
 
 
@@ -104,7 +101,7 @@ def out_of_reach(scene: Mechanism, values: Mapping[str, float], limits: Sequence
     named = [shown(key, end) for end in ends]
     reach = named[0] if len(ends) == 1 else Phrase("one and other", first=named[0], second=named[1])
     range_ = Phrase("driver moves between" if len(ends) > 1 else "driver moves up to", driver=key, reach=reach)
-    return Problem(Phrase("driver of driver", driver=asked), Phrase("the motion does not reach it"), range_)
+    return Problem(Phrase("driver of driver", driver=asked), "the motion does not reach it", range_)
 
 
 def ways(

@@ -21,10 +21,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.structure.model import Coordinate, Driven, Dyad, Element, Pair, Structure
-from graphkin.words import Phrase
 
 __all__ = ["Arrow", "Loop", "LoopBlock", "Root", "loops_in_numbers", "loops_of"]
 
@@ -314,8 +313,8 @@ def _between(structure: Structure, name: str, one: str, two: str) -> list[Arrow]
                 legs.append((sign * slide.guide.direction, "" if legs else start, end, slide.key))
                 made = [Arrow(slide.b, z, (a, b) if sign > 0 else (b, a), key) for z, a, b, key in legs]
                 return made if sign > 0 else made[::-1]
-    raise CallError(Problem(f"loops.{name}", Phrase("no link and no guide joins and", name=one, other=two),
-                            Phrase("name the points in the order in which")))  # fmt: skip
+    raise CallError.of(f"loops.{name}", "no link and no guide joins and", "name the points in the order in which",
+                       name=one, other=two)
 
 
 # -- in numbers --------------------------------------------------------------------------------------------------------

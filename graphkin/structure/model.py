@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, ClassVar, Literal, TypeVar
 
-from graphkin.errors import CallError, Problem, did_you_mean
+from graphkin.errors import CallError, did_you_mean
 from graphkin.plane import added_up
 from graphkin.scene.cams import LawCam
 from graphkin.scene.model import Driver, Mechanism, PlacedGuide, PlacedLink
@@ -513,7 +513,7 @@ def _links_for(structure: Structure, symbol: Symbol) -> set[str]:
         holders = [n for n, link in structure.links.items() if ref.point in link.points]
         if not holders or (ref.link and ref.link not in structure.links):
             wanted = did_you_mean(ref.point, structure.scene.holders)
-            raise CallError(Problem(str(symbol), Phrase("names no point of a link here", ref=ref), wanted))
+            raise CallError.of(str(symbol), "names no point of a link here", wanted, ref=ref)
         if ref.link:
             found.add(ref.link)
         if not ref.link or ref.point not in structure.links[ref.link].points:

@@ -130,8 +130,8 @@ def cams_replaced(
     for cam in scene.cams:
         start, turn = cam.beginning, cmath.rect(1.0, turns[cam.link])
         if start is None:
-            said = Phrase("the follower does not reach the base circle")
-            raise Unsolvable("not assembled", Problem(f"cams.{cam.link}", said))
+            raise Unsolvable("not assembled", Problem(f"cams.{cam.link}",
+                                                      "the follower does not reach the base circle"))
         lift = cam.law.at(cam.sense * turns[cam.link])
         course = cam.course(start, lift)
         link, follower = links[cam.link], links[cam.follower]
@@ -154,7 +154,7 @@ def cams_replaced(
             continue
         tangent = course.tangent
         if abs(tangent) < SHARP * cam.base:
-            raise Unsolvable("dead point", Problem(f"cams.{cam.link}", Phrase("the pitch curve has a cusp at this")))
+            raise Unsolvable("dead point", Problem(f"cams.{cam.link}", "the pitch curve has a cusp at this"))
         point = cam.motion.tip if isinstance(cam.motion, SwingingFollower) else next(iter(follower.points), "")
         if not point:
             point = next(names)

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.scene.model import PlacedContact
 from graphkin.scene.symbol import Symbol
 from graphkin.structure.model import Dyad, Pair, Structure
@@ -90,8 +90,8 @@ def joint_between(structure: Structure, a: str, b: str, symbol: Symbol) -> Trans
         ways = [_arm(structure, name, point) for name in (a, b)]
         if ways[0] and ways[1]:
             return TransmissionAngle(ways[0], ways[1])
-    wanted = Phrase("name two links of one joint bars or")
-    raise CallError(Problem(str(symbol), Phrase("links and share no joint at which a", name=a, other=b), wanted))
+    raise CallError.of(str(symbol), "links and share no joint at which a", "name two links of one joint bars or",
+                       name=a, other=b)
 
 
 def _arm(structure: Structure, name: str, point: str) -> Way | None:
@@ -126,9 +126,7 @@ def joint_of_follower(structure: Structure, name: str, symbol: Symbol) -> Transm
                 joint = _pushed(structure, name, line, (name, points[point]))
                 if joint is not None:
                     return joint
-    raise CallError(
-        Problem(str(symbol), Phrase("link is driven through no joint of a", name=name), Phrase("name a follower"))
-    )
+    raise CallError.of(str(symbol), "link is driven through no joint of a", "name a follower", name=name)
 
 
 def _at_contact(structure: Structure, contact: PlacedContact, name: str) -> TransmissionAngle | None:
@@ -158,5 +156,5 @@ def sliding_pair(structure: Structure, symbol: Symbol) -> Pair:
     if found is None:
         known = ", ".join(s.key for s in structure.slides)
         wanted = Phrase("known here", names=known) if known else Phrase("nothing slides here")
-        raise CallError(Problem(str(symbol), Phrase("there is no such sliding pair"), wanted))
+        raise CallError.of(str(symbol), "there is no such sliding pair", wanted)
     return found

@@ -86,20 +86,16 @@ def designs_of(
     CallError : naming every value, key and row that is wrong
     """
     if given is not None and not isinstance(given, Mapping):
-        raise unfit("designs", given, Phrase("give values by keys links.1.length 40 50"))
+        raise unfit("designs", given, "give values by keys links.1.length 40 50")
     problems: list[Problem] = []
     grid: dict[str, tuple[Value, ...]] = {}
     for key, values in ((as_text("designs", key), values) for key, values in (given or {}).items()):
         try:
             grid[key] = _values(values)
         except (TypeError, OverflowError):
-            problems.append(
-                Problem(
-                    f"--set {key}", Phrase("found value", value=f"{values!r:.60}"), Phrase("give a number or several")
-                )
-            )
+            problems.append(Problem(f"--set {key}", "found value", "give a number or several", value=f"{values!r:.60}"))
         except ValueError as error:
-            problems.append(Problem(f"--set {key}", error.args[0], Phrase("write key 40 60 21 key 40 50")))
+            problems.append(Problem(f"--set {key}", error.args[0], "write key 40 60 21 key 40 50"))
     rows: tuple[tuple[Value, ...], ...] | None = None
     keys: tuple[str, ...] = ()
     if table is not None:
@@ -112,9 +108,7 @@ def designs_of(
         raise CallError(*problems)
     made = Designs((*keys, *grid), tuple(grid.values()), rows)
     if len(made) > MOST_DESIGNS:
-        raise CallError(
-            Problem("designs", Phrase("of them", count=len(made)), Phrase("at most are possible", limit=MOST_DESIGNS))
-        )
+        raise CallError.of("designs", "of them", "at most are possible", count=len(made), limit=MOST_DESIGNS)
     return made
 
 
@@ -172,20 +166,14 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
             text = io.TextIOWrapper(stream, encoding="utf-8-sig", newline="")
             lines = list(islice(csv.reader(text), MOST_ROWS + 2))
     except OSError as error:
-        raise CallError(
-            Problem(str(shown), Phrase("cannot be read", reason=from_others(error.strerror or str(error))))
-        ) from None
+        raise CallError.of(str(shown), "cannot be read", reason=from_others(error.strerror or str(error))) from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise CallError(Problem(str(shown), Phrase("is no csv file", error=error))) from None
+        raise CallError.of(str(shown), "is no csv file", error=error) from None
     lines = [line for line in lines if any(cell.strip() for cell in line)]
     if len(lines) < 2:
-        raise CallError(
-            Problem(
-                str(shown), Phrase("holds no designs"), Phrase("the first row names keys links.1.length the others")
-            )
-        )
+        raise CallError.of(str(shown), "holds no designs", "the first row names keys links.1.length the others")
     if len(lines) > MOST_ROWS + 1:
-        raise CallError(Problem(str(shown), Phrase("holds more than designs", most=MOST_ROWS)))
+        raise CallError.of(str(shown), "holds more than designs", most=MOST_ROWS)
     keys = tuple(cell.strip() for cell in lines[0])
     problems = [
         Problem(f"{shown}, row 1", Phrase("stands twice of key", key=k)) for i, k in enumerate(keys) if k in keys[:i]
@@ -193,12 +181,8 @@ def read_designs(path: str | os.PathLike[str]) -> tuple[tuple[str, ...], tuple[t
     rows: list[tuple[Value, ...]] = []
     for number, line in enumerate(lines[1:], start=2):
         if len(line) != len(keys):
-            problems.append(
-                Problem(
-                    Phrase("row", name=shown, number=number),
-                    Phrase("has cells the head has", count=len(line), other=len(keys)),
-                )
-            )
+            problems.append(Problem(Phrase("row", name=shown, number=number), "has cells the head has", count=len(line),
+                                    other=len(keys)))
             continue
         try:
             rows.append(tuple(_value(cell) for cell in line))
@@ -274,7 +258,7 @@ class DesignKeys:
             if bad.any():
                 found_one = float(of_key[int(np.argmax(bad))])
                 wanted = Phrase("give lengths above 0") if low == 0 else Phrase("give finite numbers")
-                raise CallError(Problem(f"designs {key}", Phrase("found value", value=f'{found_one:g}'), wanted))
+                raise CallError.of(f"designs {key}", "found value", wanted, value=f'{found_one:g}')
             for name, law in self.laws[key].items():
                 new = law(of_key)
                 found[name] = found[name] + (new - self.own[name]) if name in found else new
@@ -302,7 +286,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         elif driver.position:
             found = "the driver is given by a position, which moves with each"
         if found:
-            raise CallError(Problem("designs", found, Phrase("give its value instead")))
+            raise CallError.of("designs", found, "give its value instead")
     laws: dict[str, dict[Dimension, _Law]] = {}
     changed: dict[str, float] = {}
     for key in keys:
@@ -313,9 +297,7 @@ def design_keys(source: Tables, scene: Mechanism, keys: Sequence[str]) -> Design
         beside = dict.fromkeys(part for mechanism in read for part in changed_beside(written, mechanism))
         if beside:
             hint = "sweep over it: graphkin.sweep(..., designs=...)"
-            raise CallError(
-                Problem(f"designs {key}", Phrase("changes more than dimensions", beside=", ".join(beside)), hint)
-            )
+            raise CallError.of(f"designs {key}", "changes more than dimensions", hint, beside=", ".join(beside))
     made = DesignKeys(scene, dimensions(scene), laws)
     if len(keys) > 1:
         _side_by_side(made, changed, dimensions(_read(source, changed)))
@@ -336,7 +318,7 @@ def _read(source: Tables, values: Mapping[str, float]) -> Mechanism:
         return mechanism_of(applied(source, tuple(values), tuple(values.values())))
     except SceneError as error:
         what = f"designs {', '.join(values)}"
-        raise CallError(Problem(what, Phrase("changed by itself the scene no longer fits", error=error))) from None
+        raise CallError.of(what, "changed by itself the scene no longer fits", error=error) from None
 
 
 def _laws(
@@ -359,11 +341,11 @@ def _laws(
             slope = slope / abs(slope) if abs(abs(slope) - 1) < SAME else slope
             law = _Law(_none(a - slope * first, a), slope, True)
         else:
-            hint = Phrase("sweep over it graphkin.sweep designs")
-            raise CallError(Problem(f"designs {key}", Phrase("changes neither as a line nor as a", name=name[1]), hint))
+            raise CallError.of(f"designs {key}", "changes neither as a line nor as a",
+                               "sweep over it graphkin.sweep designs", name=name[1])
         laws[name] = law
     if not laws:
-        raise CallError(Problem(f"designs {key}", Phrase("changes no dimension of the mechanism and no")))
+        raise CallError.of(f"designs {key}", "changes no dimension of the mechanism and no")
     return laws
 
 
@@ -388,5 +370,5 @@ def _side_by_side(keys: DesignKeys, values: Mapping[str, float], read_so: Mappin
         mine = complex(told[name][0]) if name in told else own[name]
         if abs(mine - read_one) > 10 * SAME * max(abs(own[name]), abs(read_one), keys.scene.size):
             what = f"designs {', '.join(values)}"
-            hint = Phrase("sweep over them graphkin.sweep designs")
-            raise CallError(Problem(what, Phrase("act on together not side by side", name=name[1]), hint))
+            raise CallError.of(what, "act on together not side by side", "sweep over them graphkin.sweep designs",
+                               name=name[1])

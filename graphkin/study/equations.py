@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.plane import Values
 from graphkin.solver import Motion
 from graphkin.solver.constraints import solve_all
@@ -245,9 +245,7 @@ def context() -> MPContext:
     try:
         from mpmath import MPContext
     except ImportError:
-        raise CallError(
-            Problem("study", Phrase("the 50-digit reference needs mpmath"), "pip install 'graphkin[study]'")
-        ) from None
+        raise CallError.of("study", "the 50-digit reference needs mpmath", "pip install 'graphkin[study]'") from None
     mp = MPContext()
     mp.dps = DIGITS
     return mp

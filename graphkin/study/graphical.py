@@ -150,8 +150,8 @@ def _chain_of(scene: Mechanism, name: str) -> tuple[tuple[Ordinate, ...], int]:
     """
     places = {one.name: (chain, k) for chain in ordinate_chains(scene) for k, one in enumerate(chain)}
     if name not in places:
-        found = Phrase("is no quantity with a sign here")
-        raise CallError(Problem(Phrase("quantity of name", name=f"{name:.60}"), found, did_you_mean(name, places)))
+        raise CallError.of(Phrase("quantity of name", name=f"{name:.60}"), "is no quantity with a sign here",
+                           did_you_mean(name, places))
     return places[name]
 
 
@@ -170,16 +170,10 @@ def known_ordinate(scene: Mechanism, name: str, way: Way) -> tuple[Ordinate, Ord
             if way == "derivative"
             else Phrase("is a position integrate a rate of it")
         )
-        raise CallError(Problem(f"{way} of {name}", says, Phrase("one of", names=', '.join(o.name for o in chain))))
+        raise CallError.of(f"{way} of {name}", says, "one of", names=', '.join(o.name for o in chain))
     _, rate, second = scene.drivers[0].values
     if rate == 0.0 or second != 0.0:
-        raise CallError(
-            Problem(
-                f"{way} of {name}",
-                Phrase("the driver does not move evenly"),
-                Phrase("give it a rate and no second rate"),
-            )
-        )
+        raise CallError.of(f"{way} of {name}", "the driver does not move evenly", "give it a rate and no second rate")
     return chain[k], chain[wanted]
 
 
@@ -239,7 +233,7 @@ def _drawn(reach: DriverRange, given: Ordinate, offsets: Array) -> Array:
         except GraphkinError as error:
             raise Unsolvable("not drawn", *error.problems) from None
         if value is None:
-            raise Unsolvable("not drawn", Problem(given.name, Phrase("cannot be measured on the drawing of this")))
+            raise Unsolvable("not drawn", Problem(given.name, "cannot be measured on the drawing of this"))
         found.append(value)
     return np.array(found)
 

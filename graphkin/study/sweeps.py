@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from graphkin.errors import CallError, GraphkinError, Problem, Unsolvable
+from graphkin.errors import CallError, GraphkinError, Unsolvable
 from graphkin.files import Tables, folder_alone, whole_file
 from graphkin.jobs import Checkpoints, Progress, Workers, key_of
 from graphkin.scene import mechanism_of
@@ -29,7 +29,7 @@ from graphkin.structure import Structure
 from graphkin.study.designs import Designs, Value, applied
 from graphkin.study.quantities import Parts, Quantity, Words, all_that_moves, motion_table, settled, word_column
 from graphkin.table import Column, Table, have, parquet_of_csv
-from graphkin.words import Phrase, from_others
+from graphkin.words import from_others
 
 __all__ = [
     "MANY", "FollowedDesign", "Found", "Outcome", "Sweep", "collect", "designs_table", "make", "write_tables",
@@ -463,13 +463,8 @@ def write_tables(
                 _count(sweep, done, progress)
             return replace(_merged(sweep, points, folder, parquet), damaged=damaged)
     except OSError as error:
-        raise CallError(
-            Problem(
-                str(folder),
-                Phrase("cannot be written", reason=from_others(error.strerror or str(error))),
-                Phrase("give another folder with o"),
-            )
-        ) from None
+        raise CallError.of(str(folder), "cannot be written", "give another folder with o",
+                           reason=from_others(error.strerror or str(error))) from None
 
 
 def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> Found:
@@ -481,7 +476,7 @@ def _merged(sweep: Sweep, points: Checkpoints, folder: Path, parquet: bool) -> F
         for piece in map(points.load, range(sweep.pieces)):
             if piece is None:
                 wanted = "run the same command again; the disk may be failing"
-                raise CallError(Problem(str(points.place), Phrase("a piece was damaged while the table was"), wanted))
+                raise CallError.of(str(points.place), "a piece was damaged while the table was", wanted)
             piece.copy(out)
             facts.append(piece.facts)
     found = _joined(sweep, ((tuple(Outcome(**o) for o in f["outcomes"]), f["good"]) for f in facts))

@@ -21,8 +21,8 @@ from typing import TypeAlias
 
 __all__ = [
     "BOTH", "LANGUAGES", "Markup", "Neutral", "Phrase", "RichText", "Wording", "about", "alternatives", "area",
-    "as_markup", "as_plain", "class_of", "clauses", "filled", "from_others", "in_all", "in_turn", "languages", "listed",
-    "parts", "rich_text", "say", "word",
+    "as_markup", "as_plain", "class_of", "clause_of", "clauses", "filled", "from_others", "in_all", "in_turn",
+    "languages", "listed", "parts", "rich_text", "say", "word",
 ]  # fmt: skip
 
 _TABLES = {path.stem: path for path in Path(__file__).parent.glob("*.toml")}
@@ -92,6 +92,14 @@ def say(phrase: Wording, language: str = "en", show: Callable[[object], str] = s
     'mark B, C on link 2'
     """
     return "".join(parts(phrase, language, show))
+
+
+def clause_of(said: Wording, gaps: Mapping[str, object]) -> Wording:
+    """The sentence of a problem by its id, with those of some gaps that its words have; what is no such id stays as it
+    is: a phrase, or a name, a number, a command that is the same in every language."""
+    if isinstance(said, Phrase) or said not in area("problems"):
+        return said
+    return Phrase(said, **{gap: gaps[gap] for _, gap in _pieces(said, "en") if gap is not None})
 
 
 class Neutral(str):

@@ -42,11 +42,9 @@ SINGULAR = 1e-13
 
 def _dead_point(links: Sequence[str]) -> Unsolvable:
     """What is said where the lines that should close a polygon are parallel."""
-    found = Phrase("the balance does no work in this position or")
-    return Unsolvable(
-        "dead point",
-        Problem(Phrase("links", links=", ".join(links)), found, Phrase("move the driver off this position")),
-    )
+    return Unsolvable("dead point", Problem(Phrase("links", links=", ".join(links)),
+                                            "the balance does no work in this position or",
+                                            "move the driver off this position"))
 
 
 Chain = list[ForceVector]

@@ -213,9 +213,8 @@ class Images:
             return 0j
         known = self._known(order, link)
         if not known:
-            raise Unsolvable(
-                "not drawn", Problem(Phrase("link of name", name=link), Phrase("no point of it stands in the polygons"))
-            )
+            raise Unsolvable("not drawn", Problem(Phrase("link of name", name=link),
+                                                  "no point of it stands in the polygons"))
         start, end = min(known, key=lambda one: abs(one[0] - at))
         if abs(start - at) <= self._tiny:
             return end

@@ -22,7 +22,6 @@ from graphkin.plane import unit
 from graphkin.scene.model import LinkMass, LoadOn, Phase, SpringOn
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.structure import Structure
-from graphkin.words import Phrase
 
 __all__ = ["acting_loads", "from_outside", "inertias", "strokes_of_loads"]
 
@@ -156,10 +155,8 @@ def _spring(images: Images, spring: SpringOn, hand: Instrument) -> Iterator[Forc
     )
     size = abs(two - one)
     if size <= COINCIDE * images.sheet.scene.size * images.mm:
-        found = Phrase("its two points coincide in this position so")
-        raise Unsolvable(
-            "dead point", Problem(f"springs.{spring.name}", found, Phrase("move the driver off this position"))
-        )
+        raise Unsolvable("dead point", Problem(f"springs.{spring.name}", "its two points coincide in this position so",
+                                               "move the driver off this position"))
     length = hand.read(size) / images.mm
     force = (spring.preload + spring.rate * (length - spring.free)) * unit(two - one)
     symbol = Symbol("P", name=spring.name)

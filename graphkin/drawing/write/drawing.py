@@ -8,9 +8,8 @@ from pathlib import Path
 
 from graphkin.drawing.ink.primitives import Page
 from graphkin.drawing.write.svg import svg_bytes
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.files import path_of, whole_file
-from graphkin.words import Phrase
 
 __all__ = ["FORMATS", "TEXTS", "Drawing", "Kept", "save"]
 
@@ -34,9 +33,9 @@ class Kept:
         MissingFont : of PDF and PNG, where it holds Chinese and the machine has no face for it
         """
         if not isinstance(format, str) or format not in FORMATS:
-            raise CallError(Problem("format", f'"{format!s:.60}"', Phrase("known here", names=', '.join(FORMATS))))
+            raise CallError.of("format", f'"{format!s:.60}"', "known here", names=', '.join(FORMATS))
         if not isinstance(text, str) or text not in TEXTS:
-            raise CallError(Problem("text", f'"{text!s:.60}"', Phrase("known here", names=', '.join(TEXTS))))
+            raise CallError.of("text", f'"{text!s:.60}"', "known here", names=', '.join(TEXTS))
         if format == "svg":
             return self._svg(text == "outlines")
         return self._pdf() if format == "pdf" else self._png(dpi) if format == "png" else self._dxf()
@@ -52,7 +51,7 @@ class Kept:
         raise NotImplementedError
 
     def _dxf(self) -> bytes:
-        raise CallError(Problem("format", '"dxf"', Phrase("charts are written as svg pdf or png")))
+        raise CallError.of("format", '"dxf"', "charts are written as svg pdf or png")
 
     def _pdf(self) -> bytes:
         raise NotImplementedError

@@ -33,12 +33,11 @@ from graphkin.drawing.ink.primitives import (
     Text,
 )
 from graphkin.drawing.text import CAP_HEIGHT, has_cjk, start_runs, width
-from graphkin.errors import CallError, Problem
+from graphkin.errors import CallError
 from graphkin.plane import added_up, cross, dot
 from graphkin.scene.cams import LawCam
 from graphkin.scene.laws import LiftPiece
 from graphkin.solver.cams import cam_with
-from graphkin.words import Phrase
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as DxfFile
@@ -84,8 +83,7 @@ def _document(put: Callable[[DxfFile], None]) -> bytes:
         import ezdxf
         from ezdxf import units
     except ImportError:
-        needs = Phrase("it needs the extra cad pip install graphkin")
-        raise CallError(Problem("format", '"dxf"', needs)) from None
+        raise CallError.of("format", '"dxf"', "it needs the extra cad pip install graphkin") from None
     with _ALONE:  # that no date is written is an option of the whole process
         before = ezdxf.options.write_fixed_meta_data_for_testing
         ezdxf.options.write_fixed_meta_data_for_testing = True
