@@ -5,7 +5,6 @@ import itertools
 from dataclasses import replace
 from itertools import combinations
 
-import numpy as np
 import pytest
 import shapely
 from hypothesis import given, settings
@@ -16,7 +15,7 @@ from graphkin.drawing.ink import symbols as arrows
 from graphkin.drawing.ink.primitives import Circle, Group, Line, Polygon, Text
 from graphkin.drawing.ink.strokes import DIRECTION, LINK
 from graphkin.drawing.ink.symbols import turning_pair, vector_group
-from graphkin.drawing.place.labels import InkRaster, Label
+from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.obstacles import Obstacles
 from graphkin.drawing.place.piece import obstacles_of
 from graphkin.drawing.place.placement import Placement, place
@@ -194,35 +193,3 @@ def test_leaders_do_not_cross_each_other():
     leaders = [shapely.LineString([(a.real, a.imag), (b.real, b.imag)]) for a, b in ends]
     assert len(leaders) > 2
     assert not any(one.crosses(other) and not one.touches(other) for one, other in combinations(leaders, 2))
-
-
-places = st.builds(lambda x, y: complex(x / 100, y / 100), st.integers(0, 16000), st.integers(0, 11000))
-few = st.lists(st.tuples(places, places), min_size=1, max_size=8)
-
-
-@settings(max_examples=30, deadline=None)
-@given(few, few, st.lists(places, min_size=1, max_size=30))
-def test_what_the_raster_of_a_panel_says_to_meet_ink_does_meet_it(lines, areas, corners):
-    filled = [Box.around(corners) for corners in areas]
-    start, end = np.array([(box.corners[0], box.corners[2]) for box in filled] + lines).T
-    ink = shapely.union_all([*(shapely.box(b.left, b.top, b.right, b.bottom) for b in filled),
-                             *(shapely.LineString([(z.real, z.imag) for z in line]) for line in lines)])  # fmt: skip
-    low = np.array(corners)
-    high = np.minimum(low.real + 8.0, 160.0) + 1j * np.minimum(low.imag + 5.0, 110.0)
-    told = InkRaster(Box(0.0, 0.0, 160.0, 110.0), start, end, len(areas)).meets(low, high)
-    true = shapely.intersects(shapely.box(low.real, low.imag, high.real, high.imag), ink.buffer(1e-9))
-    assert true[told].all()
-
-
-def test_the_raster_of_a_panel_finds_the_ink_that_a_box_holds():
-    ink = InkRaster(PANEL, np.array([20 + 20j, 10 + 70j]), np.array([40 + 30j, 150 + 70j]), 1)
-    low = np.array([24 + 22j, 60 + 66j, 60 + 40j])
-    assert [True, True, False] == ink.meets(low, low + (8 + 8j)).tolist()
-
-
-def test_labels_stand_where_they_stand_without_the_raster(monkeypatch):
-    children, labels = polygon([80 + 30j, 90 + 60j, 60 + 90j, 95 + 66j, 88 + 52j])
-    crowd = (*children, *(Line(complex(x, 10.0), complex(x + 20.0, 90.0), LINK) for x in range(20, 120, 4)))
-    quick = place(labels, PANEL, obstacles_of(crowd))
-    monkeypatch.setattr("graphkin.drawing.place.labels.MANY", 1 << 60)
-    assert place(labels, PANEL, obstacles_of(crowd)) == quick

@@ -12,10 +12,10 @@ from itertools import accumulate, zip_longest
 
 from graphkin.drawing.box import Box
 from graphkin.drawing.ink.primitives import Line, Primitive, Run, Text
-from graphkin.drawing.place.labels import Label, Mark, Placed
+from graphkin.drawing.place.labels import Label, Mark
 from graphkin.drawing.place.obstacles import CLEAR, Obstacles, free_boxes
 from graphkin.drawing.place.piece import Piece, obstacles_of
-from graphkin.drawing.place.placement import Placement
+from graphkin.drawing.place.placement import Placed, Placement
 from graphkin.drawing.text import rich, runs_width, text_box
 from graphkin.plane import added_up
 
