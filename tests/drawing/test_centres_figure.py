@@ -16,9 +16,8 @@ from graphkin.construction.centre_speeds import speeds
 from graphkin.construction.centres import Centres
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
-from graphkin.drawing.figures.centres import background, centres_figure, named_centres, untold
+from graphkin.drawing.figures.centres import background, centre_marks, centres_figure, named_centres, untold
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Text, walk
-from graphkin.drawing.parts.centre_marks import centre_marks
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.names import with_labels
 from graphkin.drawing.place.piece import Piece, ink_box, joined

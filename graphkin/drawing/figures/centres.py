@@ -2,24 +2,26 @@
 points on a circle, centres as the lines between them, numbered as they were found) and how each centre was found; below
 the velocities taken through them.  Centres whose lines have no room for their names there stand each in a small picture
 of its own.
+
+Centres are marked by kind, with the lines near what they find, and arrows to those that lie far away.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import pairwise, permutations
 
 import numpy as np
 
-from graphkin.account.centres import place_of, velocity_sentences
-from graphkin.account.headings import describe, figure_title, term
+from graphkin.account.centres import line_through, place_of, velocity_sentences
+from graphkin.account.headings import describe, figure_title, number, term
 from graphkin.account.notation import Letters, in_counting_order
 from graphkin.construction.centre_speeds import Turning
-from graphkin.construction.centres import Centre, Centres
+from graphkin.construction.centres import Centre, CentreRelation, Centres, LinkPair
 from graphkin.construction.scales import Room
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import (
@@ -39,59 +41,62 @@ from graphkin.drawing.boxes import (
 )  # fmt: skip
 from graphkin.drawing.figures import Figure
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Primitive, Stroke, Text, on_page, walk
+from graphkin.drawing.ink.primitives import Arc, Circle, Group, Line, Polygon, Primitive, Stroke, Text, on_page, walk
 from graphkin.drawing.ink.strokes import colour_of_link, pale
-from graphkin.drawing.parts.centre_marks import TOGETHER, centre_marks, line_name, mark_of, near_box
+from graphkin.drawing.ink.symbols import POINTER, arrow
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.parts.mechanism_on_paper import MechanismOnPaper
 from graphkin.drawing.parts.touching import replacing_links
 from graphkin.drawing.place.labels import Label
 from graphkin.drawing.place.names import with_crowd, without
+from graphkin.drawing.place.obstacles import distances
 from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece, obstacles_of, renamed
-from graphkin.drawing.text import plain, text_box
+from graphkin.drawing.plate import centred
+from graphkin.drawing.text import SMALLEST, plain, rich, stacked, text_box
 from graphkin.drawing.write.drawing import Drawing
-from graphkin.plane import cross
+from graphkin.plane import cross, dot, unit
 from graphkin.scene.symbol import PointRef, Symbol
 from graphkin.words import Markup, Phrase, RichText, as_markup, as_plain, languages, rich_text, word
 
-__all__ = ["FIGURES", "background", "centres_figure", "circle_diagram", "stroke_of"]
+__all__ = [
+    "FIGURES", "background", "centre_marks", "centres_figure", "id_of", "mark_of", "named_centres", "near_box",
+    "untold",
+]  # fmt: skip
+
+
+def id_of(pair: LinkPair) -> str:
+    """A centre as an id."""
+    return "centre-" + "-".join(sorted(pair))
+
+
+# -- the circle diagram ------------------------------------------------------------------------------------------------
 
 HALF = 1.9  # mm of a line left out to either side of its number
 CLEAR = 1.55  # mm from a number's middle to anything else
-LEGEND = ("legend",)
 PERMANENT, FOUND, OTHERWISE = Stroke(0.5), Stroke(0.25), Stroke(0.35, (2.4, 0.9))
 
 
-def stroke_of(centre: Centre) -> Stroke | None:
-    """How the line of a centre is drawn; None where it is not determined."""
-    if centre.place is None:
-        return None
-    return PERMANENT if centre.kind == "permanent" else OTHERWISE if centre.way else FOUND
-
-
-def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Primitive, ...]:
-    """Draw the diagram about a page point.
+def circle_diagram(centres: Centres, middle: complex, radius: float) -> Group:
+    """The diagram about a page point.
 
     Links stand clockwise in the order of counting, the first at the top; a line found bears its number where along it
     there is most room, none where there is too little.
     """
     names = sorted(centres.names, key=in_counting_order)
     ways = {n: cmath.rect(1.0, 2 * math.pi * k / len(names)) * -1j for k, n in enumerate(names)}
-    sides = [(c, middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found]
+    sides = {c: (middle + radius * ways[c.pair[0]], middle + radius * ways[c.pair[1]]) for c in centres.found}
     lines: list[Primitive] = []
     numbers: list[Primitive] = []
     taken: list[complex] = []
-    for centre, a, b in sides:
-        stroke = stroke_of(centre)
-        if stroke is None:
+    for centre, (a, b) in sides.items():
+        if centre.place is None:
             continue
-        name = "-".join(sorted(centre.pair))
-        at = (
-            None
-            if not centre.number
-            else _free(a, b, [(p, q) for _, p, q in sides if (p, q) != (a, b)], taken, middle, radius)
-        )
+        stroke = PERMANENT if centre.kind == "permanent" else OTHERWISE if centre.way else FOUND
+        at = None
+        if centre.number:
+            at = _free(a, b, [side for side in sides.values() if side != (a, b)], taken, middle, radius)
         parts: tuple[Line, ...] = (Line(a, b, stroke),)
+        name = "-".join(sorted(centre.pair))
         if at is not None:
             taken.append(at)
             gap = HALF * (b - a) / abs(b - a)
@@ -100,9 +105,17 @@ def circle_diagram(centres: Centres, middle: complex, radius: float) -> tuple[Pr
             numbers.append(Text(at + 0.75j, runs, "middle", id=f"label-side-{name}", classes=("label",)))
         lines.append(Group(parts, id=f"side-{name}", classes=("side", centre.kind)))
     thin = Stroke(0.18, (), strokes.GREY)
-    outline = (Arc(middle, radius, 0.0, math.pi, thin), Arc(middle, radius, math.pi, 2 * math.pi, thin))
-    whole = (*outline, *lines, *numbers, *_knots(centres, names, ways, middle, radius))
-    return (Group(whole, id="circle-diagram", classes=("circle-diagram",)),)
+    outline = (Arc(middle, radius, k * math.pi, (k + 1) * math.pi, thin) for k in (0, 1))
+    knots: list[Primitive] = []
+    for name, way in ways.items():
+        colour, runs = colour_of_link(centres.scene, name), plain(name, 3.5, bold=True)
+        box = text_box(Text(0j, runs, "middle", colour))
+        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * way
+        foot = there - 1j * (box.top + box.bottom) / 2
+        knots += [Circle(middle + radius * way, 1.1, colour),
+                  Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",))]  # fmt: skip
+    whole = (*outline, *lines, *numbers, *knots)
+    return Group(whole, id="circle-diagram", classes=("circle-diagram",))
 
 
 def _free(
@@ -111,7 +124,6 @@ def _free(
 ) -> complex | None:  # fmt: skip
     """The place on a side that lies furthest from all other sides, from the circle and from numbers that stand already;
     None where a number would touch one of them."""
-
     places = np.array([a + (b - a) * (0.1 + 0.01 * k) for k in range(81)])
     near = [radius - np.abs(places - middle), *(np.abs(places - w) - HALF for w in taken)]
     near += [np.abs(cross(places - p, np.array(q - p))) / abs(q - p) for p, q in others]
@@ -122,28 +134,207 @@ def _free(
     return complex(places[best]) if room[best] > CLEAR else None
 
 
-def _knots(
-    centres: Centres, names: Sequence[str], ways: Mapping[str, complex], middle: complex, radius: float
-) -> list[Primitive]:
-    """The links as points on the circle with their numbers."""
-    drawn: list[Primitive] = []
-    for name in names:
-        at, colour = middle + radius * ways[name], colour_of_link(centres.scene, name)
-        drawn.append(Circle(at, 1.1, colour))
-        runs = plain(name, 3.5, bold=True)
-        box = text_box(Text(0j, runs, "middle", colour))
-        there = middle + (radius + 2.2 + max(box.width, box.height) / 2) * ways[name]
-        foot = there - 1j * (box.top + box.bottom) / 2
-        drawn.append(Text(foot, runs, "middle", colour, f"label-circle-{name}", ("label",)))
-    return drawn
+# -- marks of centres --------------------------------------------------------------------------------------------------
 
+TOGETHER = 1.3  # mm: centres so near to each other share one mark
+BEYOND = 5.0  # mm of a construction line beyond what it finds
+ARROW = 11.0  # mm, to what lies off the figure
+IN_LINE = 4  # names of centres at one place
+
+
+def mark_of(centre: Centre, frame: str, at: complex) -> tuple[Primitive, ...]:
+    """The mark of a centre at a page point: permanent ones in rings (the fixed filled), found ones as dots in a cross,
+    those found in another way as lozenges."""
+    line = strokes.RELATIVE
+    if centre.kind == "permanent":
+        inner = strokes.BLACK if frame in centre.pair else strokes.WHITE
+        return Circle(at, 2.1, "", line), Circle(at, 1.0, inner, line)
+    if centre.way:
+        return (Polygon((at - 1.5, at - 1.5j, at + 1.5, at + 1.5j), strokes.WHITE, line),)
+    across = (unit(1 + 1j), unit(1 - 1j))
+    return *(Line(at - 1.7 * w, at + 1.7 * w, strokes.OUTLINE) for w in across), Circle(at, 0.65, strokes.BLACK)
+
+
+def _lines_of(centre: Centre, letters: Letters) -> str:
+    """The lines that cross in a centre, by the centres that each leads through, or the normal of a pin in a slot."""
+    named = (line_through(line, letters.centre, lambda pin: "n_{" + pin.partition("/")[0] + "}")
+             for line in centre.lines)  # fmt: skip
+    return " × ".join(f"${line}$" for line in named)
+
+
+def near_box(centres: Centres, mechanism: Box, most: tuple[float, float]) -> Box:
+    """The box (mm about the world's origin, y down) of the mechanism and of the centres that lie near enough to be
+    shown with it: the nearest first, as long as the whole stays within a width and height."""
+    box = mechanism
+    spots = [on_page(c.point) for c in centres.found if c.point is not None]
+    for z in sorted(spots, key=mechanism.distance):
+        larger = box.joined(Box.around((z,)).grown(3.0))
+        if larger.width <= most[0] and larger.height <= most[1]:
+            box = larger
+    return box
+
+
+def centre_marks(centres: Centres, letters: Letters, panel: Box, drawn: tuple[Primitive, ...]) -> Piece:
+    """All centres of a figure about the world's origin (y down); ``drawn`` is the mechanism, of which arrows to what
+    lies outside the panel keep clear."""
+    inside, frame = panel.grown(-2.5), centres.scene.frame.name
+    known = [c for c in centres.found if c.place is not None]
+    far = [c for c in known if _off(c, inside)]
+    near = _grouped((c for c in known if not _off(c, inside)), lambda a, b: abs(_spot(a) - _spot(b)) < TOGETHER)
+    lines = [line for c in (*(c for group in near for c in group), *far) for line in _lines(centres, c, panel)]
+    names = [
+        Label.of(rich(_lines_of(c, letters), SMALLEST), _spot(c), f"label-lines-{id_of(c.pair)}",
+                 colour=strokes.GREY, rank=3) for group in near for c in group if c.lines
+    ]  # fmt: skip
+    marks: list[Primitive] = []
+    for group in near:
+        spot = _spot(group[0])
+        for c in group:  # one mark: that of the best known; every name has a group of its own
+            mark = mark_of(c, frame, spot) if c is group[0] else (Circle(_spot(c), 0.3, strokes.BLACK),)
+            step = (f"step-{c.number:02d}",) if c.number else ()
+            marks.append(Group(mark, id=id_of(c.pair), classes=("centre", c.kind, *step)))
+        runs = stacked(_names(group, letters), 3.5)
+        names.append(Label.of(runs, spot, f"label-{id_of(group[0].pair)}", classes=("centre",),
+                              key=_key(group, letters) if len(group) > 1 else None))  # fmt: skip
+    solid = [*obstacles_of(drawn).solid, *((line.start, line.end) for line in lines)]
+    for spot in (_spot(group[0]) for group in near):
+        solid += [(spot - 4.0, spot + 4.0), (spot - 4.0j, spot + 4.0j)]
+    for group in _grouped(far, _one_way):  # those at infinity in one direction share an arrow
+        tail, tip = _pointer(inside, solid, group[0])
+        solid.append((tail, tip))
+        marks += [Group(arrow(tail, tip, POINTER) if c is group[0] else (), id=id_of(c.pair),
+                        classes=("centre", "far", c.kind)) for c in group]  # fmt: skip
+        names.append(Label.of(stacked(_far_names(centres, group, letters), 3.2), (tail, tip),
+                              f"label-{id_of(group[0].pair)}", classes=("centre",), key=_key(group, letters)))
+    # over the tint of links, under the marks
+    found_by = Group(tuple(lines), id="centre-lines", classes=("construction",))
+    return Piece({"centres": (found_by, *marks)}, tuple(names))
+
+
+def _spot(centre: Centre) -> complex:
+    """Where a centre lies on the page."""
+    return on_page(centre.point or 0j)
+
+
+def _off(centre: Centre, inside: Box) -> bool:
+    """Whether a centre lies at infinity, or off a part of the page."""
+    return centre.point is None or inside.distance(on_page(centre.point)) > 0.0
+
+
+def _grouped(some: Iterable[Centre], alike: Callable[[Centre, Centre], bool]) -> list[list[Centre]]:
+    """Centres in groups, each with the first of a group that it is like."""
+    groups: list[list[Centre]] = []
+    for one in some:
+        home = next((group for group in groups if alike(group[0], one)), None)
+        if home is None:
+            groups.append([one])
+        else:
+            home.append(one)
+    return groups
+
+
+def _one_way(a: Centre, b: Centre) -> bool:
+    return a.direction is not None and b.direction is not None and abs(cross(a.direction, b.direction)) < 1e-9
+
+
+def _names(group: Sequence[Centre], letters: Letters, tail: str = "") -> list[str]:
+    """The names of centres at one place, in lines."""
+    names = [f"${letters.centre(c.pair)}$" for c in group]
+    lines = [", ".join(names[i : i + IN_LINE]) for i in range(0, len(names), IN_LINE)]
+    return [*(line + "," for line in lines[:-1]), lines[-1] + tail]
+
+
+def _key(group: Sequence[Centre], letters: Letters) -> Text:
+    """The first of several centres, for all of them."""
+    return Text(0j, rich(f"${letters.centre(group[0].pair)}$" + ", …" * (len(group) > 1), 3.2))
+
+
+def _far_names(centres: Centres, group: Sequence[Centre], letters: Letters) -> list[str]:
+    """Names of centres at infinity; of one that lies far off its distance from a fixed pivot."""
+    first, scene = group[0], centres.scene
+    if first.point is None:
+        return _names(group, letters, " → ∞")
+    point = next(iter(scene.frame.points), None) or next(iter(scene.holders))
+    letter = point[0] + (f"_{{{point[1:]}}}" if point[1:] else "")
+    far = abs(first.point - centres.point(point)) / centres.mm / scene.units.metres
+    return [f"${letter}{letters.centre(first.pair)}$ = {number(far, 4)} {scene.units.length}"]
+
+
+def _lines(centres: Centres, centre: Centre, panel: Box) -> Iterator[Line]:
+    """The two lines that cross in a centre, each from the centres that it leads through to just beyond, cut at the
+    panel; towards a centre at infinity as far as the panel goes."""
+    for relation in centre.lines:
+        a, b, c = relation.line
+        if abs(complex(a, b)) <= 1e-12 * abs(c):
+            continue  # the line at infinity
+        along = on_page(unit(complex(-b, a)))
+        known = [on_page(z) for z in _leads_through(centres, relation)]
+        if centre.point is None:
+            ends = [panel.clip(z - 1e4 * along, z + 1e4 * along) for z in known[:1]]
+        else:
+            here = on_page(centre.point)
+            base = known[0] if known else here - BEYOND * along
+            *shares, end = [dot(z - base, along) for z in (*known, here)]
+            low, high = min([*shares, end]), max([*shares, end])
+            low, high = (low - BEYOND if end == low else low), (high + BEYOND if end == high else high)
+            ends = [panel.clip(base + low * along, base + high * along)]
+        yield from (Line(*one, strokes.OF_CENTRES) for one in ends if one is not None and one[0] != one[1])
+
+
+def _leads_through(centres: Centres, relation: CentreRelation) -> Iterator[complex]:
+    """The places (mm, y up) that a line leads through: those of its two centres, or of the pin whose path it is square
+    to."""
+    for one in relation.through:
+        if not isinstance(one, str):
+            point = centres.of(*one).point
+            if point is not None:
+                yield point
+        elif (name := one.split("/")[0]) in centres.scene.holders:
+            yield centres.point(name)
+
+
+def _pointer(inside: Box, solid: Sequence[tuple[complex, complex]], centre: Centre) -> tuple[complex, complex]:
+    """Where an arrow to a far centre stands: pointing straight at it, clear of what is drawn, near the edge."""
+    middle, drawn = inside.centre, np.array(solid, dtype=complex).reshape(-1, 2)
+    best: tuple[float, complex, complex] | None = None
+
+    def towards(start: complex, sense: int) -> complex:
+        if centre.point is not None:
+            return unit(on_page(centre.point) - start)
+        assert centre.direction is not None
+        return sense * on_page(centre.direction)
+
+    asides = [s * k * 6.0 for k in range(18) for s in ((1, -1) if k else (1,))]
+    for sense in (1, -1) if centre.point is None else (1,):
+        for aside in asides:
+            start = middle + 1j * towards(middle, sense) * aside
+            way = towards(start, sense)
+            for back in (0.0, 4.0, 10.0):
+                off = 0.12 * abs(aside) + 0.5 * back + 3.0 * (sense < 0)
+                if best is not None and off >= best[0]:
+                    continue
+                chord = inside.clip(start, start + 1e4 * way)
+                if chord is None or abs(chord[1] - chord[0]) < ARROW + back:
+                    continue
+                tip = chord[1] - back * way
+                tail = tip - ARROW * way
+                gaps = distances(tail + (tip - tail) * np.arange(4) / 3, drawn).min(axis=0)
+                cost = off + float(np.maximum(0.0, 7.0 - gaps).sum())  # how much is drawn near it
+                if best is None or cost < best[0]:
+                    best = cost, tail, tip
+    assert best is not None, "a panel is larger than an arrow"
+    return best[1], best[2]
+
+
+# -- the figure --------------------------------------------------------------------------------------------------------
 
 ROOM = 9.0  # mm around the centres, for names
 MOST = (150.0, 150.0)  # mm that the mechanism with its near centres may fill
-SMALLEST = (70.0, 60.0)
+SMALLEST_FIGURE = (70.0, 60.0)
 SMALL = Room(mechanism=(60.0, 50.0))  # mm, of the mechanism where each centre is drawn by itself
 SIDE, BESIDE = 62.0, 2.0  # width of the column beside the mechanism, and between the two
 RADIUS = {3: 15.0, 4: 17.0, 5: 20.0, 6: 22.0}
+LEGEND = ("legend",)
 
 
 def centres_figure(
@@ -164,20 +355,15 @@ def centres_figure(
     back = background(bare_mechanism(sheet, letters), "touch")
     if sheet.scene.instead_of is not None:  # the bars to centres of curvature, which have centres too
         back = joined((Piece({"construction": replacing_links(MechanismOnPaper(sheet, letters))}), back))
-    mechanism = ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0)
-    content = near_box(centres, mechanism, MOST)
+    content = near_box(centres, ink_box(back.drawn) or Box(-20.0, -20.0, 20.0, 20.0), MOST)
     side = _side(centres, letters, spoken)
-    wide = max(content.width, SMALLEST[0]) + 2 * ROOM - BESIDE
-    high = max(content.height + 2 * ROOM, SMALLEST[1] + 2 * ROOM, side.height)
+    wide = max(content.width, SMALLEST_FIGURE[0]) + 2 * ROOM - BESIDE
+    high = max(content.height + 2 * ROOM, SMALLEST_FIGURE[1] + 2 * ROOM, side.height)
     page = page.wide_enough(wide + BESIDE + SIDE)
-
-    def drawn(room: Box) -> Piece:
-        origin = room.centre - content.centre
-        around = room.moved(-origin)  # about the world's origin, as the mechanism is drawn
-        whole = joined((back, centre_marks(centres, letters, around, back.drawn)))
-        return moved_piece(named_centres(whole, around, centres), origin)
-
-    figure = panel(wide, high, drawn)
+    figure = centred(
+        content, wide, high, lambda around: joined((back, centre_marks(centres, letters, around, back.drawn))),
+        lambda whole, around: named_centres(whole, around, centres),
+    )
     report = _report(centres, turning, letters, spoken, page.width)
     made = page.drawing(
         page.at_drivers(page.term("centres")),
@@ -185,17 +371,7 @@ def centres_figure(
         said=describe(sheet, ("mechanism",), spoken) + "\n" + _description(centres, turning, letters, spoken),
     )  # fmt: skip
     some = untold(centres, figure.piece.drawn)
-    if not some:
-        return made
-    small = centres.at(centres.sheet.scales_for(SMALL))
-    again = [small.of(*centre.pair) for centre in some]
-    return replace(made, further=centre_steps(small, again, _mechanism_behind(small, letters), letters, spoken))
-
-
-def _mechanism_behind(centres: Centres, letters: Letters) -> Piece:
-    """The mechanism of a drawing, pale, without names."""
-    pale = background(bare_mechanism(centres.sheet, letters), "touch")
-    return Piece(pale.layers)
+    return replace(made, further=tuple(_centre_by_centre(centres, some, letters, spoken))) if some else made
 
 
 def background(piece: Piece, *also: str) -> Piece:
@@ -209,13 +385,19 @@ def background(piece: Piece, *also: str) -> Piece:
 
 
 def _side(centres: Centres, letters: Letters, language: str) -> Block:
-    """The column beside the mechanism: circle diagram, legend, and the order in which centres were found."""
+    """The column beside the mechanism: circle diagram, legend, and the centres in the order in which they were found,
+    and how."""
     radius = RADIUS.get(len(centres.names), 23.0)
     circle = panel(SIDE, 2 * radius + 18.0, lambda room: Piece(
-        {"centres": circle_diagram(centres, room.centre, radius)}))
+        {"centres": (circle_diagram(centres, room.centre, radius),)}))
     title = prose((term("circle diagram", language),), SIDE, 3.2, bold=True, line=HEAD_LINE, classes=LEGEND)
-    legend, order = column(*_legend(centres, language), gap=0.8), column(*_order(centres, letters, language))
-    return column(title, circle, legend, order, gap=1.5)
+    order = (
+        row(numeral(centre.number, 7.0, classes=LEGEND),
+            prose((f"${letters.centre(centre.pair)}$",), 9.0, classes=LEGEND),
+            prose((_how_found(centre, letters, language),), SIDE - 16.0, classes=LEGEND))
+        for centre in centres.found if centre.number
+    )  # fmt: skip
+    return column(title, circle, column(*_legend(centres, language), gap=0.8), column(*order), gap=1.5)
 
 
 def _legend(centres: Centres, language: str) -> Iterator[Block]:
@@ -229,26 +411,13 @@ def _legend(centres: Centres, language: str) -> Iterator[Block]:
     for kind, holds in kinds.items():
         one = next((c for c in centres.found if holds(c)), None)
         if one is not None:
-            mark = Block(Piece({"centres": tuple(mark_of(one, frame, 3.0 + 2.0j))}), 0.0, 8.0)
+            mark = Block(Piece({"centres": mark_of(one, frame, 3.0 + 2.0j)}), 0.0, 8.0)
             yield row(mark, prose((term(kind, language),), SIDE - 8.0, classes=LEGEND))
 
 
-def _order(centres: Centres, letters: Letters, language: str) -> Iterator[Block]:
-    """The centres in the order in which they were found, and how."""
-    for centre in (one for one in centres.found if one.number):
-        how = how_found(centre, letters, language, centres)
-        name = prose((f"${letters.centre(centre.pair)}$",), 9.0, classes=LEGEND)
-        told = prose((how,), SIDE - 16.0, classes=LEGEND)
-        yield row(numeral(centre.number, 7.0, classes=LEGEND), name, told)
-
-
-def how_found(centre: Centre, letters: Letters, language: str, centres: Centres) -> str:
+def _how_found(centre: Centre, letters: Letters, language: str) -> str:
     """The construction of a centre in short: the two lines that cross, or the name of another way."""
-    if centre.lines:
-        return " × ".join(line_name(line, letters) for line in centre.lines)
-    if centre.way:
-        return term(f"way {centre.way}", language)
-    return term("way none", language)
+    return _lines_of(centre, letters) or term(f"way {centre.way or 'none'}", language)
 
 
 def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str, width: float) -> Block:
@@ -256,11 +425,9 @@ def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, 
     lines: list[str] = []
     for each in languages(language):
         for centre in centres.indeterminate:
-            sentences = [_say(centre.why, each, letters)] if centre.why else []
-            if centre.way:
-                kept = ", ".join(centres.kept)
-                sentences.append(_say(Phrase(f"centre {centre.way}", (centre.pair, kept)), each, letters))
-            lines.append(word("sentence joint", each).join(sentences))
+            by = Phrase(f"centre {centre.way}", (centre.pair, ", ".join(centres.kept))) if centre.way else None
+            told = [as_markup(_rich(one, each, letters)) for one in (centre.why, by) if one is not None]
+            lines.append(word("sentence joint", each).join(told))
     spoken = velocity_sentences(centres, turning)
     head = [term("velocities by centres", language)] if spoken else []
     found = [said for phrase in spoken for said in _in_all(phrase, language, letters)]
@@ -270,12 +437,9 @@ def _report(centres: Centres, turning: Mapping[str, Turning], letters: Letters, 
 
 def _in_all(phrase: Phrase, language: str, letters: Letters) -> tuple[str, ...]:
     """A sentence in each language of a sheet: its formulas and symbols once, with the further languages in brief."""
-    first, *others = languages(language)
-    said = _say(phrase, first, letters)
-    brief = [word(f"{phrase.key} briefly", each, "") for each in others]
-    if others and all(brief):
-        return (" ".join((said, *brief)),)
-    return tuple(dict.fromkeys((said, *(_say(phrase, each, letters) for each in others))))
+    told = [as_markup(_rich(phrase, each, letters)) for each in languages(language)]
+    brief = [word(f"{phrase.key} briefly", each, "") for each in languages(language)[1:]]
+    return (" ".join((told[0], *brief)),) if brief and all(brief) else tuple(dict.fromkeys(told))
 
 
 def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
@@ -291,8 +455,9 @@ def _rich(phrase: Phrase, language: str, letters: Letters) -> RichText:
     return rich_text(phrase, language, show)
 
 
-def _say(phrase: Phrase, language: str, letters: Letters) -> str:
-    return as_markup(_rich(phrase, language, letters))
+def _bare(markup: str) -> str:
+    """Symbols as plain text."""
+    return markup.replace("$", "").replace("_{", "").replace("}", "")
 
 
 def _description(centres: Centres, turning: Mapping[str, Turning], letters: Letters, language: str) -> str:
@@ -300,18 +465,16 @@ def _description(centres: Centres, turning: Mapping[str, Turning], letters: Lett
     said = []
     for each in languages(language):
         for centre in centres.found:
-            name = letters.centre(centre.pair).replace("_{", "").replace("}", "")
             place = "?" if centre.direction is None else "∞"
             if centre.point is not None:
                 place = f"({', '.join(f'{x:.4g}' for x in place_of(centres, centre) or ())})"
-            how = how_found(centre, letters, each, centres) if centre.number else centre.joint
-            said.append(f"{name} {place}: {how.replace('$', '').replace('_{', '').replace('}', '')}")
-        said += [
-            as_plain(_rich(phrase, each, letters))
-            for phrase in velocity_sentences(centres, turning)
-        ]
+            how = _how_found(centre, letters, each) if centre.number else centre.joint
+            said.append(f"{_bare(letters.centre(centre.pair))} {place}: {_bare(how)}")
+        said += [as_plain(_rich(phrase, each, letters)) for phrase in velocity_sentences(centres, turning)]
     return "\n".join(said)
 
+
+# -- where names have no room ------------------------------------------------------------------------------------------
 
 WIDTH = 194.0  # mm of a page between its margins
 COLUMNS, ROWS = 2, 3
@@ -351,8 +514,7 @@ def _found(label: Label, centres: Centres) -> bool:
     at = label.mark
     if isinstance(at, tuple) or not label.text.id.startswith("label-centre-"):
         return False
-    near = [c for c in centres.found if c.point is not None and abs(on_page(c.point) - at) < TOGETHER]
-    return all(c.lines for c in near)
+    return all(c.lines for c in centres.found if c.point is not None and abs(_spot(c) - at) < TOGETHER)
 
 
 def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
@@ -361,46 +523,36 @@ def untold(centres: Centres, drawn: Sequence[Primitive]) -> tuple[Centre, ...]:
     ids = {thing.id for thing in things if isinstance(thing, Text)}
     near = {thing.id for thing in things if isinstance(thing, Group) and "centre" in thing.classes
             and "far" not in thing.classes}  # fmt: skip
-    names = {centre: "centre-" + "-".join(sorted(centre.pair)) for centre in centres.found if centre.lines}
-    return tuple(c for c, name in names.items() if name in near and f"label-lines-{name}" not in ids)
+    return tuple(c for c in centres.found if c.lines and id_of(c.pair) in near
+                 and f"label-lines-{id_of(c.pair)}" not in ids)  # fmt: skip
 
 
-def centre_steps(
-    centres: Centres, some: Sequence[Centre], behind: Piece, letters: Letters, language: str
-) -> tuple[Drawing, ...]:
-    """Pages with a picture of some centres each: the mechanism, the two lines through the centres that are known, and
-    where they meet.
-
-    Parameters
-    ----------
-    centres : on a drawing of a scale that a picture has room for
-    behind : its mechanism, pale
-    """
-    page = FigurePage(centres.sheet, "centres", language, letters, WIDTH)
-    each = COLUMNS * ROWS
-    return tuple(_page(page, centres, some[i : i + each], behind) for i in range(0, len(some), each))
-
-
-def _page(page: FigurePage, centres: Centres, some: Sequence[Centre], behind: Piece) -> Drawing:
-    pictures, said = [], [figure_title(centres.sheet, "lines of centres", page.language)]
-    for centre in some:
-        by = " × ".join(line_name(line, page.letters) for line in centre.lines)
-        told = f"${page.letters.centre(centre.pair)}$ = {by}"
-        said.append(f"{centre.number}. " + told.replace("$", "").replace("_{", "").replace("}", ""))
-        picture = panel(*PICTURE, partial(_picture, centres, centre, behind, page.letters))
-        pictures.append(column(numbered(centre.number, told, PICTURE[0], LETTER), framed(picture), gap=0.6))
-    return page.drawing(
-        page.term("lines of centres"), column(*rows(pictures, WIDTH, BETWEEN), gap=BETWEEN), page.scale("mechanism"),
-        title="lines of centres", said="\n".join(said),
-    )  # fmt: skip
+def _centre_by_centre(
+    centres: Centres, some: Sequence[Centre], letters: Letters, language: str
+) -> Iterator[Drawing]:
+    """Pages with a small picture of each of some centres: the mechanism, the two lines through the centres that are
+    known, and where they meet."""
+    small = centres.at(centres.sheet.scales_for(SMALL))
+    behind = Piece(background(bare_mechanism(small.sheet, letters), "touch").layers)
+    page = FigurePage(small.sheet, "centres", language, letters, WIDTH)
+    for i in range(0, len(some), COLUMNS * ROWS):
+        pictures, said = [], [figure_title(small.sheet, "lines of centres", language)]
+        for centre in (small.of(*one.pair) for one in some[i : i + COLUMNS * ROWS]):
+            told = f"${letters.centre(centre.pair)}$ = {_lines_of(centre, letters)}"
+            said.append(f"{centre.number}. {_bare(told)}")
+            picture = panel(*PICTURE, partial(_picture, small, centre, behind, letters))
+            pictures.append(column(numbered(centre.number, told, PICTURE[0], LETTER), framed(picture), gap=0.6))
+        yield page.drawing(
+            page.term("lines of centres"), column(*rows(pictures, WIDTH, BETWEEN), gap=BETWEEN),
+            page.scale("mechanism"), title="lines of centres", said="\n".join(said),
+        )  # fmt: skip
 
 
 def _picture(centres: Centres, centre: Centre, behind: Piece, letters: Letters, room: Box) -> Piece:
     """One centre with its two lines and the centres through which they lead."""
     through = dict.fromkeys(pair for line in centre.lines for pair in line.through if not isinstance(pair, str))
     known = (centres.of(*pair) for pair in through)
-    table = {c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre}
-    alone = replace(centres, table=table)
+    alone = replace(centres, table={c.pair: replace(c, lines=()) for c in known} | {centre.pair: centre})
     inside = room.grown(-INSIDE)
     content = near_box(alone, ink_box(behind.drawn) or Box(-10.0, -10.0, 10.0, 10.0), (inside.width, inside.height))
     origin = inside.centre - content.centre

@@ -5,7 +5,7 @@ curve."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,14 +15,13 @@ from graphkin.account.headings import punctuation
 from graphkin.construction.centres import Centres, LinkPair
 from graphkin.drawing.box import Box
 from graphkin.drawing.boxes import Block, FigurePage, column, prose, row
-from graphkin.drawing.figures.centres import background
+from graphkin.drawing.figures.centres import background, id_of, mark_of
 from graphkin.drawing.ink.primitives import Group, Line, Polyline, Primitive, Stroke, Text, Travel, on_page
 from graphkin.drawing.ink.strokes import colour_of_link
-from graphkin.drawing.parts.centre_marks import mark_of
 from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.names import with_labels
-from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.place.piece import Piece, ink_box, joined
+from graphkin.drawing.plate import centred
 from graphkin.drawing.text import rich
 from graphkin.drawing.write.drawing import Drawing
 from graphkin.words import Phrase, languages, say
@@ -70,14 +69,12 @@ def centres_in_motion(
     gone = fixed - {f"point-{name}" for name in sheet.scene.frame.points}  # what stands for a cam at one position
     bodies = [thing for thing in back.layers["mechanism"] if getattr(thing, "id", "") not in gone]
     links = [_moving(thing, origins, turned, points) for thing in bodies]
-    drawn: list[Primitive] = []
-    for pair, path in shown.items():
-        drawn += _paths(pair, path, colour_of_link(sheet.scene, pair[0]))
+    drawn = [_path(pair, path, colour_of_link(sheet.scene, pair[0])) for pair, path in shown.items() if _moves(path)]
     for k, (pair, path) in enumerate(shown.items()):
         drawn += _centre(centres, pair, path, f"${letters.centre(pair)}$", k)
     whole = Piece({"mechanism": tuple(links), "centres": tuple(drawn)})
     page = page.wide_enough(content.width + 2 * ROOM)
-    figure = page.panel(content.height + 2 * ROOM, lambda room: moved_piece(whole, room.centre - content.centre))
+    figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole, lambda piece, around: piece)
     return page.drawing(
         page.term("centres in motion"), figure, page.scale("mechanism"), title="centres",
         said=page.term("centres in motion") + punctuation("full stop", page.language),
@@ -92,9 +89,10 @@ def _inside(path: Places, box: Box) -> Places:
     return np.where(inside, path, complex(math.nan, math.nan))
 
 
-def _travel(path: Places, turned: NDArray[np.float64] | None = None, about: complex = 0j) -> Travel:
-    """How something moves that stands at the first place: a move on the page for each frame, None where it is away."""
-    moves = tuple(complex(on_page(z - path[0])) if np.isfinite(z) else None for z in path)
+def _travel(path: Places, base: complex, turned: NDArray[np.float64] | None = None, about: complex = 0j) -> Travel:
+    """How something moves that is drawn where it stands at a base: a move on the page for each frame, None where it is
+    away."""
+    moves = tuple(complex(on_page(z - base)) if np.isfinite(z) else None for z in path)
     turns = () if turned is None else tuple(-math.degrees(float(t)) if math.isfinite(t) else 0.0 for t in turned)
     return Travel(moves, turns, about, SECONDS)
 
@@ -108,8 +106,9 @@ def _moving(
     kind, _, name = thing.id.partition("-")
     if kind in ("link", "cam", "follower") and name in origins:
         path = origins[name]
-        return replace(thing, motion=_travel(path, turned[name], on_page(complex(path[0]))))
-    return replace(thing, motion=_travel(points[name])) if kind == "point" and name in points else thing
+        return replace(thing, motion=_travel(path, path[0], turned[name], on_page(complex(path[0]))))
+    moves = kind == "point" and name in points
+    return replace(thing, motion=_travel(points[name], points[name][0])) if moves else thing
 
 
 def _moves(path: Places) -> bool:
@@ -117,34 +116,25 @@ def _moves(path: Places) -> bool:
     return len(good) > 1 and float(np.max(np.abs(good - good[0]))) > STANDS
 
 
-def _paths(pair: LinkPair, path: Places, colour: str) -> Sequence[Primitive]:
+def _path(pair: LinkPair, path: Places, colour: str) -> Group:
     """The path in runs that a pen draws without lifting."""
-    if not _moves(path):
-        return ()
-    runs: list[list[complex]] = [[]]
-    for z in path.tolist():
-        if math.isfinite(z.real):
-            runs[-1].append(on_page(z))
-        elif runs[-1]:
-            runs.append([])
+    gaps = np.flatnonzero(~np.isfinite(path))
+    runs = ([on_page(z) for z in run.tolist() if math.isfinite(z.real)] for run in np.split(path, gaps))
     lines = tuple(Polyline(tuple(run), Stroke(PATH, (), colour)) for run in runs if len(run) > 1)
-    return (Group(lines, id="path-" + "-".join(sorted(pair)), classes=("centre-path",)),)
+    return Group(lines, id=id_of(pair).replace("centre", "path", 1), classes=("centre-path",))
 
 
-def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -> Sequence[Primitive]:
+def _centre(centres: Centres, pair: LinkPair, path: Places, name: str, k: int) -> Iterator[Group]:
     """A centre with its name, moving along its path."""
     good = np.flatnonzero(np.isfinite(path))
     if not len(good):
-        return ()
+        return
     base = complex(path[good[0]])
-    at = on_page(base)
-    mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, at)
+    mark = mark_of(centres.of(*pair), centres.sheet.scene.frame.name, on_page(base))
     off, anchor = NAMES[k % len(NAMES)]
-    text = Text(at + off, rich(name, 3.0), anchor, classes=("label", "centre"))
-    whole = (*mark, text)
-    moves = tuple(complex(on_page(z - base)) if np.isfinite(z) else None for z in path)
-    motion = Travel(moves, (), 0j, SECONDS) if _moves(path) or len(good) < len(path) else None
-    return (Group(whole, id="centre-" + "-".join(sorted(pair)), classes=("centre",), motion=motion),)
+    text = Text(on_page(base) + off, rich(name, 3.0), anchor, classes=("label", "centre"))
+    motion = _travel(path, base) if _moves(path) or len(good) < len(path) else None
+    yield Group((*mark, text), id=id_of(pair), classes=("centre",), motion=motion)
 
 
 Branch = Sequence[complex]  # places (mm on paper, y up) that a pen joins without lifting
@@ -189,21 +179,18 @@ def centrodes_figure(
     names: tuple[Label, ...] = ()
     if here is not None and content.distance(here) == 0.0:
         names = (Label.of(rich(f"${letters.centre(centre.pair)}$"), here, classes=("centre",)),)
-        mark = Group(mark_of(centre, sheet.scene.frame.name, here), id="centre-" + "-".join(sorted(centre.pair)))
+        mark = Group(mark_of(centre, sheet.scene.frame.name, here), id=id_of(centre.pair))
         groups = (*groups, mark)
     page = page.wide_enough(content.width + 2 * ROOM)
-
-    def curves(room: Box) -> Piece:
-        origin = room.centre - content.centre
-        return moved_piece(with_labels(joined((back, Piece({"centres": groups}, names))), room.moved(-origin)), origin)
-
+    whole = joined((back, Piece({"centres": groups}, names)))
+    figure = centred(content, page.width, content.height + 2 * ROOM, lambda around: whole)
     legend = [(say(Phrase(key, (name,)), languages(page.language)[0]), stroke)
               for key, _, stroke, branches, name in kinds if branches]  # fmt: skip
     keys = [row(_sample(stroke), prose((said,), page.width - KEY, 3.0, classes=("legend",))) for said, stroke in legend]
     end = punctuation("full stop", page.language) + punctuation("between sentences", page.language)
     return page.drawing(
         page.at_drivers(f"{page.term('centrodes')} {link}"),
-        column(page.panel(content.height + 2 * ROOM, curves), *keys), page.scale("mechanism"), title="centrodes",
+        column(figure, *keys), page.scale("mechanism"), title="centrodes",
         said="".join(said + end for said, _ in legend).strip(),
     )  # fmt: skip
 
