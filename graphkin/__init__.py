@@ -46,8 +46,7 @@ TYPE_CHECKING = False  # that of typing, without waiting for typing
 if TYPE_CHECKING:
     from graphkin.api.audited import audit
     from graphkin.api.cams import cam
-    from graphkin.api.centred import centres
-    from graphkin.api.centroded import centrodes
+    from graphkin.api.centred import centres, centrodes
     from graphkin.api.checked import check
     from graphkin.api.converted import convert
     from graphkin.api.course_designs import course_design
@@ -74,8 +73,7 @@ __all__ = [
 _PLACES = {
     "api.audited": "audit",
     "api.cams": "cam",
-    "api.centred": "centres",
-    "api.centroded": "centrodes",
+    "api.centred": "centres centrodes",
     "api.checked": "check",
     "api.converted": "convert",
     "api.course_designs": "course_design",

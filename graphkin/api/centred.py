@@ -1,4 +1,5 @@
-"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check."""
+"""``graphkin centres``: every instant centre, how it was found, the velocities taken through them, and the check; with
+``--centrode`` the centrodes of a link over a turn, and the path of a point of it."""
 
 from __future__ import annotations
 
@@ -9,6 +10,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from graphkin.account.centres import how_found, place_of, velocity_sentences
 from graphkin.account.notation import in_counting_order
@@ -46,21 +50,24 @@ from graphkin.words import Phrase, as_plain, languages, rich_text, say, word
 if TYPE_CHECKING:
     from graphkin.drawing import Drawing
     from graphkin.solver import Motion
+    from graphkin.solver.motion import Centrode
     from graphkin.table import Table
 
-__all__ = ["ROOM", "Centred", "SpeedByCentres", "centres", "centres_text", "found_centres"]
+__all__ = ["ROOM", "Centred", "Centroded", "SpeedByCentres", "centres", "centres_text", "centrodes", "found_centres"]
 
 
 def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str, str]], list[str]]:
     """All centres of a position in words, in the language of the result: heads and rows of the table, and sentences
     below it."""
-    language, found = centred.spoken, centred.centres
-    convention = centred.convention or centred.mechanism.question.sheet.convention
+    language, found, scene = centred.spoken, centred.centres, centred.mechanism
+    convention = centred.convention or scene.question.sheet.convention
     letter = "P" if convention in ("chinese", "russian") else "I"
 
     def name(thing: object) -> str:
-        if not isinstance(thing, tuple) or isinstance(thing, PointRef):
-            return thing.point if isinstance(thing, PointRef) else str(thing)
+        if isinstance(thing, PointRef):
+            return thing.point
+        if not isinstance(thing, tuple):
+            return str(thing)
         a, b = sorted(thing, key=in_counting_order)
         return f"{letter}{a}{',' if len(a + b) > 2 else ''}{b}"
 
@@ -68,27 +75,24 @@ def centres_text(centred: Centred) -> tuple[list[str], list[tuple[str, str, str,
     for centre in found.found:
         place = ", ".join(f"{x:.6g}" for x in place_of(found, centre) or ())
         if place:
-            place = f"∞ ({place})" if centre.point is None else f"{place} {centred.mechanism.units.length}"
+            place = f"∞ ({place})" if centre.point is None else f"{place} {scene.units.length}"
         how = say(how_found(found, centre, name), language, name)
         rows.append((str(centre.number or ""), name(centre.pair), place, how))
-    sentences = [say(c.why, language, str) for c in found.indeterminate if c.why]
-    sentences += [""] if sentences else []
-    sentences.append(word("velocities by centres", language))
-    sentences += [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found, centred.turning)]
+    why = [say(c.why, language, str) for c in found.indeterminate if c.why]
+    told = [as_plain(rich_text(said, language, name)) for said in velocity_sentences(found, centred.turning)]
     off = [name(p) for p, apart in centred.compared.items() if apart is not None and apart[0] > apart[1]]
     off += [str(v.symbol) for v in centred.velocities if v.ok is False]
-    sentences += [v.too_near(language) for v in centred.velocities if v.ok is None]
+    near = [v.too_near(language) for v in centred.velocities if v.ok is None]
     count = sum(e is not None for e in centred.errors.values())
     verdict = Phrase("check failed", (", ".join(off),)) if off else Phrase("centres checked", (count,))
     heads = ["", *(word(key, language) for key in ("centre", "place", "how found"))]
-    return heads, rows, [*sentences, say(verdict, language)]
+    head = [*why, *[""] * bool(why), word("velocities by centres", language)]
+    return heads, rows, [*head, *told, *near, say(verdict, language)]
 
 
 MOST_PLAYED = 6  # links all of whose centres are played
 NO_MOTION = 1e-9
 ROOM = Room(mechanism=(90.0, 75.0))  # mm: the mechanism is drawn small, so that its centres find room around it
-
-
 TOLERANCE = 1e-9
 FAIR = 1e-3  # of the largest: a value that may be off by more is not determined by the centres
 SAFETY = 4.0  # the bound of a velocity by centres over its error of first order
@@ -239,39 +243,25 @@ class Centred(OfScene, Result):
 
     def _centre(self, centre: Centre) -> dict[str, Json]:
         row: dict[str, Json] = {}
-        if where := self.where(centre):
+        if where := place_of(self.centres, centre):
             row["direction" if centre.point is None else "point"] = list(where)
         row["kind"] = centre.kind
-        if centre.lines:
-            row["by"] = _crossing(centre)
-        if centre.way:
-            row["by"] = centre.way
+        if centre.lines or centre.way:
+            row["by"] = centre.way or _crossing(centre)
         if centre.number and centre.kind == "found":
             row["number"] = centre.number
         if centre.why:
             row["why"] = say(centre.why, self.spoken)
         return row
 
-    def where(self, centre: Centre) -> tuple[float, float] | tuple[()]:
-        """Coordinates of a centre in the scene's unit; of one at infinity its direction; none where it is unknown."""
-        if centre.point is not None:
-            z = centre.point * self.centres.sheet.scales.length / self.mechanism.units.metres
-            return _plain(z.real), _plain(z.imag)
-        return () if centre.direction is None else (_plain(centre.direction.real), _plain(centre.direction.imag))
-
     def _velocity(self, v: SpeedByCentres) -> dict[str, Json]:
         unit = self.mechanism.units.rates.metres if v.symbol.is_vector else 1.0
-        values = (
-            None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real) + 0.0
-            for x in (v.by_centres, v.exact)
-        )
-        row: dict[str, Json] = dict(zip(("by_centres", "exact"), values, strict=True))
-        row |= {"chain": list(v.chain), "ok": v.ok}
+        by_centres, exact = (None if x is None else abs(x) / unit if v.symbol.is_vector else float(x.real) + 0.0
+                             for x in (v.by_centres, v.exact))  # fmt: skip
+        row: dict[str, Json] = {"by_centres": by_centres, "exact": exact, "chain": list(v.chain), "ok": v.ok}
         if v.ok and v.tolerance > 1.01 * TOLERANCE * v.largest:
             row["tolerance"] = v.tolerance / unit  # worse than everywhere else
-        if v.ok is None:
-            row |= {"by_centres": None, "why": v.too_near(self.spoken)}
-        return row
+        return row if v.ok is not None else row | {"by_centres": None, "why": v.too_near(self.spoken)}
 
     @cached_property
     def in_motion(self) -> Drawing:
@@ -287,31 +277,25 @@ class Centred(OfScene, Result):
         pairs = [p for p in self.centres.table if (few or frame in p) and not standing.intersection(p)]
         own = {d.key: float(v) for d, v in zip(self.mechanism.drivers, self.motion.values[0], strict=True)}
         found, mm = centre_paths(self.mechanism, own, pairs), self.centres.mm
-        return centres_in_motion(
-            self.centres,
-            {name: z * mm for name, z in found.origins.items()},
-            found.turned,
-            {name: z * mm for name, z in found.points.items()},
-            {pair: z * mm for pair, z in found.centres.items()},
-            language=self.language,
-            convention=self.convention,
-        )
+        origins, points = ({name: z * mm for name, z in some.items()} for some in (found.origins, found.points))
+        paths = {pair: z * mm for pair, z in found.centres.items()}
+        return centres_in_motion(self.centres, origins, found.turned, points, paths, language=self.language,
+                                 convention=self.convention)  # fmt: skip
 
     def __getitem__(self, name: str) -> PlacedCentre | SpeedByCentres:
         """A centre by its links ("1-3"), or a velocity by its symbol ("v_D", "omega_3"), in the file's units.  Raises
         CallError."""
-        name = as_text("name", name)
-        links = tuple(name.split("-"))
-        found = next((c for p, c in self.centres.table.items() if links in (p, p[::-1])), None)
+        links = tuple(as_text("name", name).split("-"))
+        centre = next((c for p, c in self.centres.table.items() if links in (p, p[::-1])), None)
+        if centre is not None:
+            where, unit = place_of(self.centres, centre), self.mechanism.units.length
+            place = complex(*where) if where else None
+            return PlacedCentre(_name(centre.pair), centre.kind, place, centre.point is None, unit)
         taken = {str(v.symbol): v for v in self.velocities}
-        if found is None and name not in taken:
-            known = [_name(pair) for pair in self.centres.table] + list(taken)
+        if name not in taken:
+            known = [*map(_name, self.centres.table), *taken]
             raise CallError.of(f'"{name}"', "no centre or velocity of this name", did_you_mean(name, known))
-        if found is None:
-            return taken[name].in_units(self.mechanism)
-        where = self.where(found)
-        place = complex(*where) if where else None
-        return PlacedCentre(_name(found.pair), found.kind, place, found.point is None, self.mechanism.units.length)
+        return taken[name].in_units(self.mechanism)
 
     @cached_property
     def table(self) -> Table:
@@ -321,7 +305,7 @@ class Centred(OfScene, Result):
         rows = []
         for pair, centre in self.centres.table.items():
             told = centre.way or " x ".join(" ".join(line) for line in _crossing(centre)) or centre.joint
-            x, y = self.where(centre) or (None, None)
+            x, y = place_of(self.centres, centre) or (None, None)
             where = (x, y, None, None) if centre.point is not None else (None, None, x, y)
             rows.append((_name(pair), centre.kind, centre.number or None, *where, told, self.errors[pair]))
         heads = ("pair", "kind", "number", "x", "y", "direction_x", "direction_y", "by", "error")
@@ -375,10 +359,6 @@ def _name(pair: LinkPair) -> str:
 def _crossing(centre: Centre) -> list[list[str]]:
     """What each line goes through on which a centre lies."""
     return [[p if isinstance(p, str) else _name(p) for p in line.through] for line in centre.lines]
-
-
-def _plain(value: float) -> float:
-    return float(f"{value:.15g}") + 0.0
 
 
 def _seen(centres: Centres, motion: Motion, pair: LinkPair) -> tuple[tuple[float, float, float], float]:
@@ -449,3 +429,157 @@ def centres(
     if out is not None:
         centred.write(out, formats)
     return centred
+
+
+# -- centrodes ---------------------------------------------------------------------------------------------------------
+
+POSITIONS = 3600
+STILL = 1e-9
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Centroded(OfScene, Result):
+    """The fixed and the moving centrode of a link, and the path of a point of it (complex arrays over the turn, m)."""
+
+    centres: Centres
+    motion: Motion
+    curves: Centrode
+    link: str
+    point: str
+    language: str | None = None
+    convention: str | None = None
+
+    @property
+    def mechanism(self) -> Mechanism:
+        return self.centres.scene
+
+    @property
+    def ok(self) -> bool:
+        """Whether the centre drawn at this position lies on the fixed centrode, to 1e-9 of the mechanism's size."""
+        point, start = self.centres.of(self.link, self.mechanism.frame.name).point, complex(self.curves.fixed[0])
+        if point is None or not np.isfinite(start):
+            return True
+        return abs(point / self.centres.mm - start) <= 1e-9 * max(self.mechanism.size, abs(start))
+
+    @property
+    def path(self) -> NDArray[np.complex128]:
+        """Places of the point over the turn (m), empty without one."""
+        return self.motion.position(self.point, self.link) if self.point else np.zeros(0, dtype=np.complex128)
+
+    @property
+    def data(self) -> dict[str, Json]:
+        """The object that ``graphkin centres --centrode --json`` prints, but for the files."""
+        return {"link": self.link, "ok": self.ok}
+
+    @cached_property
+    def table(self) -> Table:
+        """Both curves over the turn and the driver's value in the file's units, the moving one in the link's axes."""
+        from graphkin.table import Column, Table
+
+        length, own = self.mechanism.units.of("length"), self.mechanism.unit_of(self.mechanism.drivers[0])
+        columns = [Column("driver", own.of(self.motion.values[:, 0]), own.text, form=".12g")]
+        for name, curve in (("fixed", self.curves.fixed), ("moving", self.curves.moving)):
+            places = np.where(np.isfinite(curve), curve, complex(np.nan, np.nan))
+            parts = zip("xy", (places.real, places.imag), strict=True)
+            columns += [Column(f"{name}_{axis}", length.of(part), length.text, form=".12g") for axis, part in parts]
+        return Table(tuple(columns))
+
+    @cached_property
+    def figure(self) -> Drawing:
+        from graphkin.drawing.figures.centres_in_motion import centrodes_figure
+
+        mm, pose, joined = self.centres.mm, self.centres.poses[self.link], self.curves.joined
+        moving, path = pose.origin + pose.axis * self.curves.moving * mm, self.path * mm
+        whole = np.isfinite(path[:-1]) & np.isfinite(path[1:]) if self.point else np.zeros(0, dtype=bool)
+        curves = _branches(self.curves.fixed * mm, joined), _branches(moving, joined), _branches(path, whole)
+        return centrodes_figure(self.centres, self.link, *curves, self.point, language=self.language,
+                                convention=self.convention)  # fmt: skip
+
+    @property
+    def figures(self) -> Mapping[str, Drawing]:
+        return {"centrode": self.figure}
+
+    @property
+    def tables(self) -> Mapping[str, Table]:
+        return {"centrode.csv": self.table}
+
+    def __repr__(self) -> str:
+        return f"<Centroded {self.mechanism.name}: link {self.link}>"
+
+
+def _branches(places: NDArray[np.complex128], joined: NDArray[np.bool_]) -> list[list[complex]]:
+    """Places in runs that a pen draws without lifting; the end of a turn joins its start."""
+    runs: list[list[complex]] = []
+    run: list[complex] = []
+    for i, z in enumerate(places.tolist()):
+        if np.isfinite(z):
+            run.append(z)
+        if (i == len(places) - 1 or not joined[i]) and run:
+            runs.append(run)
+            run = []
+    if len(places) and np.isfinite(places[0]) and np.isfinite(places[-1]) and joined[0] and joined[-1]:
+        step = abs(places[1] - places[0]) + abs(places[-1] - places[-2])
+        if abs(places[0] - places[-1]) <= step:
+            runs[-1].append(complex(places[0]))
+    return runs
+
+
+def centrodes(
+    scene: SceneLike,
+    *,
+    at: At = None,
+    link: str,
+    point: str = "",
+    out: str | os.PathLike[str] | None = None,
+    formats: Sequence[str] = ("svg",),
+    language: str | None = None,
+    convention: str | None = None,
+) -> Centroded:
+    """The fixed and the moving centrode of a link over a turn of the driver.
+
+    Parameters
+    ----------
+    scene, at : as for `solve`; the moving centrode is shown where it lies at this position
+    link : a moving link that neither turns about a fixed pivot nor only slides
+    point : a point of the link, whose path is shown too
+    out, formats, language, convention : as for `draw`
+
+    Raises
+    ------
+    SceneError, CallError : the file or the call is wrong
+    Unsolvable : wrong mobility, a position that cannot be assembled or reached, a dead point
+    """
+    from graphkin.solver import solve
+    from graphkin.solver.motion import centrode
+    from graphkin.study.centre_paths import steady
+
+    known_words(formats, language, convention, known_languages=ON_SHEETS)
+    given = as_scene(scene)
+    given, values = placed(given, at)
+    _check_names(given, link, point)
+    solved_here(given, values)
+    given = steady(given)
+    motion = solve(given, at=values, sweep=POSITIONS)
+    curves = centrode(motion, link)
+    turning = np.abs(motion.omega(link)[motion.ok])
+    if not len(turning) or turning.max() <= STILL * max(abs(d.values[1]) for d in given.drivers):
+        raise CallError.of(f"centrode {link}", "the link never turns its centre is always", "name a link that turns")
+    good = curves.fixed[np.isfinite(curves.fixed)]
+    if np.abs(good - good[0]).max() <= STILL * given.size:
+        raise CallError.of(f"centrode {link}", "the link turns about a fixed pivot its",
+                           "name a link with no fixed pivot")
+    centroded = Centroded(found_centres(given, values), motion, curves, link, point, language, convention)
+    if out is not None:
+        centroded.write(out, formats)
+    return centroded
+
+
+def _check_names(scene: Mechanism, link: str, point: str) -> None:
+    as_text("point", point)
+    names = [n.name for n in scene.links if not n.redundant]
+    if as_text("link", link) not in names:
+        raise CallError.of(f"centrode {link}", "there is no moving link", did_you_mean(link, names), link=link)
+    points = scene.by_name[link].points
+    if point and point not in points:
+        raise CallError.of(Phrase("point", point=point), "link has no such point", did_you_mean(point, points),
+                           link=link)

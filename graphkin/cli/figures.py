@@ -147,7 +147,7 @@ def centres(given: Given) -> None:
     if given.motion and given.centrode is not None:
         raise CallError.of("--motion", "stands beside centrode", "write one of the two")
     if given.centrode is not None:
-        from graphkin.api.centroded import centrodes
+        from graphkin.api.centred import centrodes
 
         rolled = given.call(centrodes, link=given.centrode)
         finish(given, rolled, rolled.write(given.out, given.formats, given.text), files=True)

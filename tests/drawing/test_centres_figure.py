@@ -10,8 +10,7 @@ import pytest
 
 import graphkin
 from graphkin.account.notation import letters_of
-from graphkin.api.centred import found_centres
-from graphkin.api.centroded import centrodes
+from graphkin.api.centred import centrodes, found_centres
 from graphkin.construction.centre_speeds import speeds
 from graphkin.construction.centres import Centres
 from graphkin.construction.scales import Room
