@@ -3,38 +3,36 @@ drawn polygons at a few positions; and coupler curves with marks at equal steps 
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
 
-from graphkin.construction import Sheet, execute, plan
+from graphkin.construction import Sheet, draft, execute, plan
 from graphkin.construction.scales import next_of_series
-from graphkin.drawing import Box, Circle, Drawing, Group, Line, Polyline, Primitive, Stroke, Text
+from graphkin.drawing import Box, Circle, Drawing, Group, Polyline, Stroke
+from graphkin.drawing.boxes import FigurePage, column, prose
 from graphkin.drawing.chart import ChartPage
+from graphkin.drawing.figures.centres import background
 from graphkin.drawing.ink import strokes
-from graphkin.drawing.ink.symbols import block_with_pin, fixed_pivot, rigid_link, turning_pair
-from graphkin.drawing.ink.symbols import guide as guide_symbol
+from graphkin.drawing.ink.primitives import on_page
+from graphkin.drawing.parts.mechanism import bare_mechanism
 from graphkin.drawing.place.labels import Label
-from graphkin.drawing.place.piece import obstacles_of
-from graphkin.drawing.place.placement import place
-from graphkin.drawing.text import rich, runs_width
+from graphkin.drawing.place.names import with_labels
+from graphkin.drawing.place.piece import Piece, ink_box, joined, moved_piece
+from graphkin.drawing.text import rich
 from graphkin.errors import GraphkinError
 from graphkin.scene.force_names import force_names
 from graphkin.scene.model import Mechanism
+from graphkin.scene.symbol import Symbol
 from graphkin.scene.tables import Unit
 from graphkin.solver import DriverRange
 from graphkin.solver.values import FlywheelStudy
 from graphkin.study.charts import (
-    HEIGHT,
-    LEFT,
-    RIGHT,
-    WIDTH,
     DriverAxis,
     chart_page,
     driver_axis,
-    heading,
     motion_panel,
     number,
     title_of,
@@ -81,10 +79,12 @@ def diagrams(
         kind = "link" if quantity.kind == "theta" else "slide"
         name = f"motion-{kind}-{quantity.of.replace('/', '-')}"
         pages[name] = _motion_page(turn, axis, output, dots[quantity], over, language)
-    for point, link in coupler_points(turn.scene):
-        if not np.isfinite(turn.reach.known.position(point, link)).all():
-            continue  # singular throughout
-        pages[f"curve-{point}"] = curve_page(turn, axis, point, link, language)
+    known = turn.reach.known
+    points = [one for one in coupler_points(turn.scene) if np.isfinite(known.position(*one)).all()]
+    if points:  # of a mechanism that is singular throughout there are none
+        own = dict(zip((d.key for d in turn.scene.drivers), known.values[0].tolist(), strict=True))
+        sheet = draft(turn.reach.structure, own, [Symbol("theta", link=link.name) for link in turn.scene.links])
+        pages |= {f"curve-{point}": curve_page(sheet, axis, point, link, language) for point, link in points}
     return pages | _balance_pages(turn, language)
 
 
@@ -216,6 +216,7 @@ def measured(
 
 TICKS = 12
 DOT = 0.85  # mm, radius of a mark on the curve
+CURVE_ROOM = complex(150.0, 180.0)  # mm, width and height at most of a coupler curve with its mechanism
 
 
 def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
@@ -234,12 +235,13 @@ def coupler_points(scene: Mechanism) -> tuple[tuple[str, str], ...]:
     return tuple(found)
 
 
-def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, language: str) -> Drawing:
-    """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism at its own
-    position, or in the middle of its range where that is singular."""
-    reach, scene = turn.reach, turn.scene
+def curve_page(sheet: Sheet, axis: DriverAxis, point: str, link: str, language: str) -> Drawing:
+    """The path of a coupler point in scale, with marks at equal steps of the driver, and the mechanism of a sheet: at
+    its own position, or in the middle of its range where that is singular."""
+    reach, scene = axis.reach, axis.scene
     low, high = reach.ends
     path = axis.motion.position(point, link)
+    path = path[np.isfinite(path)]
     steps = TICKS * max(reach.turns, 1)
     if reach.full:
         ticks = (axis.first + np.arange(steps) * (high - low) / steps) % high
@@ -247,100 +249,33 @@ def curve_page(turn: TurnStudy, axis: DriverAxis, point: str, link: str, languag
         values = np.radians(axis.ticks) if reach.driver.turns else axis.ticks * scene.units.metres
         ticks = (values - reach.start[0]) * reach.sense
     at = reach.motion(ticks).position(point, link)
-    here = reach.known
-    places = {p: complex(here.position(p)[0]) for p in scene.holders}
-    world = Box.around([*path[np.isfinite(path)].tolist(), *places.values()])
-    width, height, need = min(((w, h, _need(world, w, h)) for w, h in ((WIDTH, HEIGHT), (HEIGHT, WIDTH))),
-                              key=lambda page: next_of_series(page[2]))
-    panel = _curve_panel(width, height)
-    mm = 1e3 / next_of_series(need)  # of paper for one metre
-    middle = world.centre
-
-    def page(z: complex) -> complex:
-        w = (z - middle) * mm
-        return panel.centre + complex(w.real, -w.imag)
-
-    skeleton = _skeleton(turn, places, page)
-    dots = [Circle(page(complex(z)), DOT, strokes.BLACK, Stroke(0.25)) for z in at if math.isfinite(abs(z))]
-    axis_unit = "°" if reach.driver.turns else ""
-    numbers = [float(scene.unit_of(scene.drivers[0]).of(reach.value(t))) for t in ticks]
-    numbers = [round(n, 9) + 0.0 for n in numbers]
-    if reach.full:
-        numbers = [n % (360 * reach.turns) for n in numbers]
-    labels = [
-        Label(Text(0j, rich(f"{number(n, 4)}{axis_unit}", 2.5)), page(complex(z)))
-        for n, z in zip(numbers, at, strict=True) if math.isfinite(abs(z))
-    ]
-    names = [Label(Text(0j, rich(f"${p}$", 3.5)), page(z)) for p, z in places.items()]
-    line = Polyline(tuple(page(complex(z)) for z in path[np.isfinite(path)]), Stroke(0.5))
-    placed = place([*names, *labels], panel, obstacles_of((*skeleton, line, *dots)))
-    words: list[Primitive] = []
-    for label in placed:
-        words += [label.text] + ([label.leader] if label.leader else [])
+    places = [complex(reach.known.position(p)[0]) for p in scene.holders]
+    world = Box.around([*path.tolist(), *places])
+    need = 1e3 * max(world.width / CURVE_ROOM.real, world.height / CURVE_ROOM.imag)
+    sheet = sheet.at(replace(sheet.scales, length=1e-3 * next_of_series(need))) if need else sheet
+    page = FigurePage.of(sheet, "curve", language, None)
+    mm = 1.0 / sheet.scales.length
+    numbers = np.round(scene.unit_of(scene.drivers[0]).of(reach.value(ticks)), 9) + 0.0
+    numbers = numbers % (360 * reach.turns) if reach.full else numbers
+    marks = [(on_page(complex(z) * mm), n) for z, n in zip(at, numbers, strict=True) if np.isfinite(z)]
+    unit = "°" if reach.driver.turns else ""
+    labels = tuple(Label.of(rich(f"{number(n, 4)}{unit}", 2.5), z) for z, n in marks)
+    line = Polyline(tuple(on_page(complex(z) * mm) for z in path), Stroke(0.5))
     title = say(Phrase("curve of point", (f"${point}$",)), language)
-    scale = 1e3 / mm / (scene.units.metres * 1e3)
-    facts = [f"1 mm = {scale:g} {scene.units.length}"]
+    group = Group((line, *(Circle(z, DOT, strokes.BLACK, Stroke(0.25)) for z, _ in marks)), id=f"curve-{point}",
+                  classes=("curve",), title=title.replace("$", ""))  # fmt: skip
+    whole = joined((background(bare_mechanism(sheet, page.letters)), Piece({"answers": (group,)}, labels)))
+    content = (ink_box(whole.drawn) or Box.around(line.points)).grown(8.0)
+    page = page.wide_enough(content.width)
+
+    def drawn(room: Box) -> Piece:
+        origin = room.centre - content.centre
+        return moved_piece(with_labels(whole, room.moved(-origin)), origin)
+
+    facts = []
     if reach.driver.turns and reach.full:
         begin = 0 if reach.sense > 0 else 360
         facts.append(say(Phrase("ticks at", (str(360 // TICKS), str(begin))), language))
-    plain = title.replace("$", "")
-    return Drawing(
-        width,
-        height,
-        (
-            Group(heading(scene, title, facts, language), id="heading"),
-            Group(tuple(skeleton), id="mechanism", layer="mechanism"),
-            Group((line, *dots), id=f"curve-{point}", layer="curve", title=plain),
-            Group(tuple(words), id="labels", layer="labels"),
-            *_check_bar(panel, language),
-        ),
-        title=f"{plain}: {title_of(scene, language)}",
-        desc="; ".join(facts),
-        lang=language,
-        metadata={"scene": scene.name, "units": scene.units.length, "scales": {"length": scale}},
-    )
-
-
-def _curve_panel(width: float, height: float) -> Box:
-    return Box(LEFT - 8, 32.0, width - RIGHT + 4, height - 20.0)
-
-
-def _need(world: Box, width: float, height: float) -> float:
-    """Millimetres of mechanism to one of paper, for all to fit."""
-    panel = _curve_panel(width, height).grown(-12.0)
-    return max(world.width / panel.width, world.height / panel.height) * 1e3 or 1.0
-
-
-def _skeleton(turn: TurnStudy, places: dict[str, complex], page: Callable[[complex], complex]) -> list[Primitive]:
-    """The mechanism at its own position, thin: links, blocks, guides, pivots."""
-    scene = turn.scene
-    motion = turn.reach.known
-    made: list[Primitive] = []
-    blocks: list[Primitive] = []
-    for pair in motion.slides:
-        guide = motion.poses[pair.b]
-        at = page(complex(motion.poses[pair.a].z[0]))
-        angle = float(np.angle(guide.u[0] * pair.guide.direction))
-        if pair.b == scene.frame.name:
-            made += guide_symbol(at, angle, 24.0)
-        elif scene.by_name[pair.b].points:
-            begin = next(iter(scene.by_name[pair.b].points))
-            made.append(Line(page(places[begin]), at, strokes.LINK.coloured(strokes.GREY)))
-        blocks += block_with_pin(at, angle)
-    for each in scene.links:
-        corners = tuple(page(places[p]) for p in each.points)
-        if len(corners) > 1:
-            made += rigid_link(corners, strokes.GREY)
-    for p, z in places.items():
-        made += fixed_pivot(page(z)) if p in scene.frame.points else turning_pair(page(z))
-    return [*made, *blocks]
-
-
-def _check_bar(panel: Box, language: str) -> tuple[Primitive, ...]:
-    y = panel.bottom + 6.0
-    runs = rich(word("check bar", language), 2.5)
-    end = complex(panel.right, y)
-    start = end - 50.0
-    ends = [Line(p - 1.2j, p + 1.2j, strokes.DIMENSION) for p in (start, end)]
-    text = Text(complex(panel.right - 25 - runs_width(runs) / 2, y + 3.8), runs)
-    return Line(start, end, strokes.DIMENSION), *ends, text
+    body = column(page.panel(content.height, drawn), prose(facts, page.width, 3.0))
+    made = page.drawing(title, body, page.scale("mechanism"), title="mechanism", said="; ".join(facts))
+    return replace(made, title=f"{group.title}: {title_of(scene, language)}")

@@ -163,7 +163,7 @@ def test_the_coupler_curve_is_drawn_in_its_scale() -> None:
     reach = driver_range(mechanism_of("four-bar-coupler-point"))
     path = reach.motion(np.linspace(*reach.ends, 721)).position("P")
     scale = json.loads(json.dumps(page.metadata))["scales"]["length"]
-    curve = next(g for g in page.children if isinstance(g, Group) and g.id == "curve-P")
+    curve = next(g for g in walk(page.children) if isinstance(g, Group) and g.id == "curve-P")
     drawn = Box.around(next(t for t in curve.children if isinstance(t, Polyline)).points)
     assert np.ptp(path.real) * 1e3 / scale == pytest.approx(drawn.width, abs=1e-6)
     assert np.ptp(path.imag) * 1e3 / scale == pytest.approx(drawn.height, abs=1e-6)
